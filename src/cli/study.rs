@@ -19,8 +19,7 @@ pub(super) fn run(args: &StudyArgs) -> Result<Outcome, Failure> {
         return if args.quiet { Ok(Outcome::Fine) } else { print(&text).map(|()| Outcome::Fine) };
     }
     let stem = args.name.as_deref().unwrap_or(study.stem());
-    let files =
-        StudyFiles { page: args.page, parquet: args.parquet(), overwrite: args.overwrite, restart: args.restart };
+    let files = StudyFiles { page: args.page, parquet: args.parquet, overwrite: args.overwrite, restart: args.restart };
     let mut journal = Journal::open(&study, &args.out, stem, files).map_err(Failure::new)?;
     let first = journal.done();
     if first > 0 && !args.quiet {

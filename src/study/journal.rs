@@ -101,6 +101,10 @@ impl Journal {
     /// # Errors
     /// [`Refusal`] where a file cannot be made or would be replaced, or where the interrupted run was of another study.
     pub fn open(study: &Study, directory: &Path, stem: &str, files: StudyFiles) -> Result<Self, StudyError> {
+        if files.parquet && !cfg!(feature = "parquet") {
+            let what = "this program is built without Parquet";
+            return Err(Refusal::new(what).remedy("build it with cargo build --release --features parquet").into());
+        }
         fs::create_dir_all(directory).map_err(failed(directory, "make the directory"))?;
         let table = directory.join(format!("{stem}.csv"));
         if table.exists() && !files.overwrite && !is_own(&table, &table.with_extension("json")) {

@@ -265,12 +265,12 @@ impl Table {
     /// Without the columns that no row has a value of.
     #[must_use]
     pub fn without_unknown(mut self) -> Self {
-        let known = |column: usize| self.rows.iter().any(|row| row.get(column).is_some_and(|value| !value.is_nan()));
-        let keep: Vec<bool> = (0..self.columns.len()).map(known).collect();
         fn kept<T>(all: &mut Vec<T>, keep: &[bool]) {
             let mut keep = keep.iter();
             all.retain(|_| keep.next().copied().unwrap_or(true));
         }
+        let known = |column: usize| self.rows.iter().any(|row| row.get(column).is_some_and(|value| !value.is_nan()));
+        let keep: Vec<bool> = (0..self.columns.len()).map(known).collect();
         kept(&mut self.columns, &keep);
         kept(&mut self.may_lack, &keep);
         self.rows.iter_mut().for_each(|row| kept(row, &keep));

@@ -76,26 +76,7 @@ pub(crate) fn analysis(task: SolverTask<'_>, rows: &[SolverRow]) -> Analysis {
         if unit.is_empty() { format!("{} %", shown(100.0 * error)) } else { format!("{} {unit}", shown(error)) }
     };
     let chosen = rows.iter().filter(|row| row.error <= task.limit).min_by_key(|row| row.pieces);
-    let least = rows.iter().min_by(|a, b| a.error.total_cmp(&b.error));
-    let advice = match (chosen, least) {
-        (Some(row), _) => {
-            format!(
-                "{} is the cheapest setting that leaves no more than {}: it leaves {}",
-                row.setting,
-                told(task.limit),
-                told(row.error)
-            )
-        }
-        (None, Some(row)) => {
-            format!(
-                "every setting leaves more than {}; {} leaves least, {}",
-                told(task.limit),
-                row.setting,
-                told(row.error)
-            )
-        }
-        (None, None) => "nothing was measured".to_owned(),
-    };
+    let advice = advice(rows, chosen, &told(task.limit), told);
     let flags = chosen.map(|row| Section::new("flags", &row.flags));
     let values: Vec<Value> = rows
         .iter()
@@ -135,6 +116,21 @@ pub(crate) fn analysis(task: SolverTask<'_>, rows: &[SolverRow]) -> Analysis {
         document: None,
         diagrams: &[],
         not_modelled: Vec::new(),
+    }
+}
+
+/// Which setting to take.
+fn advice(rows: &[SolverRow], chosen: Option<&SolverRow>, limit: &str, told: impl Fn(f64) -> String) -> String {
+    let least = rows.iter().min_by(|a, b| a.error.total_cmp(&b.error));
+    match (chosen, least) {
+        (Some(row), _) => {
+            let left = told(row.error);
+            format!("{} is the cheapest setting that leaves no more than {limit}: it leaves {left}", row.setting)
+        }
+        (None, Some(row)) => {
+            format!("every setting leaves more than {limit}; {} leaves least, {}", row.setting, told(row.error))
+        }
+        (None, None) => "nothing was measured".to_owned(),
     }
 }
 

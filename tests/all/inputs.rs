@@ -27,7 +27,8 @@ const PLATE: &str = "name = \"plate\"\n[motion]\nstroke = \"200 mm\"\nstart = \"
                      [cam]\nbody = \"wedge\"\n";
 
 /// A key that means something only beside another.
-const BESIDE: [(&str, &str); 7] = [
+const BESIDE: [(&str, &str); 8] = [
+    ("cam.compensate_train", "cam.train_stiffness=1e8 N/m"),
     ("motion.stroke", OF_A_PLATE),
     // Of a follower that swings.
     ("cam.counter.arm", OF_ARMS),

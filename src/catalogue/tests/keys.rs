@@ -29,6 +29,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("buffer.piston_friction", "3 %"),
     ("bed.friction", "400 N"),
     ("cam.train_stiffness", "2e8 N/m"),
+    ("cam.compensate_train", "true"),
     ("cam.play", "0.2 mm"),
     ("cam.hardness", "500"),
     ("limits.life", "2e8"),
@@ -507,9 +508,10 @@ fn every_key_of_the_table_reaches_the_machine() {
             // A motion ends where it starts.
             sets.push("motion.segment[1].to=5 mm".into());
         }
-        // A turn of a globoid moves its turret on by whole rollers.
+        // A turn of a globoid moves its turret on by whole rollers; a cam is cut for a train of known stiffness.
         match *key {
             "cam.rollers" => sets.push("motion.segment[0].to=40 deg".into()),
+            "cam.compensate_train" => sets.push("cam.train_stiffness=1e8 N/m".into()),
             "cam.advance" => sets.push("motion.segment[0].to=90 deg".into()),
             _ => {}
         }

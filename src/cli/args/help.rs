@@ -138,9 +138,7 @@ Examples:
   camgen trade
       every setting for the rotary cam of the embedded press, as a table and a chart
   camgen trade rotary --residual 5N --acceleration 5% --dry-run
-      the cheapest setting that keeps both, without files
-  camgen trade conoid --rpm 20..35 --dry-run
-      what is left between the sections of a conoid";
+      the cheapest setting that keeps both, without files";
 
 pub(super) const STUDY: &str = "\
 Examples:

@@ -26,10 +26,9 @@ pub(in crate::cli) struct StudyArgs {
     #[arg(long)]
     pub(in crate::cli) page: bool,
 
-    /// Also write the table as Parquet
-    #[cfg(feature = "parquet")]
+    /// Also write the table as Parquet; needs a program built with `--features parquet`
     #[arg(long)]
-    parquet: bool,
+    pub(in crate::cli) parquet: bool,
 
     /// Also replace a table that was changed or not written by camgen; an unchanged table of camgen is always replaced
     #[arg(long)]
@@ -50,14 +49,4 @@ pub(in crate::cli) struct StudyArgs {
     /// Print nothing
     #[arg(long, short)]
     pub(in crate::cli) quiet: bool,
-}
-
-impl StudyArgs {
-    /// Whether the table is written as Parquet too.
-    pub(in crate::cli) fn parquet(&self) -> bool {
-        #[cfg(feature = "parquet")]
-        return self.parquet;
-        #[cfg(not(feature = "parquet"))]
-        false
-    }
 }

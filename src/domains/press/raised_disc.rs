@@ -10,10 +10,13 @@
 //! with pressure angle α and slope s' of the cam as it is cut, z and all: a fixed point, found at the points of a Chebyshev series
 //! over the reversal. Before and after it the transitions meet that shape.
 
+use super::machine::{Press, only_under_a_yoke};
 use super::motion::RaiseSeries;
+use super::scatter::error::ScatterError;
 use crate::body::ShaftCompliance;
 use crate::body::disc::Disc;
 use crate::geometry::MILLIMETRES;
+use crate::machine::Machine;
 use crate::numeric::chebyshev_series::ChebyshevSeries;
 use crate::refusal::Refusal;
 use crate::report::Section;
@@ -32,21 +35,23 @@ const AGREED: f64 = 1e-11;
 pub struct CutForShaft(pub Result<ShaftCompliance, String>);
 
 /// The disc that keeps a law over a crank angle (rad) on a shaft with this compliance, from the one that is cut for a rigid shaft: `cut`
-/// makes it from what the bottom is raised by.
+/// makes it from what the bottom is raised by. Where it is cut for its train, the bottom is raised by that too.
 ///
 /// # Errors
 /// [`Refusal`] where the shaft deflects too much.
 pub(super) fn cut_for(
     of_law: &Disc,
     (angle, lever): (f64, f64),
-    shaft: &ShaftCompliance,
+    (shaft, train): (&ShaftCompliance, Option<&RaiseSeries>),
     cut: impl Fn(Arc<RaiseSeries>) -> Result<Disc, Refusal>,
 ) -> Result<Arc<RaiseSeries>, Refusal> {
     let range = (0.0, angle);
     let points = ChebyshevSeries::points(range, TERMS);
     let (mut shape, mut before) = (of_law.clone(), vec![0.0; points.len()]);
     for _ in 0..ROUNDS {
-        let heights: Vec<f64> = points.iter().map(|crank| height(of_law, &shape, *crank, shaft) / lever).collect();
+        let of_train = |crank: f64| train.map_or(0.0, |train| train.at(crank)[0]);
+        let height = |crank: &f64| of_train(*crank) + height(of_law, &shape, *crank, shaft) / lever;
+        let heights: Vec<f64> = points.iter().map(height).collect();
         let apart = heights.iter().zip(&before).map(|(new, old)| (new - old).abs()).fold(0.0, f64::max);
         let raise = Arc::new(RaiseSeries::new(&ChebyshevSeries::through(range, &heights, ROUNDING)));
         if apart * lever < AGREED {
@@ -62,6 +67,30 @@ pub(super) fn cut_for(
     .remedy("make the shaft thicker, or put the drive (shaft.drive_at) nearer to the cam"))
 }
 
+/// By how much the bottom is raised for the train of a machine, m ω² x/c at the overrun x; `None` where no cam is cut for it.
+///
+/// # Errors
+/// [`Refusal`] under a linkage, and where the train gives way faster than the bed comes.
+pub(super) fn for_train(machine: &Machine, rpm: f64) -> Result<Option<Arc<RaiseSeries>>, Refusal> {
+    let press = machine.press()?;
+    let Some(stiffness) = press.compensated_train else { return Ok(None) };
+    let law = press.bottom_law(rpm);
+    if law.of_yoke().is_none() {
+        return Err(only_under_a_yoke(
+            "a cam is cut for its train",
+            "the force is no function of the place of the bed",
+        ));
+    }
+    let Some(share) = press.train_gives(rpm) else {
+        let speed = press.bed.crank_speed(rpm);
+        return Err(ScatterError::TrainTooSoft { stiffness, needed: press.bed.mass * speed * speed }.into());
+    };
+    let range = (0.0, law.angle());
+    let heights: Vec<f64> =
+        ChebyshevSeries::points(range, TERMS).iter().map(|crank| share * law.bed(*crank)[0]).collect();
+    Ok(Some(Arc::new(RaiseSeries::new(&ChebyshevSeries::through(range, &heights, ROUNDING)))))
+}
+
 /// How much higher a cam must be cut at a crank angle of its first reversal, m of lift, by the shape of the one that is cut.
 fn height(of_law: &Disc, cut: &Disc, crank: f64, shaft: &ShaftCompliance) -> f64 {
     let (motion, shape) = (of_law.curves().motion, cut.curves());
@@ -72,6 +101,19 @@ fn height(of_law: &Disc, cut: &Disc, crank: f64, shaft: &ShaftCompliance) -> f64
     let contact = shape.contact(piece, inside);
     let lean = libm::tan(contact.pressure_angle);
     force * (shaft.compliance * (1.0 + lean * lean) + shaft.twist * contact.lift.ds * contact.lift.ds)
+}
+
+/// The section of the report on how much higher than its law a disc is cut for its train.
+pub(super) fn train_section(press: &Press, rpm: f64, lever: f64) -> Option<Section> {
+    let mm = MILLIMETRES * lever * press.train_gives(rpm)? * press.bed.crank_radius;
+    let words = format!(
+        "cut up to {mm:.4} mm higher, at the dead point, for the train that gives way (cam.compensate_train): the forces balance at this speed; play of \
+         the train is taken by the screw"
+    );
+    let figure = format!("cut up to {mm:.4} mm higher for its train");
+    Some(
+        Section::new("cut_for_train", &json!({"raised_max_mm": mm})).with_words(vec![words]).with_figures(vec![figure]),
+    )
 }
 
 /// The section of the report on how much higher than its law a disc is cut.

@@ -52,15 +52,16 @@ struct BedBalanceDuty {
 /// # Errors
 /// [`Refusal`] when the motion cannot be put together or no radius keeps the limits.
 pub fn rotary(machine: &Machine, rpm: f64) -> Result<RotaryCam, Refusal> {
-    let cam = of_reversal(machine, rpm, None)?;
+    let train = raised_disc::for_train(machine, rpm)?;
+    let cam = of_reversal(machine, rpm, train.clone())?;
     let Some(CutForShaft(shaft)) = machine.part() else { return Ok(cam) };
     let shaft = shaft
         .as_ref()
         .map_err(|why| Refusal::new(why.as_str()).context("the cam is to be cut for its shaft (shaft.compensate)"))?;
     let angle_and_lever = (machine.press()?.bottom_law(rpm).angle(), PressCams::of(machine).lever);
     let cut = |raise: Arc<RaiseSeries>| of_reversal(machine, rpm, Some(raise)).map(|cam| cam.disc);
-    let raise = raised_disc::cut_for(&cam.disc, angle_and_lever, shaft, cut)?;
-    of_reversal(machine, rpm, Some(raise))
+    let raise = raised_disc::cut_for(&cam.disc, angle_and_lever, (shaft, train.as_deref()), cut)?;
+    of_reversal(machine, rpm, Some(raise)).map(|cam| RotaryCam { cut_for_shaft: true, ..cam })
 }
 
 /// With the keys that decide whether the parts of a motion fit together.
@@ -81,7 +82,7 @@ pub(super) fn of_reversal(machine: &Machine, rpm: f64, raise: Option<Arc<RaiseSe
                     guides a follower round it";
         return Err(Refusal::new(what).remedy("give transition.kind = \"run-up\", or buffer.lead = \"0 mm\""));
     }
-    let cut_for_shaft = raise.is_some();
+    let cut_for_shaft = machine.part::<CutForShaft>().is_some();
     let law = ReversalLaw {
         bottom_law: press.bottom_law(rpm),
         lever: cams.lever,
@@ -89,7 +90,8 @@ pub(super) fn of_reversal(machine: &Machine, rpm: f64, raise: Option<Arc<RaiseSe
         transition: cams.transition,
     };
     let reversal = Arc::new(Reversal::with_raise(law, raise).map_err(with_keys_of_motion)?);
-    let buffer = Arc::new(AirBuffer::new(press.cylinder(), Arc::clone(&reversal)));
+    let train_gives = press.train_gives(rpm).unwrap_or(0.0);
+    let buffer = Arc::new(AirBuffer::new(press.cylinder(), Arc::clone(&reversal)).on_train(train_gives));
     let duty = BedBalanceDuty { press: *press, rpm, lever: cams.lever, buffer: Arc::clone(&buffer), cut_for_shaft };
     let purpose = Purpose {
         duty: Some(Arc::new(duty)),
@@ -163,6 +165,7 @@ impl Duty for BedBalanceDuty {
     fn sections(&self, disc: &Disc) -> Vec<Section> {
         let mut sections = vec![self.buffer.section()];
         sections.extend(reversal_of_bed(disc.machine()));
+        sections.extend(raised_disc::train_section(&self.press, self.rpm, self.lever));
         sections.extend(self.cut_for_shaft.then(|| raised_disc::section(disc)));
         sections.extend(scatter::section::of_cam(disc.machine(), self.rpm));
         sections

@@ -22,13 +22,21 @@ use std::sync::Arc;
 pub struct AirBuffer {
     cylinder: Cylinder,
     reversal: Arc<Reversal>,
+    /// By how much the train gives way under the law over the overrun of the bed, where the bottom is raised for that.
+    train_gives: f64,
 }
 
 impl AirBuffer {
     /// The cylinders and the motion of their bottom.
     #[must_use]
     pub fn new(cylinder: Cylinder, reversal: Arc<Reversal>) -> Self {
-        Self { cylinder, reversal }
+        Self { cylinder, reversal, train_gives: 0.0 }
+    }
+
+    /// With a train that gives way by this share of the overrun, for which the bottom of the motion is raised.
+    #[must_use]
+    pub(crate) fn on_train(self, train_gives: f64) -> Self {
+        Self { train_gives, ..self }
     }
 
     fn bottom_law(&self) -> &CrankLaw {
@@ -150,7 +158,13 @@ impl Load for AirBuffer {
     }
 
     fn added_lift(&self, piece: usize, at: f64) -> f64 {
-        self.reversal.law().lever * self.reversal.raise_at(piece, at)
+        // What it is raised for its train is taken by that.
+        let train = if self.reversal.follows_law(piece) {
+            self.train_gives * self.bottom_law().bed(self.reversal.crank_in(piece, at))[0]
+        } else {
+            0.0
+        };
+        self.reversal.law().lever * (self.reversal.raise_at(piece, at) - train)
     }
 
     /// Inertia less air; 0 outside the reversal, at its ends what it is inside.

@@ -110,5 +110,6 @@ pub(super) fn read(reader: &Reader<'_>, bed: Option<Bed>) -> Option<Press> {
         column: table.get(&COLUMN)?,
         lead: table.get(&LEAD)?,
         design_rpm: reader.table(&DESIGN).get(&RPM)?,
+        compensated_train: None,
     })
 }

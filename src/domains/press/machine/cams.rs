@@ -132,7 +132,7 @@ pub(super) const CAM: KeySection = KeySection {
     about: "",
     occurs: Occurrence::Once,
     cams: &[],
-    keys: &[TURNS.key, LEVER.key, TRAIN_STIFFNESS.key, PLAY.key, HARDNESS.key],
+    keys: &[TURNS.key, LEVER.key, TRAIN_STIFFNESS.key, losses::COMPENSATE_TRAIN.key, PLAY.key, HARDNESS.key],
 };
 
 /// The keys that are added to `[limits]`.
@@ -169,6 +169,21 @@ pub(super) fn read(reader: &Reader<'_>, roller_radius: Option<f64>) -> Option<Pr
     })
 }
 
+/// The stiffness of a train that the cam is to be cut for.
+pub(super) fn compensated_train(reader: &Reader<'_>) -> Option<f64> {
+    let table = reader.table(&CAM);
+    let (wanted, stiffness) = (table.get(&losses::COMPENSATE_TRAIN)?, table.get(&TRAIN_STIFFNESS));
+    if wanted && stiffness.is_none() {
+        let help = "add cam.train_stiffness, e.g. \"100 kN/mm\"".to_owned();
+        table.fail(
+            &losses::COMPENSATE_TRAIN,
+            "a cam cannot be cut for a train of unknown stiffness".into(),
+            Some(help),
+        );
+    }
+    stiffness.filter(|_| wanted)
+}
+
 /// What is given of losses; what is not is no loss.
 fn read_losses(reader: &Reader<'_>) -> Losses {
     let (buffer, bed, cam) = (reader.table(&buffer::SECTION), reader.table(&bed::SECTION), reader.table(&CAM));
@@ -178,6 +193,7 @@ fn read_losses(reader: &Reader<'_>) -> Losses {
         piston_friction: buffer.get(&losses::PISTON_FRICTION).unwrap_or(0.0),
         bed_friction: bed.get(&losses::BED_FRICTION).unwrap_or(0.0),
         train_stiffness: cam.get(&TRAIN_STIFFNESS),
+        is_compensated: cam.get(&losses::COMPENSATE_TRAIN).unwrap_or(false),
         play: cam.get(&PLAY).unwrap_or(0.0),
     }
 }

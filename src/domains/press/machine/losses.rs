@@ -3,11 +3,13 @@
 use crate::document::Presence::Optional;
 use crate::document::range::{LARGEST_FORCE, STIFFEST};
 use crate::document::{Field, above, within};
-use crate::domains::press::cams::SCATTER;
+use crate::domains::press::cams::{ROTARY, SCATTER};
 use crate::units::Dimension::{Force, Length, Stiffness};
 
-/// The only analysis that they have an effect on: no cam is cut for them.
+/// The only analysis that most of them have an effect on.
 const ONLY: &[&str] = &[SCATTER];
+/// A cam can be cut for its train.
+const OF_TRAIN: &[&str] = &[ROTARY, SCATTER];
 
 pub(super) const EXPANSION_EXPONENT: Field<f64> = Field::number(
     "expansion_exponent",
@@ -45,7 +47,13 @@ pub(super) const TRAIN_STIFFNESS: Field<f64> = Field::quantity(
     Stiffness,
     above(0.0, STIFFEST),
 )
-.only(ONLY);
+.only(OF_TRAIN);
+pub(super) const COMPENSATE_TRAIN: Field<bool> = Field::boolean(
+    "compensate_train",
+    "cut the rotary cam so that the forces balance while the train gives way by train_stiffness; exact at the speed of the cam",
+    Optional("true"),
+)
+.only(OF_TRAIN);
 pub(super) const PLAY: Field<f64> =
     Field::quantity("play", "play of that train at the bottoms", Optional("0.1 mm"), Length, within(0.0, 0.1))
         .only(ONLY);

@@ -61,6 +61,7 @@ pub(super) fn read(
     parts: &mut MachineParts,
 ) {
     if let Some(press) = buffer::read(reader, bed::read(reader)) {
+        let press = Press { compensated_train: cams::compensated_train(reader), ..press };
         parts.set(press);
     }
     let roller = follower.and_then(|follower| follower.roller.map(|roller| roller.radius));

@@ -68,6 +68,8 @@ pub struct Press {
     pub lead: f64,
     /// Design speed of the main shaft, rpm.
     pub design_rpm: f64,
+    /// Stiffness of the train that the cam is cut for, N/m.
+    pub compensated_train: Option<f64>,
 }
 
 /// That what there is for a yoke only, with its verb, cannot be had under a linkage, with the reason.
@@ -98,10 +100,24 @@ impl Press {
         self.bed.inertia(rpm, self.largest_deceleration())
     }
 
+    /// By how much the bottom gives way over the overrun of the bed where the train is compensated, m ω²/c, below 1; `None` where it is not, or
+    /// gives way faster than the bed comes.
+    #[must_use]
+    pub fn train_gives(&self, rpm: f64) -> Option<f64> {
+        let stiffness = self.compensated_train?;
+        let speed = self.bed.crank_speed(rpm);
+        Some(self.bed.mass * speed * speed / stiffness).filter(|share| *share < 1.0)
+    }
+
     /// The law of the bottom at a speed of the main shaft, rpm.
     #[must_use]
     pub fn bottom_law(&self, rpm: f64) -> CrankLaw {
         let column = match (self.column, &self.stroke_end) {
+            (AirColumn::Of(ColumnRule::Matched), None) if self.compensated_train.is_some() => {
+                // The bottom gives way by a x, so that the law as cut starts with slope 0 at L = (1 − a) k/A.
+                let matched = self.polytropic_exponent / self.cylinder().loading(rpm);
+                ColumnRule::Length(matched * (1.0 - self.train_gives(rpm).unwrap_or(0.0)))
+            }
             (AirColumn::Of(column), _) => column,
             (AirColumn::LeastTorque, end) => {
                 let (loading, k) = (self.cylinder().loading(rpm), self.polytropic_exponent);

@@ -28,6 +28,8 @@ pub struct Losses {
     pub bed_friction: f64,
     /// Stiffness of the train from the cam to the bottoms of both cylinders, N/m.
     pub train_stiffness: Option<f64>,
+    /// Whether the cam is cut for that train.
+    pub is_compensated: bool,
     /// Play of the train at the bottom, m.
     pub play: f64,
 }
@@ -40,6 +42,7 @@ impl Losses {
         piston_friction: 0.0,
         bed_friction: 0.0,
         train_stiffness: None,
+        is_compensated: false,
         play: 0.0,
     };
 
@@ -117,7 +120,11 @@ impl LossyReversal {
     /// W at the ambient pressure, and g.
     fn closed(&self, angle: f64) -> [f64; 2] {
         let (cam, longer) = (&self.cam, self.fault.column / self.cam.column);
-        let shift = longer + (self.losses.play - self.fault.lead) / cam.column;
+        // A cam that is cut for its train stands higher by what the train gives way at its own speed; the screw takes the play.
+        let cut = self.losses.train_stiffness.filter(|_| self.losses.is_compensated);
+        let (higher, play) =
+            cut.map_or((0.0, self.losses.play), |stiffness| (cam.unit_force * self.load(angle) / stiffness, 0.0));
+        let shift = longer + (play - self.fault.lead - higher) / cam.column;
         let give = self
             .losses
             .train_stiffness

@@ -7,7 +7,9 @@ use super::parameter::{HalfWidths, Parameter};
 use super::propagation::{self, Corners};
 use super::reset::ScrewRule;
 use super::settings;
+use crate::body::disc::Disc;
 use crate::domains::press::machine::PressCams;
+use crate::domains::press::rotary::rotary;
 use crate::machine::Machine;
 
 fn cam(name: &str) -> FrozenBuffer {
@@ -251,6 +253,49 @@ fn friction_play_and_a_train_that_gives_way() {
             let of = of(Losses { train_stiffness: Some(1e8), play, ..Losses::NONE });
             near(of.residual(BedWay::In, std::f64::consts::FRAC_PI_2), left, name);
         }
+    }
+}
+
+/// Cut for its train, a cam leaves nothing at its own speed, and its matched column is shorter; the disc rises by m ω² x/c more.
+#[test]
+fn a_cam_that_is_cut_for_its_train_leaves_nothing() {
+    let train = ["cam.train_stiffness=1e8 N/m", "cam.compensate_train=true", "cam.play=0.1 mm"].map(str::to_owned);
+    let machine = Machine::load("dpi", &train).expect("valid").0;
+    let (cam, _) = super::analysis::cam_of(&machine, 35.0).expect("a cam");
+    near(1e3 * cam.column, 242.712_611_2, "the matched column");
+    let losses = PressCams::of(&machine).losses;
+    let reversal = LossyReversal::new(&cam, &Fault::none(1.35), &losses).expect("a reversal");
+    for way in [BedWay::In, BedWay::Back] {
+        assert!(reversal.worst(way).value.abs() < 1e-8, "{way:?}: {:?}", reversal.worst(way));
+    }
+    // Not cut for it, the same column leaves what the train takes.
+    let uncut = Losses { is_compensated: false, ..losses };
+    let reversal = LossyReversal::new(&cam, &Fault::none(1.35), &uncut).expect("a reversal");
+    assert!(reversal.worst(BedWay::In).value > 100.0);
+    let disc = rotary(&machine, 35.0).expect("a disc").disc;
+    let plain = Machine::load("dpi", &["buffer.column=242.712611192 mm".to_owned()]).expect("valid").0;
+    let plain = rotary(&plain, 35.0).expect("a disc").disc;
+    let share = 978.2 * (35.0 * 3.0 * std::f64::consts::PI / 30.0_f64).powi(2) / 1e8;
+    let lift = |disc: &Disc, angle: f64| {
+        let motion = disc.curves().motion;
+        let (piece, inside) = motion.locate(angle);
+        motion.jet(piece, inside).s
+    };
+    let from_start = |disc: &Disc, angle: f64| lift(disc, angle) - lift(disc, 0.0);
+    for degrees in [20.0_f64, 60.0, 90.0, 140.0] {
+        let angle = degrees.to_radians();
+        let higher = from_start(&disc, angle) - from_start(&plain, angle);
+        let wanted = share * 0.18 * libm::sin(angle);
+        assert!((higher - wanted).abs() < 1e-9, "{degrees}: {higher} {wanted}");
+    }
+    assert!(disc.residual_max().value < 1e-6, "{:?}", disc.residual_max());
+    for wrong in [&["cam.compensate_train=true"][..], &["cam.compensate_train=true", "cam.train_stiffness=1e5 N/m"]] {
+        let sets: Vec<String> = wrong.iter().map(|&set| set.to_owned()).collect();
+        let why = match Machine::load("dpi", &sets) {
+            Err(error) => error.to_string(),
+            Ok((machine, _)) => rotary(&machine, 35.0).err().map(|why| why.to_string()).expect("refused"),
+        };
+        assert!(why.contains("unknown stiffness") || why.contains("train too soft"), "{why}");
     }
 }
 

@@ -43,6 +43,11 @@ struct ShaftTradeRow {
     time_us: f64,
 }
 
+#[expect(clippy::cast_precision_loss, reason = "stations")]
+fn pieces(row: &ShaftTradeRow) -> f64 {
+    row.pieces as f64
+}
+
 /// How one setting finds the first critical speed, rad/s.
 #[derive(Debug, Clone, Copy)]
 enum ShaftTradeSetting {
@@ -113,12 +118,8 @@ pub fn analysis(machine: &ShaftMachine, clock: &dyn Fn() -> Duration) -> Result<
     inputs.push(Input::word("command", "trade shaft"));
     let advice = advice(&rows);
     let names = rows.iter().map(|row| row.setting.clone()).collect();
-    let columns: [crate::table::ListedColumn<ShaftTradeRow>; 4] = [
-        ("pieces", |row| row.pieces as f64),
-        ("n1_rpm", |row| row.n1_rpm),
-        ("error", |row| row.error),
-        ("time_us", |row| row.time_us),
-    ];
+    let columns: [crate::table::ListedColumn<ShaftTradeRow>; 4] =
+        [("pieces", pieces), ("n1_rpm", |row| row.n1_rpm), ("error", |row| row.error), ("time_us", |row| row.time_us)];
     Ok(Analysis {
         kind: &KIND,
         machine: machine.name().to_owned(),
