@@ -74,6 +74,12 @@ pub(crate) fn spring_of(args: &SpringArgs, (machine, name): (Machine, String)) -
 }
 
 pub(super) fn scatter(args: &ScatterArgs) -> Result<Outcome, Failure> {
+    let key = |varied: &str| varied.split('=').next().unwrap_or_default().trim().to_owned();
+    let twice =
+        args.vary.iter().enumerate().find(|(at, one)| args.vary.iter().take(*at).any(|other| key(other) == key(one)));
+    if let Some((_, one)) = twice {
+        return Err(Failure(format!("--vary {} is given twice", key(one))));
+    }
     let varied = args.vary.iter().map(|varied| format!("scatter.{}", varied.trim()));
     let overrides: Vec<String> = args.analysis.set.iter().cloned().chain(varied).collect();
     let loaded = Machine::load(&args.machine, &overrides).map_err(Failure::new)?;

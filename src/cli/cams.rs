@@ -15,7 +15,7 @@ use camgen::body::points::{PointCurve, Points};
 use camgen::catalogue::catalogue;
 use camgen::document::NamedChoice;
 use camgen::document::file::text_of;
-use camgen::domains::press::machine::PressCams;
+use camgen::domains::press::machine::exact_on;
 use camgen::domains::press::motion::equation_18::{ExactOn, Solver};
 use camgen::domains::press::wedge::LAW_TOLERANCE;
 use camgen::geometry::lead_in::{LeadIn, LeadInForm};
@@ -350,6 +350,5 @@ pub(super) fn show(report: &LazyReport, args: &ReportArgs) -> Result<(), Failure
 
 /// The direction of the bed in which the forces of a plate balance: that of a flag, else of the file.
 pub(super) fn balance_of(given: Option<ExactOn>, machine: &Machine) -> ExactOn {
-    let of_file = || PressCams::of(machine).translating.as_ref().and_then(|plate| plate.balance);
-    given.or_else(of_file).unwrap_or(ExactOn::Braking)
+    given.unwrap_or_else(|| exact_on(machine))
 }

@@ -1,10 +1,7 @@
 //! The commands that make the cam of a design.
 
 #[cfg(feature = "press")]
-use crate::domains::press::{
-    motion::equation_18::{ExactOn, Solver},
-    wedge::LAW_TOLERANCE,
-};
+use crate::domains::press::{machine::exact_on, motion::equation_18::Solver, wedge::LAW_TOLERANCE};
 use crate::machine::Machine;
 use crate::pipeline::Spec;
 use crate::refusal::Refusal;
@@ -75,8 +72,11 @@ impl DesignCommand {
             #[cfg(feature = "press")]
             Self::Rotary => speed(&machine).map(|rpm| Spec::rotary(machine, rpm)),
             #[cfg(feature = "press")]
-            Self::Translating => speed(&machine)
-                .map(|rpm| Spec::translating(machine, rpm, Solver::Ode { tolerance: LAW_TOLERANCE }, ExactOn::Braking)),
+            Self::Translating => {
+                let balance = exact_on(&machine);
+                speed(&machine)
+                    .map(|rpm| Spec::translating(machine, rpm, Solver::Ode { tolerance: LAW_TOLERANCE }, balance))
+            }
             #[cfg(feature = "press")]
             Self::Compensator => speed(&machine).map(|rpm| Spec::compensator(machine, rpm)),
         }

@@ -33,6 +33,7 @@ mod page;
 mod parameter;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod parts;
 mod row;
 mod run;
 pub mod sampling;

@@ -17,6 +17,9 @@ const ROW: &str = "row";
 pub(super) const FEASIBLE: &str = "feasible";
 pub(super) const FAULT: &str = "fault";
 
+/// Rounding of a figure, as a share: that of a change of units.
+const ROUNDING: f64 = 1e-14;
+
 /// Why a design has no figures, as one line.
 fn line(why: &str) -> String {
     why.split_whitespace().collect::<Vec<_>>().join(" ")
@@ -137,8 +140,15 @@ impl Study {
     /// Whether the figures keep every constraint.
     fn keeps(&self, figures: &[Option<&Value>]) -> bool {
         self.constraints.iter().all(|constraint| {
-            let value = figures.get(constraint.column).copied().flatten().and_then(Value::as_f64);
-            value.is_some_and(|value| constraint.within.0 <= value && value <= constraint.within.1)
+            let value = figures.get(constraint.column).copied().flatten();
+            // A truth is 1 or 0. A figure in millimetres may differ from the number that was typed by its rounding.
+            let value = value
+                .and_then(|value| value.as_f64().or_else(|| value.as_bool().map(|truth| f64::from(u8::from(truth)))));
+            let ((least, most), slack) = (constraint.within, |limit: f64| ROUNDING * limit.abs());
+            value.is_some_and(|value| {
+                (least == f64::NEG_INFINITY || least - slack(least) <= value)
+                    && (most == f64::INFINITY || value <= most + slack(most))
+            })
         })
     }
 

@@ -1,15 +1,17 @@
 //! The study file: TOML to a [`Study`] with every value in range.
 
 use super::command::DesignCommand;
-use super::figures::{Plan, paths_of};
+use super::figures::{Plan, at, paths_of};
 use super::keys;
 use super::kind::{Constraint, Objective, StudyKind};
-use super::parameter::{Parameter, SPEED, Scale, Values, split};
+use super::parameter::{Parameter, SPEED, Values};
+use super::parts::{base_of, command, limits, once_each, parameter, spread};
 use super::sampling::{self, Sampling};
 use crate::document::{FileFault, Reader, TableReader, file, similar};
 use crate::machine::{Machine, MachineSource, valid_rpm};
 use crate::refusal::Refusal;
 use crate::report::sha256;
+use serde_json::Value;
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
@@ -131,6 +133,7 @@ impl Study {
         else {
             return Ok(None);
         };
+        once_each(reader, &root, &parameters);
         let drawn = spread(&root, kind, &parameters);
         let limits = limits(reader, &root, kind);
         let (Some((rows, sampling)), Some((columns, constraints, objectives))) = (drawn, limits) else {
@@ -188,8 +191,12 @@ impl Study {
         if !reader.is_faultless() {
             return Ok(None);
         }
-        let (plan, known) = self.planned();
+        let (plan, tried) = self.planned();
         self.plan = plan;
+        let known = tried.as_ref().map(paths_of);
+        if let Some(tried) = &tried {
+            self.refuse_words(reader, tried);
+        }
         let unknown: Vec<&String> = match &known {
             Some(known) => self.columns.iter().filter(|column| !known.contains(column)).collect(),
             None => Vec::new(),
@@ -206,6 +213,23 @@ impl Study {
             root.fail(&keys::COLUMNS, format!("the report has no figure \"{column}\""), Some(help));
         }
         Ok(reader.is_faultless().then_some(self))
+    }
+
+    /// Refuses limits and objectives that are words: they have no size.
+    fn refuse_words(&self, reader: &Reader<'_>, tried: &Value) {
+        let is_word =
+            |column: usize| self.columns.get(column).filter(|path| at(tried, path).is_some_and(Value::is_string));
+        let help = || Some("take a number, or `passed`, which is 1 or 0".to_owned());
+        for (table, constraint) in reader.elements(&keys::CONSTRAINT).zip(&self.constraints) {
+            if let Some(path) = is_word(constraint.column) {
+                table.fail(&keys::COLUMN, format!("\"{path}\" is a word and has no limits"), help());
+            }
+        }
+        for (table, objective) in reader.elements(&keys::OBJECTIVE).zip(&self.objectives) {
+            if let Some(path) = is_word(objective.column) {
+                table.fail(&keys::COLUMN, format!("\"{path}\" is a word, and words have no order"), help());
+            }
+        }
     }
 
     /// What is wrong with a parameter, where neither its first nor its last value fits its key.
@@ -239,10 +263,10 @@ impl Study {
     }
 
     /// What the columns need, from the first of a few rows that has a report, and the paths of its figures.
-    fn planned(&self) -> (Plan, Option<Vec<String>>) {
+    fn planned(&self) -> (Plan, Option<Value>) {
         let tried = (0..self.rows.min(ROWS_TRIED)).find_map(|row| self.both_reports(row));
         match tried {
-            Some((solved, proven)) => (Plan::of(&self.columns, &solved, &proven), Some(paths_of(&proven))),
+            Some((solved, proven)) => (Plan::of(&self.columns, &solved, &proven), Some(proven)),
             None => (Plan::proving(&self.columns), None),
         }
     }
@@ -330,228 +354,3 @@ impl Study {
 
 /// Rows of which one must have a report, so that it is known what the columns need.
 const ROWS_TRIED: u64 = 16;
-
-/// The base by its embedded name, or from the folder of the study.
-fn base_of(name: &str, folder: Option<&Path>) -> Result<MachineSource, Box<FileFault>> {
-    let path = folder.map(|folder| folder.join(name)).filter(|path| path.exists());
-    let loaded = MachineSource::load(path.as_deref().and_then(Path::to_str).unwrap_or(name));
-    let unread = || FileFault { key: None, message: format!("cannot read the base `{name}`"), help: None, place: None };
-    loaded.map_err(|error| Box::new(error.faults.into_iter().next().unwrap_or_else(unread)))
-}
-
-/// The command, where the word is one.
-fn command(root: &TableReader<'_>, machine: &Machine) -> Option<DesignCommand> {
-    let Some(word) = root.get(&keys::COMMAND) else { return Some(DesignCommand::usual(machine)) };
-    let found = DesignCommand::ALL.iter().copied().find(|command| command.word() == word);
-    if found.is_none() {
-        let words: Vec<&str> = DesignCommand::ALL.iter().map(|command| command.word()).collect();
-        let near =
-            similar(&word, words.iter().copied()).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
-        let help = format!("{near}It is one of {}", words.join(", "));
-        root.fail(&keys::COMMAND, format!("no command \"{word}\" makes a cam of a study"), Some(help));
-    }
-    found
-}
-
-/// How many rows there are, and how they are sampled.
-fn spread(root: &TableReader<'_>, kind: StudyKind, parameters: &[Parameter]) -> Option<(u64, Option<Sampling>)> {
-    if parameters.is_empty() {
-        let help = "add [[parameter]] with key and values".to_owned();
-        root.fail(&keys::KIND, "a study varies at least one key".to_owned(), Some(help));
-        return None;
-    }
-    let rows = root.get(&keys::ROWS);
-    let whole = |field: &'static crate::document::Field<f64>| match root.get(field) {
-        Some(number) if number.fract() != 0.0 => {
-            root.fail(field, format!("`{}` must be a whole number: {number}", field.key.name), None);
-            None
-        }
-        _ => Some(()),
-    };
-    whole(&keys::ROWS)?;
-    whole(&keys::SEED)?;
-    match (kind, rows) {
-        (StudyKind::Sweep, Some(_)) => {
-            let help = "leave it out, or write kind = \"monte-carlo\"".to_owned();
-            root.fail(&keys::ROWS, "a sweep has a row for every combination of values".to_owned(), Some(help));
-            None
-        }
-        (StudyKind::MonteCarlo, None) => {
-            root.fail(
-                &keys::KIND,
-                "a study of random designs needs their number".to_owned(),
-                Some("add rows = 1000".into()),
-            );
-            None
-        }
-        (_, Some(rows)) => {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole and in range")]
-            let rows = rows as u64;
-            Some((rows, root.get(&keys::SAMPLING)))
-        }
-        (_, None) => combinations(root, parameters).map(|rows| (rows, None)),
-    }
-}
-
-/// The number of all combinations of values.
-fn combinations(root: &TableReader<'_>, parameters: &[Parameter]) -> Option<u64> {
-    let mut rows = 1_u64;
-    for parameter in parameters {
-        let Some(count) = parameter.count() else {
-            let help = "give steps, or rows and another kind for random designs".to_owned();
-            let message = format!("{} has any value of a range, which no list of combinations has", parameter.key);
-            root.fail(&keys::KIND, message, Some(help));
-            return None;
-        };
-        rows = rows.saturating_mul(count);
-    }
-    #[expect(clippy::cast_precision_loss, reason = "a limit")]
-    if rows as f64 > keys::MOST_ROWS {
-        let message = format!("there are more than {} combinations", keys::MOST_ROWS);
-        root.fail(&keys::KIND, message, Some("give fewer steps".into()));
-        return None;
-    }
-    Some(rows)
-}
-
-/// The columns, with those that constraints and objectives name.
-fn limits(
-    reader: &Reader<'_>,
-    root: &TableReader<'_>,
-    kind: StudyKind,
-) -> Option<(Vec<String>, Vec<Constraint>, Vec<Objective>)> {
-    let mut columns: Vec<String> = Vec::new();
-    for column in root.get(&keys::COLUMNS)? {
-        if columns.contains(&column) {
-            root.fail(&keys::COLUMNS, format!("\"{column}\" is given twice"), Some("remove one".into()));
-            return None;
-        }
-        columns.push(column);
-    }
-    let mut number = |column: String| {
-        columns.iter().position(|other| *other == column).unwrap_or_else(|| {
-            columns.push(column);
-            columns.len() - 1
-        })
-    };
-    let mut constraints = Vec::new();
-    for table in reader.elements(&keys::CONSTRAINT) {
-        let (low, high) = (table.get(&keys::AT_LEAST), table.get(&keys::AT_MOST));
-        if low.is_none() && high.is_none() {
-            table.fail(
-                &keys::COLUMN,
-                "a constraint needs a limit".into(),
-                Some("add at_most = 30 or at_least = 0".into()),
-            );
-        }
-        let within = (low.unwrap_or(f64::NEG_INFINITY), high.unwrap_or(f64::INFINITY));
-        if within.0 > within.1 {
-            table.fail(&keys::AT_LEAST, format!("no number is at least {} and at most {}", within.0, within.1), None);
-        }
-        constraints.push(Constraint { column: number(table.get(&keys::COLUMN)?), within });
-    }
-    let mut objectives = Vec::new();
-    for table in reader.elements(&keys::OBJECTIVE) {
-        objectives.push(Objective { column: number(table.get(&keys::COLUMN)?), goal: table.get(&keys::GOAL)? });
-    }
-    if kind == StudyKind::Pareto && objectives.len() < 2 {
-        let help = "add [[objective]] with column and goal for each".to_owned();
-        root.fail(&keys::KIND, "a front needs at least two objectives".to_owned(), Some(help));
-    }
-    if kind != StudyKind::Pareto && !objectives.is_empty() {
-        let help = "write kind = \"pareto\", or remove [[objective]]".to_owned();
-        root.fail(&keys::KIND, "objectives belong to a study of kind pareto".to_owned(), Some(help));
-    }
-    Some((columns, constraints, objectives))
-}
-
-/// A number of a parameter, where it is given; `Err` after a fault: it is none, or has another unit than the first one.
-fn number(
-    table: &TableReader<'_>,
-    field: &crate::document::Field<String>,
-    unit: &mut Option<String>,
-) -> Result<Option<f64>, ()> {
-    let Some(typed) = table.get(field) else { return Ok(None) };
-    let name = field.key.name;
-    let Some((number, own)) = split(&typed) else {
-        table.fail(field, format!("`{name}` must be a number with the unit of the key: {typed}"), None);
-        return Err(());
-    };
-    if let Some(unit) = unit.as_deref().filter(|unit| *unit != own) {
-        let help = Some(format!("write the numbers of a parameter in one unit, {unit}"));
-        table.fail(field, format!("`{name}` has another unit: {typed}"), help);
-        return Err(());
-    }
-    *unit = Some(own.to_owned());
-    Ok(Some(number))
-}
-
-/// A key that varies.
-fn parameter(table: &TableReader<'_>) -> Option<Parameter> {
-    let key = table.get(&keys::KEY)?;
-    let mut unit = None;
-    let all = [&keys::FROM, &keys::TO, &keys::MEAN, &keys::DEVIATION].map(|field| number(table, field, &mut unit));
-    let [Ok(from), Ok(to), Ok(mean), Ok(deviation)] = all else { return None };
-    let steps = table.get(&keys::STEPS);
-    let fail = |field, message: &str, help: &str| -> Option<Parameter> {
-        table.fail(field, message.to_owned(), Some(help.to_owned()));
-        None
-    };
-    if let Some(list) = table.get(&keys::VALUES) {
-        if from.or(to).or(mean).or(deviation).or(steps).is_some() {
-            return fail(
-                &keys::KEY,
-                "a list of values is all of a parameter",
-                "remove from, to, steps, mean and deviation",
-            );
-        }
-        return listed(table, key, list);
-    }
-    let values = match (from, to, mean, deviation) {
-        (low, high, Some(mean), Some(deviation)) => {
-            let within = (low.unwrap_or(f64::NEG_INFINITY), high.unwrap_or(f64::INFINITY));
-            if !(deviation > 0.0) {
-                return fail(&keys::DEVIATION, "`deviation` must be above 0", "give a standard deviation");
-            }
-            if !(within.0 < within.1) || steps.is_some() {
-                return fail(
-                    &keys::KEY,
-                    "a normal distribution is cut off at from and to, from below to",
-                    "remove steps",
-                );
-            }
-            Values::Normal { mean, deviation, within }
-        }
-        (Some(from), Some(to), None, None) => {
-            let scale = table.get(&keys::SCALE).unwrap_or(Scale::Linear);
-            if from == to || (scale == Scale::Log && !(from * to > 0.0)) {
-                return fail(
-                    &keys::TO,
-                    "`from` and `to` must differ, and have one sign on a log scale",
-                    "give another end",
-                );
-            }
-            if steps.is_some_and(|steps| steps.fract() != 0.0) {
-                return fail(&keys::KEY, "`steps` must be a whole number", "e.g. steps = 11");
-            }
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole and in range")]
-            Values::Range { from, to, steps: steps.map(|steps| steps as u64), scale }
-        }
-        _ => {
-            return fail(&keys::KEY, "a parameter needs its values", "give values; from and to; or mean and deviation");
-        }
-    };
-    Some(Parameter { key, unit: unit.unwrap_or_default(), values, numeric: true })
-}
-
-/// A key that has listed values: numbers where all are, in one unit.
-fn listed(table: &TableReader<'_>, key: String, list: Vec<String>) -> Option<Parameter> {
-    if list.is_empty() {
-        table.fail(&keys::KEY, "`values` is empty".into(), Some("give at least one value".into()));
-        return None;
-    }
-    let units: Option<Vec<&str>> = list.iter().map(|typed| split(typed).map(|(_, unit)| unit)).collect();
-    let unit = units.and_then(|units| units.iter().all(|unit| *unit == units[0]).then(|| units[0].to_owned()));
-    let (numeric, unit) = (unit.is_some(), unit.unwrap_or_default());
-    Some(Parameter { key, unit, values: Values::List(list), numeric })
-}

@@ -162,7 +162,13 @@ impl Study {
             };
             feasible += u64::from(kept);
             if kept && self.kind == StudyKind::Pareto {
-                self.enter(&mut front, &values, line);
+                // A truth is 1 or 0.
+                let ordered = row.iter().zip(&values).map(|(cell, value)| match cell.as_str() {
+                    "true" => Some(1.0),
+                    "false" => Some(0.0),
+                    _ => *value,
+                });
+                self.enter(&mut front, &ordered.collect::<Vec<_>>(), line);
             }
             if number % step == 0 {
                 shown.push(row.to_vec());

@@ -8,7 +8,7 @@ use crate::geometry::points::{Interpolant, PointCoordinates, PointInterpolation,
 use crate::pipeline::Cam;
 use crate::profile::outline::{Fit, SegmentKind};
 use crate::refusal::Refusal;
-use crate::report::{Rolled, shown};
+use crate::report::{Rolled, failed, shown};
 use crate::verify::{WrittenOutline, rolling};
 use crate::write::{self, FORMATS, Rendering, dxf, proof, svg};
 use serde::Serialize;
@@ -75,8 +75,8 @@ pub(super) struct TradeRow {
     pub(super) acceleration_share: Option<f64>,
     /// Roller force times velocity error, at its largest, on the camshaft.
     pub(super) torque_error_nm: Option<f64>,
-    /// Whether every check of the setting passed.
-    pub(super) passed: bool,
+    /// The checks of the setting that fail.
+    pub(super) failed: Vec<String>,
     /// Least and largest total of a round.
     pub(super) total_low_us: f64,
     pub(super) total_high_us: f64,
@@ -200,7 +200,10 @@ impl TradeLimits {
     /// Whether a row keeps them, can be asked for, and passes its own checks.
     fn keeps(self, row: &TradeRow) -> bool {
         let share = self.acceleration.is_none_or(|limit| row.acceleration_share.is_some_and(|share| share <= limit));
-        self.residual.is_none_or(|limit| row.residual_n <= limit) && share && row.passed && row.flags.is_some()
+        self.residual.is_none_or(|limit| row.residual_n <= limit)
+            && share
+            && row.failed.is_empty()
+            && row.flags.is_some()
     }
 }
 
@@ -307,7 +310,7 @@ impl TradeRow {
             acceleration_error_m_per_s2: None,
             acceleration_share: None,
             torque_error_nm: None,
-            passed: true,
+            failed: Vec::new(),
             total_low_us: 0.0,
             total_high_us: 0.0,
         }
@@ -386,7 +389,7 @@ fn outline(
         arcs: contour.map_or(0, Contour::arcs),
         pieces: contour.map_or(0, |contour| contour.vertices.len()),
         machining_s: contour.map_or(0.0, |contour| machining(law, contour)),
-        passed: proven.passed(),
+        failed: names(failed(proven.findings())),
         bytes: bytes + sizes,
         deviation_mm: deviation,
         torque_error_nm: torque_error(law, proven.outlines()),
@@ -429,6 +432,7 @@ fn points(
     };
     let row = TradeRow {
         pieces: table.rows.rows.len(),
+        failed: names(failed(whole.prove().map_err(Refusal::of)?.findings())),
         machining_s: machining(law, &outline.contour),
         bytes: bytes.len(),
         deviation_mm: table.rows.error,
@@ -436,6 +440,10 @@ fn points(
         ..rolled(TradeRow::of(law, setting, law_us, None), law, rolled_on.as_ref())
     };
     Ok((row, times))
+}
+
+fn names(checks: Vec<&str>) -> Vec<String> {
+    checks.into_iter().map(str::to_owned).collect()
 }
 
 /// Seconds along an outline at the feed of the machine file.

@@ -37,8 +37,12 @@ fn nothing_keeps(rows: &[TradeRow], limits: TradeLimits) -> String {
     let Some(least) = rows.iter().min_by(|a, b| limits.left(a).total_cmp(&limits.left(b))) else {
         return "nothing was measured".into();
     };
+    let checks = match least.failed.as_slice() {
+        [] => String::new(),
+        failed => format!("; its check {} fails", failed.join(", ")),
+    };
     format!(
-        "no setting passes its checks and leaves no more than {}; {} leaves least, {}",
+        "no setting passes its checks and leaves no more than {}; {} leaves least, {}{checks}",
         limits.words(),
         least.setting,
         limits.left_words(least)

@@ -70,13 +70,24 @@ const OF_FORCE: [ListedColumn<SolverRow>; 3] =
     [("pieces", count), ("residual_n", |row| row.error), ("time_us", |row| row.time_us)];
 
 /// The settings as an analysis. Advised is the one with the fewest pieces that leaves no more than the limit.
-pub(crate) fn analysis(task: SolverTask<'_>, rows: &[SolverRow]) -> Analysis {
+///
+/// # Errors
+/// Where the checks of the advised setting, which `failing` names by its pieces, cannot be made.
+pub(crate) fn analysis(
+    task: SolverTask<'_>,
+    rows: &[SolverRow],
+    failing: impl Fn(usize) -> Result<Vec<String>, Refusal>,
+) -> Result<Analysis, Refusal> {
     let (column, unit, about) = task.error;
     let told = |error: f64| {
         if unit.is_empty() { format!("{} %", shown(100.0 * error)) } else { format!("{} {unit}", shown(error)) }
     };
     let chosen = rows.iter().filter(|row| row.error <= task.limit).min_by_key(|row| row.pieces);
+    let failed = chosen.map_or_else(|| Ok(Vec::new()), |row| failing(row.pieces))?;
     let advice = advice(rows, chosen, &told(task.limit), told);
+    let advice =
+        if failed.is_empty() { advice } else { format!("{advice}; but its check {} fails", failed.join(", ")) };
+    let chosen = chosen.filter(|_| failed.is_empty());
     let flags = chosen.map(|row| Section::new("flags", &row.flags));
     let values: Vec<Value> = rows
         .iter()
@@ -94,7 +105,7 @@ pub(crate) fn analysis(task: SolverTask<'_>, rows: &[SolverRow]) -> Analysis {
     let names = rows.iter().map(|row| row.setting.clone()).collect();
     let columns = if unit.is_empty() { &OF_SHARE } else { &OF_FORCE };
     let told_flags = chosen.map(|row| format!("flags: {}", row.flags));
-    Analysis {
+    Ok(Analysis {
         kind: task.kind,
         machine: task.machine.to_owned(),
         speeds: task.speeds,
@@ -116,7 +127,7 @@ pub(crate) fn analysis(task: SolverTask<'_>, rows: &[SolverRow]) -> Analysis {
         document: None,
         diagrams: &[],
         not_modelled: Vec::new(),
-    }
+    })
 }
 
 /// Which setting to take.
@@ -128,7 +139,10 @@ fn advice(rows: &[SolverRow], chosen: Option<&SolverRow>, limit: &str, told: imp
             format!("{} is the cheapest setting that leaves no more than {limit}: it leaves {left}", row.setting)
         }
         (None, Some(row)) => {
-            format!("every setting leaves more than {limit}; {} leaves least, {}", row.setting, told(row.error))
+            let before = rows.iter().rev().nth(1).map_or(f64::INFINITY, |row| row.error);
+            let same = (before - row.error).abs() < 0.01 * row.error;
+            let end = if same { "; more pieces do not help: the method itself is off" } else { "" };
+            format!("every setting leaves more than {limit}; {} leaves least, {}{end}", row.setting, told(row.error))
         }
         (None, None) => "nothing was measured".to_owned(),
     }

@@ -326,6 +326,19 @@ fn trade_names_what_limits_and_knows_every_kind() {
     assert!(stepped["rows"].as_array().is_some_and(|rows| rows.len() == 7), "{stepped}");
     let braked = report(&camgen(&["trade", "brake", "--json", "--dry-run"]));
     assert!(braked["flags"].as_str().is_some_and(|flags| flags.starts_with("--tolerance ")), "{braked}");
+    // A cam that fails a check has no advice, and the check is named, also of a table of points and of sections.
+    for (kind, check) in [("rotary", "contact_stress"), ("conoid", "contact_stress")] {
+        let rpm: &[&str] = if kind == "conoid" { &["--rpm", "20..35"] } else { &[] };
+        let limit = ["trade", kind, "--set", "limits.contact_stress=500MPa", "--json", "--dry-run"];
+        let failing = self::report(&camgen(&[&limit[..], rpm].concat()));
+        let advice = failing["advice"].as_str().expect("an advice");
+        assert!(failing["flags"].is_null() && advice.contains(&format!("its check {check} fails")), "{advice}");
+    }
+    // A plate whose file asks for it leaves the same on both ways.
+    let level = ["trade", "translating", "--set", "translating.balance=level", "--json", "--dry-run"];
+    let level = self::report(&camgen(&level));
+    let law = level["chain"][0].clone();
+    assert!(law["part"] == "law" && (law["residual_n"].as_f64().expect("a force") - 3389.722).abs() < 1.0, "{law}");
     for wrong in [
         &["trade", "drive", "--residual", "2N"][..],
         &["trade", "brake", "--rpm", "3"],

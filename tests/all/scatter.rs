@@ -89,10 +89,30 @@ fn one_machine_that_differs_is_told_and_judged() {
     assert_eq!(finding(&told, "half_loop")["verdict"], "pass");
 }
 
+/// The screw is turned from where it is, and the friction of the bed is in the draws: no press leaves less.
+#[test]
+fn the_screw_is_turned_from_where_it_is_and_the_draws_have_friction() {
+    let faults = ["scatter", "--fault", "mass=5%", "--fault", "column=-2mm", "--samples", "0", "--dry-run", "--json"];
+    let fault = report(&run(0, &faults))["scatter"]["fault"].clone();
+    close(number(&fault["column_end_mm"]), -6.390_795_147, 1e-9);
+    close(number(&fault["screw_end_mm"]), -4.390_795_147, 1e-9);
+    let rubbing = ["scatter", "--set", "bed.friction=480N", "--samples", "400", "--dry-run", "--json"];
+    let told = report(&run(0, &rubbing));
+    for row in told["scatter"]["percentiles"].as_array().expect("rows") {
+        assert!(number(&row["residual_n"]) > 480.0, "{row}");
+    }
+    // With a port that shuts late the level setting leaves no more than that to the end.
+    let late = report(&run(0, &["scatter", "--fault", "lead=-5mm", "--samples", "0", "--dry-run", "--json"]));
+    let fault = &late["scatter"]["fault"];
+    assert!(number(&fault["residual_level_n"]) <= number(&fault["residual_end_n"]).abs() * (1.0 + 1e-12), "{fault}");
+}
+
 #[test]
 fn what_cannot_be_is_refused_with_its_cause() {
     for (args, why) in [
-        (&["--fault", "mas=5%"][..], "did you mean `mass`?"),
+        (&["--fault", "polytropic_exponent=+0.05"][..], "write the true exponent"),
+        (&["--vary", "mass=5%", "--vary", "mass=3%"], "given twice"),
+        (&["--fault", "mas=5%"], "did you mean `mass`?"),
         (&["--fault", "mass"], "KEY=VALUE is expected"),
         (&["--fault", "mass=0.97"], "may be a ratio or a deviation"),
         (&["--fault", "mass=5%", "--fault", "mass=6%"], "given twice"),

@@ -282,6 +282,53 @@ fn a_bad_study_file_is_refused_with_its_place() {
 }
 
 /// A design that keeps no limit is no failure of the study; a study in which none keeps them ends with exit code 1.
+/// Keys that fight are refused; `passed` is 1 or 0, and a limit holds at the number that was typed.
+#[test]
+fn keys_are_given_once_and_truths_have_a_size() {
+    let second = "[[parameter]]\nkey = \"cam.base_radius\"\nvalues = [\"30 mm\"]\n";
+    let twice = ran(2, &format!("{SWEEP}{second}"), &[]);
+    assert!(twice.err.contains("cam.base_radius is another parameter already"), "{}", twice.err);
+    let set = SWEEP.replace("kind =", "set = [\"cam.base_radius=50mm\"]\nkind =");
+    assert!(ran(2, &set, &[]).err.contains("cam.base_radius is set for all designs already"));
+    let limit = |column: &str, limit: &str| {
+        let values = "values = [\"57 mm\", \"1 mm\"]";
+        let base = SWEEP.replace("values = [\"20 mm\", \"1 mm\", \"40 mm\"]", values);
+        format!("{base}[[constraint]]\ncolumn = \"{column}\"\n{limit}\n")
+    };
+    let feasible = |text: &str, code: i32| {
+        let run = ran(code, text, &[]);
+        rows(&text_of(run.directory.path(), "study.csv")).iter().filter(|row| row[row.len() - 2] == "true").count()
+    };
+    assert_eq!(feasible(&limit("passed", "at_least = 1"), 0), 3);
+    assert_eq!(feasible(&limit("cam.base_radius_mm", "at_most = 57\nat_least = 57"), 0), 3);
+    let word = ran(2, &limit("checks.pressure_angle.verdict", "at_least = 1"), &[]);
+    assert!(word.err.contains("is a word and has no limits"), "{}", word.err);
+    let parquet = ran(2, SWEEP, &["--parquet"]);
+    assert!(
+        parquet.err.contains("built without Parquet") && parquet.err.contains("--features parquet"),
+        "{}",
+        parquet.err
+    );
+}
+
+/// A plate is balanced as its file says.
+#[test]
+fn a_plate_is_balanced_as_its_file_says() {
+    let text = r#"
+name = "plate"
+base = "dpi"
+kind = "sweep"
+command = "translating"
+columns = ["force.residual_max_n"]
+[[parameter]]
+key = "translating.balance"
+values = ["braking", "level"]
+"#;
+    let run = ran(0, text, &[]);
+    let left = column(&text_of(run.directory.path(), "study.csv"), "force.residual_max_n");
+    assert!(left[0] < 20.0 && (left[1] - 3_389.722).abs() < 1.0, "{left:?}");
+}
+
 #[test]
 fn exit_codes_tell_whether_a_design_keeps_the_limits() {
     let limit =

@@ -6,14 +6,16 @@ use crate::body::Kind;
 use crate::domains::press::cams;
 use crate::domains::press::conoid::Conoid;
 use crate::domains::press::machine::DriveMachine;
-use crate::domains::press::motion::equation_18::{BedDirection, BottomMotion, ExactOn, Solver};
-use crate::domains::press::scatter;
+use crate::domains::press::machine::exact_on;
+use crate::domains::press::motion::equation_18::{BedDirection, BottomMotion, Solver};
+use crate::domains::press::scatter::{self, reset::ScrewRule};
+use crate::domains::press::wedge::LAW_TOLERANCE;
 use crate::domains::press::wedge::Wedge;
 use crate::machine::Machine;
 use crate::pipeline::Spec;
 use crate::profile::outline::SegmentKind;
 use crate::refusal::Refusal;
-use crate::report::Speeds;
+use crate::report::{Speeds, failed, shown};
 use crate::trade::solver::{self, SolverRow, SolverTask};
 use crate::trade::{
     self, COMMAND, LeftOver, SettingLadder, TradeLaw, TradeLimits, TradeProduct, TradeRun, TradeSetting, TradeTask,
@@ -38,6 +40,8 @@ pub const DRIVE: Kind =
 /// Numbers of sections, and steps in degrees that divide a right angle.
 const SECTIONS: [u32; 8] = [2, 3, 4, 5, 6, 8, 10, 12];
 const STEPS: [f64; 7] = [10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1];
+/// A conoid whose checks are asked for is drawn to this, m.
+const TOLERANCE: f64 = 5e-6;
 /// Error of the speed that is kept, as a share.
 const DRIVE_SHARE: f64 = 1e-3;
 /// Largest residual force by default, as a share of the largest inertia.
@@ -70,6 +74,7 @@ pub fn rotary(
     others: Vec<LeftOver>,
     run: TradeRun<'_>,
 ) -> Result<Analysis, Refusal> {
+    let others = others.into_iter().chain(left_in_practice(machine, rpm)).collect();
     let own = machine.clone();
     let settings = of_disc(move || Ok(Spec::rotary(own.clone(), rpm)))?;
     of_press(&ROTARY, cams::ROTARY, (machine, rpm), limits, (settings, others), run)
@@ -86,10 +91,27 @@ pub fn translating(
     run: TradeRun<'_>,
 ) -> Result<Analysis, Refusal> {
     let settings = of_plate(machine, rpm)?;
-    let law = settings.0.first().map(|law| law.residual_n);
-    let about = "equation (18), which holds in one direction of the bed";
-    let others = law.map(|force| LeftOver::of_force("law", force, about)).into_iter().collect();
+    let plate =
+        Wedge::solve(machine, rpm, Solver::Ode { tolerance: LAW_TOLERANCE }, exact_on(machine)).map_err(Refusal::of)?;
+    let [braking, back] = [BedDirection::Braking, BedDirection::Return].map(|way| plate.residual_max(way).value);
+    let about = format!(
+        "equation (18), {} N while the bed is braked and {} N on its return (`camgen translating`)",
+        shown(braking),
+        shown(back)
+    );
+    let others = vec![LeftOver::of_force("law", braking.max(back), about)];
     of_press(&TRANSLATING, cams::TRANSLATING, (machine, rpm), limits, (settings, others), run)
+}
+
+/// What 19 of 20 presses stay below that differ as the file says; `None` where no column balances them, or a linkage moves the bed.
+fn left_in_practice(machine: &Machine, rpm: f64) -> Option<LeftOver> {
+    let (force, rule) = scatter::analysis::left_in_practice(machine, rpm)?;
+    let screw = if rule == ScrewRule::None { "with the screw as it is" } else { "with the screw set for each" };
+    Some(LeftOver::of_force(
+        "scatter",
+        force,
+        format!("presses that differ, 19 of 20 of them, {screw} (`camgen scatter`)"),
+    ))
 }
 
 fn of_press(
@@ -97,16 +119,9 @@ fn of_press(
     cam: &'static str,
     (machine, rpm): (&Machine, f64),
     limits: PressTradeLimits,
-    (settings, mut others): (SettingLadder, Vec<LeftOver>),
+    (settings, others): (SettingLadder, Vec<LeftOver>),
     run: TradeRun<'_>,
 ) -> Result<Analysis, Refusal> {
-    others.extend(scatter::section::left_in_practice(machine, rpm).map(|force| {
-        LeftOver::of_force(
-            "scatter",
-            force,
-            "presses that differ, 19 of 20 of them, with the screw set for each (`camgen scatter`)",
-        )
-    }));
     let inertia = machine.press()?.largest_inertia(rpm);
     let limits =
         TradeLimits { residual: Some(limits.residual.unwrap_or(SHARE * inertia)), acceleration: limits.acceleration };
@@ -114,6 +129,23 @@ fn of_press(
         &TradeTask { kind, cam, machine, rpm: Some(rpm), settings, limits, inputs: machine.inputs(cam), others },
         run,
     )
+}
+
+/// Evenly spaced speeds, those between the ends in thousandths.
+#[expect(clippy::cast_precision_loss, reason = "sections")]
+fn spaced((from, to): (f64, f64), count: usize) -> Vec<f64> {
+    let inner = |i: usize| (1e3 * (from + (to - from) * i as f64 / (count - 1) as f64)).round() / 1e3;
+    (0..count)
+        .map(|i| {
+            if i == 0 {
+                from
+            } else if i + 1 == count {
+                to
+            } else {
+                inner(i)
+            }
+        })
+        .collect()
 }
 
 /// The sections of a conoid for speeds from one to another (rpm): what they leave between them.
@@ -146,6 +178,11 @@ pub fn conoid(
         SolverRow::measured(setting, clock, || Ok(Conoid::unsized_of(machine, &speeds)?.residual_between().force))
     };
     let rows: Vec<SolverRow> = SECTIONS.iter().map(row).collect::<Result<_, _>>()?;
+    let failing = |count: usize| -> Result<Vec<String>, Refusal> {
+        let made = Spec::conoid(machine.clone(), spaced((from, to), count), None).solve().map_err(Refusal::of)?;
+        let proven = made.draw(TOLERANCE).and_then(crate::pipeline::Drawing::prove).map_err(Refusal::of)?;
+        Ok(failed(proven.findings()).into_iter().map(str::to_owned).collect())
+    };
     let task = SolverTask {
         kind: &CONOID,
         machine: machine.name(),
@@ -155,7 +192,7 @@ pub fn conoid(
         error: ("residual_n", "N", "largest residual force between the sections of a conoid"),
         limit,
     };
-    Ok(solver::analysis(task, &rows))
+    solver::analysis(task, &rows, failing)
 }
 
 /// The steps of the paper's method for a bed that plain buffers brake: the error of the crank's speed.
@@ -182,17 +219,17 @@ pub fn drive(machine: &DriveMachine, clock: &dyn Fn() -> Duration) -> Result<Ana
         error: ("error", "", "largest error of the crank's speed by the paper's sections"),
         limit: DRIVE_SHARE,
     };
-    Ok(solver::analysis(task, &rows))
+    solver::analysis(task, &rows, |_| Ok(Vec::new()))
 }
 
 /// The plate: all outlines with the finest law, then every law at 1 µm. Every law is solved once a round.
 fn of_plate(machine: &Machine, rpm: f64) -> Result<SettingLadder, Refusal> {
-    let [.., (_, finest)] = ODE;
-    let solve = |solver: Solver| Wedge::solve(machine, rpm, solver, ExactOn::Braking).map_err(Refusal::of);
+    let ([.., (_, finest)], balance) = (ODE, exact_on(machine));
+    let solve = |solver: Solver| Wedge::solve(machine, rpm, solver, balance).map_err(Refusal::of);
     let truth = solve(Solver::Ode { tolerance: finest })?;
     let law = |solver: Solver| -> Result<TradeLaw, Refusal> {
         let (machine, plate) = (machine.clone(), solve(solver)?);
-        let spec = move || Spec::translating(machine.clone(), rpm, solver, ExactOn::Braking);
+        let spec = move || Spec::translating(machine.clone(), rpm, solver, balance);
         let solve = move || spec().solve().map_err(Refusal::of);
         let (error_mm, residual_n) = (1e3 * apart(&truth, &plate), plate.residual_max(BedDirection::Braking).value);
         Ok(TradeLaw { cam: solve()?, solve: Box::new(solve), error_mm, residual_n })

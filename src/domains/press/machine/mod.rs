@@ -54,6 +54,13 @@ pub(super) const SECTIONS: &[Added<&KeySection>] = &[
     Added { after: "limits", entries: &[&cams::LIMITS] },
 ];
 
+/// Where the forces of the plate of a machine balance: as its file says, else while the bed is braked.
+#[must_use]
+pub fn exact_on(machine: &Machine) -> super::motion::equation_18::ExactOn {
+    let of_file = PressCams::of(machine).translating.as_ref().and_then(|plate| plate.balance);
+    of_file.unwrap_or(super::motion::equation_18::ExactOn::Braking)
+}
+
 /// Reads what a file says of a press and its cams.
 pub(super) fn read(
     reader: &Reader<'_>,

@@ -41,6 +41,16 @@ pub(super) fn cam_of(machine: &Machine, rpm: f64) -> Result<(FrozenBuffer, Cylin
     Ok((FrozenBuffer::of_cam(law, &cylinder), cylinder))
 }
 
+/// Force that 19 of 20 drawn presses stay below with the screw set as the file says, N, and that rule; `None` where no press can be drawn.
+#[must_use]
+pub fn left_in_practice(machine: &Machine, rpm: f64) -> Option<(f64, ScrewRule)> {
+    let (cam, _) = cam_of(machine, rpm).ok()?;
+    let cams = PressCams::of(machine);
+    let samples = monte_carlo::draw(&cam, &cams.scatter, cams.losses.bed_friction).ok()?;
+    let [force, ..] = monte_carlo::percentile(&samples.reset, 0.95)?;
+    Some((force, cams.scatter.rule))
+}
+
 /// What the bands leave together and each alone.
 pub(super) fn bands_of(cam: &FrozenBuffer, sampling: &Sampling, levelled: bool) -> Result<BandsReport, Refusal> {
     let Sampling { half_widths, distribution, .. } = sampling;
@@ -80,13 +90,17 @@ fn fault_of(cam: &FrozenBuffer, typed: &TypedFault, cylinder: &Cylinder) -> Resu
         residual_at_end_n: end_force,
         end_pressure_pa: cylinder.ambient_pressure * end_air,
         column_end_mm: MILLIMETRES * end,
+        screw_end_mm: MILLIMETRES * (end - fault.column),
         added_volume_end_mm3: CUBIC * 2.0 * cylinder.piston_area * end,
         residual_end_n: after_end.value,
         residual_end_at_mm: MILLIMETRES * after_end.at,
         column_level_mm: MILLIMETRES * level,
+        screw_level_mm: MILLIMETRES * (level - fault.column),
         residual_level_n: after_level.value.abs(),
         column_with_port_mm: MILLIMETRES * with_port,
         lead_with_port_mm: MILLIMETRES * lead,
+        screw_with_port_mm: MILLIMETRES * (with_port - fault.column),
+        port_mm: MILLIMETRES * (lead - fault.lead),
         residual_with_port_n: cam.worst(&set)?.value,
     })
 }
@@ -131,7 +145,7 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
     let press = machine.press()?;
     let typed = TypedFault::read(faults, press, rpm)?;
     let bands = bands_of(&cam, sampling, true)?;
-    let samples = monte_carlo::draw(&cam, sampling)?;
+    let samples = monte_carlo::draw(&cam, sampling, PressCams::of(machine).losses.bed_friction)?;
     let percentiles = tables::percentiles(&samples, sampling.rule);
     let settings = tables::settings(&cam, rpm, cylinder.piston_area)?;
     let useful = settings::useful(&cam)?;

@@ -44,7 +44,7 @@ pub(super) fn of(
                 shown(press.bed.mass),
                 shown(1e-3 * press.ambient_pressure)
             ),
-            "Find v, and set the screw as in its row: + makes the air column longer. Between rows take the value in proportion. Speed: at the mass and pressure \
+            "Find v, and set the screw as in its row: + makes the air column longer. Between rows take the value in proportion: there somewhat more is left. Speed: at the mass and pressure \
              above; mass: at the speed and pressure above. Left: largest force on the crank; fixed: the same of a fixed bottom with its own setting."
                 .into(),
         ],

@@ -131,15 +131,17 @@ impl FrozenBuffer {
         self.unit_force * (fault.square * load - fault.ambient * (pressure - 1.0))
     }
 
-    /// That force over the stations of the crank, the loads and lengths of `at`, its largest size with the phase error both ways.
+    /// That force over the stations of the crank, the loads and lengths of `at`, its largest size with the phase error and the friction
+    /// of the bed (N) both ways.
     #[must_use]
-    pub fn largest_at(&self, fault: &Fault, at: &[Station]) -> f64 {
+    pub fn largest_at(&self, fault: &Fault, at: &[Station], friction: f64) -> f64 {
+        let friction = friction / self.unit_force;
         let [s, t] = self.air(fault);
         let (log_s, weight) = (libm::log(s), fault.ambient * fault.closing);
         let size = |station: &Station| {
             let air = weight * libm::exp(fault.exponent * (log_s - libm::log(station.length + t))) - fault.ambient;
             let force = fault.square * station.load - air;
-            force.abs() + (fault.phase * station.phase).abs()
+            force.abs() + (fault.phase * station.phase - friction).abs()
         };
         self.unit_force * at.iter().map(size).fold(0.0, f64::max)
     }

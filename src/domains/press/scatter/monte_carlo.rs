@@ -126,6 +126,8 @@ pub struct Samples {
 struct Stationed {
     buffer: FrozenBuffer,
     at: Vec<Station>,
+    /// Of the bed, N.
+    friction: f64,
 }
 
 impl Stationed {
@@ -142,18 +144,18 @@ impl Stationed {
 
     fn largest(&self, fault: &Fault) -> Result<f64, ScatterError> {
         self.buffer.fits(fault)?;
-        Ok(self.buffer.largest_at(fault, &self.at))
+        Ok(self.buffer.largest_at(fault, &self.at, self.friction))
     }
 }
 
-/// Draws the presses of a cam.
+/// Draws the presses of a cam, whose beds have this friction, N.
 ///
 /// # Errors
 /// When a press cannot be: its column is used up, or no column balances its end.
-pub fn draw(cam: &FrozenBuffer, sampling: &Sampling) -> Result<Samples, ScatterError> {
+pub fn draw(cam: &FrozenBuffer, sampling: &Sampling, friction: f64) -> Result<Samples, ScatterError> {
     let fixed = cam.with_fixed_bottom();
-    let cam = Stationed { buffer: *cam, at: cam.stations_of_cam() };
-    let fixed = Stationed { buffer: fixed, at: fixed.stations_of_fixed_bottom() };
+    let cam = Stationed { buffer: *cam, at: cam.stations_of_cam(), friction };
+    let fixed = Stationed { buffer: fixed, at: fixed.stations_of_fixed_bottom(), friction };
     let of_fixed = if sampling.rule == ScrewRule::None { ScrewRule::None } else { ScrewRule::End };
     let one = |sample: &u32| -> Result<[f64; 3], ScatterError> {
         let (fault, screw) = sampling.press(cam.buffer.exponent, u64::from(*sample));

@@ -16,16 +16,20 @@ pub struct FaultReport {
     pub residual_at_mm: f64,
     pub residual_at_end_n: f64,
     pub end_pressure_pa: f64,
-    /// ΔL of the rules.
+    /// ΔL of the rules, from the column of the cam; the screw is turned by `screw_end_mm`, from where it is.
     pub column_end_mm: f64,
+    pub screw_end_mm: f64,
     pub added_volume_end_mm3: f64,
     pub residual_end_n: f64,
     pub residual_end_at_mm: f64,
     pub column_level_mm: f64,
+    pub screw_level_mm: f64,
     pub residual_level_n: f64,
-    /// ΔL and Δe of screw and port together, and what they leave.
+    /// ΔL and Δe of screw and port together, what they are changed by, and what they leave.
     pub column_with_port_mm: f64,
     pub lead_with_port_mm: f64,
+    pub screw_with_port_mm: f64,
+    pub port_mm: f64,
     pub residual_with_port_n: f64,
 }
 
@@ -57,7 +61,7 @@ impl LossReport {
                 shown(self.residual_back_at_mm)
             ),
             format!(
-                "half of the loop {} N at x = {} mm, which neither cam nor screw takes out; {} J lost in a reversal, {} % of the air left",
+                "half of the loop {} N at x = {} mm, which neither cam nor screw takes out; the air takes {} J from the bed in a reversal, {} % of it left",
                 shown(self.half_loop_n),
                 shown(self.half_loop_at_mm),
                 shown(self.work_lost_j),
@@ -255,13 +259,13 @@ impl FaultReport {
                 shown(self.v)
             ),
             format!(
-                "screw by {:+.3} mm: {} N; by {:+.3} mm (level): {} N; with the port by {:+.3} mm and {:+.3} mm: {} N",
-                self.column_end_mm,
+                "turn the screw by {:+.3} mm and {} N are left, by {:+.3} mm (level) {} N; the screw by {:+.3} mm and the port by {:+.3} mm: {} N",
+                self.screw_end_mm,
                 shown(self.residual_end_n.abs()),
-                self.column_level_mm,
+                self.screw_level_mm,
                 shown(self.residual_level_n.abs()),
-                self.column_with_port_mm,
-                self.lead_with_port_mm,
+                self.screw_with_port_mm,
+                self.port_mm,
                 shown(self.residual_with_port_n.abs())
             ),
         ]

@@ -70,7 +70,11 @@ impl FrozenBuffer {
             let value = both(*column);
             value.is_nan() || (value > 0.0) != (sum > 0.0)
         });
-        Ok(beyond.and_then(|beyond| root::bracketed(both, end, beyond, 0.0).ok()).unwrap_or(end))
+        let level = beyond.and_then(|beyond| root::bracketed(both, end, beyond, 0.0).ok()).unwrap_or(end);
+        // A port that shuts late leaves a force at the start that the screw hardly moves: then the end setting may leave less.
+        let left =
+            |column: f64| self.worst(&fault.with_column(column)).map_or(f64::INFINITY, |worst| worst.value.abs());
+        Ok(if left(end) <= left(level) { end } else { level })
     }
 
     /// The setting of the screw by a rule, m; that of the fault where it stays.

@@ -37,14 +37,6 @@ pub fn of_cam(machine: &Machine, rpm: f64) -> Option<Section> {
     Some(Section::new("scatter", &values).with_words(words))
 }
 
-/// Force that is left in 19 of 20 presses with the screw set for each, N, to first order; `None` as [`of_cam`].
-#[must_use]
-pub fn left_in_practice(machine: &Machine, rpm: f64) -> Option<f64> {
-    let (cam, _) = cam_of(machine, rpm).ok()?;
-    let sampling = PressCams::of(machine).scatter;
-    Some(propagation::estimate(&cam, &sampling.half_widths, sampling.distribution).reset)
-}
-
 fn values(machine: &Machine, rpm: f64) -> Result<CamScatter, Refusal> {
     let (cam, _) = cam_of(machine, rpm)?;
     let sampling = PressCams::of(machine).scatter;

@@ -163,7 +163,7 @@ fn sampling(samples: u32, rule: ScrewRule) -> Sampling {
 #[test]
 fn percentiles_of_twenty_thousand_presses() {
     assert_eq!((number(1, 0, 0), number(1, 1, 0)), (0.566_561_575_172_281, 0.645_334_640_219_506_2));
-    let first = monte_carlo::draw(&cam("dpi"), &sampling(1, ScrewRule::End)).expect("drawn");
+    let first = monte_carlo::draw(&cam("dpi"), &sampling(1, ScrewRule::End), 0.0).expect("drawn");
     near(first.as_built[0], 855.718_772_844, "sample 0");
     near(first.reset[0], 242.187_401_817, "sample 0 after its reset");
     for (name, built, reset, fixed) in [
@@ -180,7 +180,7 @@ fn percentiles_of_twenty_thousand_presses() {
             7_766.446_583,
         ),
     ] {
-        let drawn = monte_carlo::draw(&cam(name), &sampling(20_000, ScrewRule::End)).expect("drawn");
+        let drawn = monte_carlo::draw(&cam(name), &sampling(20_000, ScrewRule::End), 0.0).expect("drawn");
         for (index, q) in [0.5, 0.95, 0.99].into_iter().enumerate() {
             near(percentile(&drawn.as_built, q).expect("samples")[0], built[index], name);
             near(percentile(&drawn.reset, q).expect("samples")[0], reset[index], name);

@@ -83,8 +83,11 @@ fn deviation(parameter: Parameter, value: &str, press: &Press, rpm: f64) -> Resu
         ParameterUnit::Length => parsed(value, Dimension::Length),
         ParameterUnit::Angle => parsed(value, Dimension::Angle),
         ParameterUnit::Number => {
-            let number = units::parse_bare(value).map_err(Refusal::of)?;
-            Ok(if value.starts_with(['+', '-']) { number } else { number - press.polytropic_exponent })
+            if value.starts_with(['+', '-']) {
+                let what = format!("{value} is a deviation, and the exponent is given itself");
+                return Err(Refusal::new(what).remedy("write the true exponent, such as 1.40"));
+            }
+            Ok(units::parse_bare(value).map_err(Refusal::of)? - press.polytropic_exponent)
         }
         ParameterUnit::Share => share(parameter, value, press, rpm),
     }
@@ -99,7 +102,8 @@ fn share(parameter: Parameter, value: &str, press: &Press, rpm: f64) -> Result<f
             Ok(number)
         } else {
             let what = format!("{value} may be a ratio or a deviation");
-            Err(Refusal::new(what).remedy("write the deviation as a share, such as 5% or -3%"))
+            Err(Refusal::new(what)
+                .remedy("write the deviation as a share, such as 5% or -3%, or the true value with its unit"))
         };
     }
     match parameter {

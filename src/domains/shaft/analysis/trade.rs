@@ -109,9 +109,10 @@ pub fn left_by_shaft(machine: &ShaftMachine, rpm: f64) -> Option<LeftOver> {
 /// [`Refusal`] when the shaft has no critical speed.
 pub fn analysis(machine: &ShaftMachine, clock: &dyn Fn() -> Duration) -> Result<Analysis, Refusal> {
     // The model of the paper, so that only the effect of its stations is measured.
-    let own = machine.shaft();
-    let shaft = Shaft::new(own.segments().to_vec(), own.supports().to_vec(), own.discs().to_vec(), Beam::Euler)
-        .map_err(Refusal::of)?;
+    let (own, carried) = (machine.shaft(), CamOnShaft::of(machine, &[])?);
+    let discs = carried.map_or_else(|| own.discs().to_vec(), |carried| super::discs(machine, &carried));
+    let shaft =
+        Shaft::new(own.segments().to_vec(), own.supports().to_vec(), discs, Beam::Euler).map_err(Refusal::of)?;
     let (truth, rows) = measure(&shaft, clock)?;
     let title = format!("{}: time against the error of the first critical speed", machine.name());
     let mut inputs = machine.inputs().to_vec();
