@@ -124,6 +124,15 @@ pub struct Summary {
     pub(super) shown: Vec<Vec<String>>,
 }
 
+/// The size of a cell by which designs are ordered: a truth is 1 or 0.
+fn order(cell: &str, value: Option<f64>) -> Option<f64> {
+    match cell {
+        "true" => Some(1.0),
+        "false" => Some(0.0),
+        _ => value,
+    }
+}
+
 impl Study {
     /// Reads the table twice.
     ///
@@ -143,11 +152,7 @@ impl Study {
         let (step, mut number) = (self.count().div_ceil(SHOWN).max(1), 0);
         each_row(&mut open()?, |line, row| {
             let values = numbers(row);
-            for (of, value) in all.iter_mut().zip(&values) {
-                if let Some(value) = value {
-                    of.add(*value);
-                }
-            }
+            all.iter_mut().zip(&values).for_each(|(of, value)| value.iter().for_each(|value| of.add(*value)));
             let fault = row.get(last).map_or("", String::as_str);
             if !fault.is_empty() {
                 faults += 1;
@@ -162,13 +167,9 @@ impl Study {
             };
             feasible += u64::from(kept);
             if kept && self.kind == StudyKind::Pareto {
-                // A truth is 1 or 0.
-                let ordered = row.iter().zip(&values).map(|(cell, value)| match cell.as_str() {
-                    "true" => Some(1.0),
-                    "false" => Some(0.0),
-                    _ => *value,
-                });
-                self.enter(&mut front, &ordered.collect::<Vec<_>>(), line);
+                let ordered: Vec<Option<f64>> =
+                    row.iter().zip(&values).map(|(cell, value)| order(cell, *value)).collect();
+                self.enter(&mut front, &ordered, line);
             }
             if number % step == 0 {
                 shown.push(row.to_vec());

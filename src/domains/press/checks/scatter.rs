@@ -24,7 +24,7 @@ pub const CHECK: Check = Check::on_analysis(
 pub fn measure(percentiles: &[PercentileRow]) -> Measure {
     let of = |body: &str| percentiles.iter().rev().find(|row| row.body == body && row.percentile == 95.0);
     let (Some(cam), Some(fixed)) = (of(CAM), of(FIXED)) else {
-        return CHECK.unknown("no presses are drawn (--samples 0)");
+        return CHECK.unknown("no presses are drawn (--samples 0), or too few: P95 needs 20");
     };
     let share = cam.residual_n / fixed.residual_n;
     let verdict = match share {

@@ -132,6 +132,12 @@ pub fn percentiles(samples: &Samples, rule: ScrewRule) -> Vec<PercentileRow> {
     lists.push((FIXED, of_fixed, &samples.fixed));
     let rows = lists.into_iter().flat_map(|(body, reset, sorted)| {
         [50.0, 95.0, 99.0].into_iter().filter_map(move |share| {
+            // A percentile has at least one press beyond it.
+            #[expect(clippy::cast_precision_loss, reason = "at most a million")]
+            let beyond = (1.0 - share / 100.0) * sorted.len() as f64;
+            if beyond < 1.0 - 1e-9 {
+                return None;
+            }
             let [residual_n, low_n, high_n] = percentile(sorted, share / 100.0)?;
             Some(PercentileRow { body, reset, percentile: share, residual_n, low_n, high_n })
         })
