@@ -262,15 +262,16 @@ impl Table {
         }
     }
 
-    /// Without the columns that no row has a value of.
+    /// Without those of some columns that no row has a value of.
     #[must_use]
-    pub fn without_unknown(mut self) -> Self {
+    pub fn without_unknown(mut self, some: &[&str]) -> Self {
         fn kept<T>(all: &mut Vec<T>, keep: &[bool]) {
             let mut keep = keep.iter();
             all.retain(|_| keep.next().copied().unwrap_or(true));
         }
         let known = |column: usize| self.rows.iter().any(|row| row.get(column).is_some_and(|value| !value.is_nan()));
-        let keep: Vec<bool> = (0..self.columns.len()).map(known).collect();
+        let keep: Vec<bool> =
+            self.columns.iter().enumerate().map(|(at, name)| !some.contains(name) || known(at)).collect();
         kept(&mut self.columns, &keep);
         kept(&mut self.may_lack, &keep);
         self.rows.iter_mut().for_each(|row| kept(row, &keep));

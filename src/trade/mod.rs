@@ -90,7 +90,7 @@ pub(crate) fn analysis(task: &TradeTask<'_>, run: TradeRun<'_>) -> Result<Analys
     let against = if limits.residual.is_some() { "force" } else { "gap" };
     let speed = task.rpm.map_or(String::new(), |rpm| format!(" at {} rpm", shortest(rpm)));
     let (machine, cam) = (task.machine.name(), if task.cam == "make" { "disc" } else { task.cam });
-    let title = format!("{machine}: time against {against} and acceleration of a {cam} cam{speed}");
+    let title = format!("{machine}: pieces against {against} and acceleration of a {cam} cam{speed}");
     let mut inputs = task.inputs.clone();
     inputs.push(Input::word("command", format!("{COMMAND} {}", task.cam)));
     inputs.extend(task.rpm.map(|rpm| Input::number("rpm", rpm)));

@@ -173,7 +173,7 @@ pub fn analysis(machine: &DriveMachine, solver: DriveSolver, step: f64) -> Resul
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs().iter().cloned());
     inputs.extend([Input::word("solver", solver.word()), Input::quantity("step", step, ("deg", PI / 180.0))]);
-    let table = Table::listed(COLUMNS, &rows).without_unknown();
+    let table = Table::listed(COLUMNS, &rows).without_unknown(&["motor_rpm", "torque_nm"]);
     Ok(Analysis {
         kind: &KIND,
         machine: machine.name().to_owned(),
