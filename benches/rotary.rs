@@ -82,7 +82,9 @@ fn stages(criterion: &mut Criterion) {
     let body = part.solid(30.0).expect("a solid");
     criterion.bench_function("output/step", |b| b.iter(|| step::write(black_box(&body), "cam", None)));
     let table = proven.table(720);
-    criterion.bench_function("output/csv", |b| b.iter(|| csv::write(black_box(&table))));
+    criterion.bench_function("output/csv", |b| {
+        b.iter(|| csv::write(black_box(&table), camgen::units::LengthUnit::Millimetre));
+    });
 }
 
 criterion_group!(benches, motion, stages);

@@ -45,14 +45,15 @@ pub(super) fn program(
 ) -> Result<Vec<MillingProgram>, MillingError> {
     let cutting = body.machine().cutting();
     let controller = asked.controller.unwrap_or(cutting.controller);
-    let decimals = cutting.decimals.unwrap_or(controller.decimals());
+    let units = body.machine().units();
+    let decimals = cutting.decimals.unwrap_or(controller.decimals(units));
     if controller == Controller::Heidenhain {
         return Err(without_time("a program for a barrel").remedy("give another --controller").into());
     }
     let tool = request.cutter_radius.unwrap_or(cam.widest_tool());
-    let grid = Grid::of_decimals(decimals);
+    let (grid, angles) = (Grid::of_lengths(decimals, units), Grid::of_decimals(decimals));
     // Half a step of X and of Y, and half a step of A on the outside.
-    let rounding = grid.step() * (1.0 + 0.5 * (MILLIMETRES * cam.outside()).to_radians());
+    let rounding = grid.step() + 0.5 * angles.step() * (MILLIMETRES * cam.outside()).to_radians();
     let asked_for = MILLIMETRES * request.fit.tolerance;
     let tolerance = asked_for - rounding;
     if tolerance < LEAST_SHARE * asked_for {
@@ -61,10 +62,10 @@ pub(super) fn program(
         let remedy = "give a coarser --tolerance, or cut.decimals that the control takes";
         return Err(Refusal::new(what).remedy(remedy).into());
     }
-    let depths = depths(body, &cutting, decimals)?;
+    let depths = depths(body, &cutting, grid)?;
     let climbs = cutting.direction == MillingDirection::Climb;
     let flanks = rounds(cam, tool)?;
-    let of = |flank: &Option<TurnedFlank>| round(cam, (*flank, tool), (tolerance, grid), climbs);
+    let of = |flank: &Option<TurnedFlank>| round(cam, (*flank, tool), (tolerance, grid, angles), climbs);
     let rounds: Vec<TurnedRound> = flanks.iter().map(of).collect();
     let rows = depths.len() * rounds.iter().map(|round| round.rows.len()).sum::<usize>();
     if rows > MOST_ROWS {
@@ -76,6 +77,7 @@ pub(super) fn program(
         cuts: Vec::new(),
         controller,
         decimals,
+        units,
         cutting,
         cutter: Some(tool),
         passes: Vec::new(),
@@ -88,7 +90,7 @@ pub(super) fn program(
 fn round(
     cam: &dyn TurnedCam,
     (flank, tool): (Option<TurnedFlank>, f64),
-    (tolerance, grid): (f64, Grid),
+    (tolerance, grid, angles): (f64, Grid, Grid),
     climbs: bool,
 ) -> TurnedRound {
     let path = ToolPath { cam, flank, tool, tolerance };
@@ -97,7 +99,7 @@ fn round(
     for pair in joints.windows(2) {
         path.add(path.row(pair[0]), path.row(pair[1]), MOST_HALVED, &mut rows);
     }
-    let rows = rows.into_iter().map(|row| row.map(|number| grid.nearest(number)));
+    let rows = rows.into_iter().map(|[angle, x, y]| [angles.nearest(angle), grid.nearest(x), grid.nearest(y)]);
     let mut rows: Vec<[f64; 3]> = rows.collect();
     if let [first, .., last] = rows.as_mut_slice() {
         *last = [last[0], first[1], first[2]];

@@ -15,6 +15,7 @@ use crate::numeric::parallel;
 use crate::profile::outline::{Fit, Outline, OutlineError, SegmentKind, Side};
 use crate::refusal::Refusal;
 use crate::report::shown;
+use crate::units::LengthUnit;
 use nalgebra::Vector2;
 use std::f64::consts::FRAC_PI_8;
 
@@ -36,6 +37,8 @@ pub struct MillingProgram {
     pub controller: Controller,
     /// Decimals of its numbers.
     pub decimals: u32,
+    /// The unit of its lengths; here they are in mm, on the grid of its numbers.
+    pub units: LengthUnit,
     /// Feeds, speeds and heights.
     pub cutting: CuttingData,
     /// Radius of the cutter whose centre is moved, m; `None` where the control keeps its cutter on the profile.
@@ -180,16 +183,18 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
     }
     let cutting = body.machine().cutting();
     let controller = asked.controller.unwrap_or(cutting.controller);
-    let decimals = cutting.decimals.unwrap_or(controller.decimals());
+    let units = body.machine().units();
+    let decimals = cutting.decimals.unwrap_or(controller.decimals(units));
     let cutter = cutter_of(body, request);
+    let grid = Grid::of_lengths(decimals, units);
     let drawn = drawn(body, request, (cutter, decimals))?;
-    let depths = depths(body, &cutting, decimals)?;
+    let depths = depths(body, &cutting, grid)?;
     let mut first = 0;
     let mut programs = Vec::with_capacity(drawn.parts.len());
     for (part, drawn_part) in drawn.parts.iter().enumerate() {
         let cuts: Vec<usize> = (first..first + drawn_part.outlines().count()).collect();
         first += cuts.len();
-        let passes = passes(body, request, (&drawn, drawn_part, &cuts), (cutter, Grid::of_decimals(decimals)))?;
+        let passes = passes(body, request, (&drawn, drawn_part, &cuts), (cutter, grid))?;
         let blocks = depths.len() * passes.iter().map(|pass| pass.blocks.len()).sum::<usize>();
         if blocks > MOST_BLOCKS {
             let what = format!("the program would have {blocks} blocks, more than {MOST_BLOCKS}");
@@ -197,7 +202,18 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
         }
         let (cutting, depths) = (cutting.clone(), depths.clone());
         let turned = None;
-        programs.push(MillingProgram { part, cuts, controller, decimals, cutting, cutter, passes, depths, turned });
+        programs.push(MillingProgram {
+            part,
+            cuts,
+            controller,
+            decimals,
+            units,
+            cutting,
+            cutter,
+            passes,
+            depths,
+            turned,
+        });
     }
     Ok(programs)
 }
@@ -205,7 +221,7 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
 /// The drawing within what rounding leaves of the tolerance, with the paths of the cutter where its centre is moved.
 fn drawn(body: &dyn Body, request: &Request, (cutter, decimals): (Option<f64>, u32)) -> Result<Drawn, MillingError> {
     let (middle, half) = request.fit.band();
-    let rounding = ROUNDING * Grid::of_decimals(decimals).step() / MILLIMETRES;
+    let rounding = ROUNDING * Grid::of_lengths(decimals, body.machine().units()).step() / MILLIMETRES;
     if half - rounding < LEAST_SHARE * half {
         let sides = request.fit.tolerance / half;
         let least = 1e6 * sides * rounding / (1.0 - LEAST_SHARE);
@@ -255,7 +271,7 @@ fn one_pass(cuts: &[Cut<'_>], cutter: Option<f64>) -> bool {
 }
 
 /// The depths of the passes, mm.
-pub(super) fn depths(body: &dyn Body, cutting: &CuttingData, decimals: u32) -> Result<Vec<f64>, Refusal> {
+pub(super) fn depths(body: &dyn Body, cutting: &CuttingData, grid: Grid) -> Result<Vec<f64>, Refusal> {
     let depth = depth_of(body).ok_or_else(|| {
         let refusal = Refusal::new("the depth of the cut is not known");
         refusal.remedy("give cam.thickness, or cut.depth")
@@ -268,7 +284,6 @@ pub(super) fn depths(body: &dyn Body, cutting: &CuttingData, decimals: u32) -> R
         let least = shown(1.001 * depth / MOST_PASSES);
         return Err(Refusal::new(what).remedy(format!("give a cut.depth_per_pass of at least {least} mm")));
     }
-    let grid = Grid::of_decimals(decimals);
     let mut depths = Vec::new();
     while f64::from(u32::try_from(depths.len()).unwrap_or(u32::MAX)) < count {
         let number = f64::from(u32::try_from(depths.len() + 1).unwrap_or(u32::MAX));

@@ -10,6 +10,7 @@ use crate::report::motion_diagram::{
 };
 use crate::report::shown;
 use crate::table::{self, Row};
+use crate::units::LengthUnit;
 use std::f64::consts::TAU;
 
 /// Places of a turn or a travel, and least places of a stretch, at which values are taken.
@@ -110,12 +111,15 @@ pub fn motion_diagram(body: &dyn Body, outline: Option<&Contour>) -> Option<Moti
     let turns = motion.period().is_some();
     let (first, last) = motion.range();
     Some(MotionDiagram {
-        places: match (turns, motion.is_by_travel()) {
-            (true, _) => "cam angle θ, degrees",
-            (false, true) => "travel x of the plate, mm",
-            (false, false) => "overrun x of the bed, mm",
+        places: match (turns, motion.is_by_travel(), source.units()) {
+            (true, ..) => "cam angle θ, degrees",
+            (false, true, LengthUnit::Millimetre) => "travel x of the plate, mm",
+            (false, true, LengthUnit::Inch) => "travel x of the plate, in",
+            (false, false, LengthUnit::Millimetre) => "overrun x of the bed, mm",
+            (false, false, LengthUnit::Inch) => "overrun x of the bed, in",
         },
         turns,
+        units: source.units(),
         range: if turns { (0.0, 360.0) } else { (source.place(first, 0.0), source.place(last, 0.0)) },
         segments: source.segments(),
         panels,
@@ -143,7 +147,15 @@ impl DiagramSource<'_> {
 
     /// The place of a parameter after so many turns (rad): degrees of the turn, or millimetres.
     fn place(&self, parameter: f64, turns: f64) -> f64 {
-        if self.turns() { (parameter - turns).to_degrees().clamp(0.0, 360.0) } else { 1e3 * parameter + 0.0 }
+        if self.turns() {
+            (parameter - turns).to_degrees().clamp(0.0, 360.0)
+        } else {
+            self.units().of_mm(1e3 * parameter) + 0.0
+        }
+    }
+
+    fn units(&self) -> LengthUnit {
+        self.body.machine().units()
     }
 
     /// Every column at a parameter of a piece.
@@ -225,8 +237,11 @@ impl DiagramSource<'_> {
 
     /// "lift 0 to 30 mm", of the lifts at the start, in the middle and at the end.
     fn travel(&self, lifts: [f64; 3]) -> String {
-        let (size, unit) =
-            if self.motion.quantity() == Quantity::Angle { (1.0_f64.to_degrees(), "°") } else { (1e3, " mm") };
+        let (size, unit) = match (self.motion.quantity(), self.units()) {
+            (Quantity::Angle, _) => (1.0_f64.to_degrees(), "°"),
+            (_, LengthUnit::Millimetre) => (1e3, " mm"),
+            (_, LengthUnit::Inch) => (self.units().of_mm(1e3), " in"),
+        };
         let [from, middle, to] = lifts.map(|lift| figure(((size * lift.max(0.0)) * 1e4).round() / 1e4));
         match (from == to, from == middle) {
             (false, _) => format!("lift {from} to {to}{unit}"),
@@ -239,7 +254,7 @@ impl DiagramSource<'_> {
         let shown = self.shown.get(index).map_or(&LIFT_MM, |shown| *shown);
         let value = |values: &[f64]| values.get(index).copied().unwrap_or(f64::NAN);
         let (size, _) = size_of(runs.iter().flat_map(|run| &run.at).map(|(_, values)| value(values)));
-        let (unit, factor) = unit(shown.column, self.body.shaft_speed(), size);
+        let (unit, factor) = in_units(unit(shown.column, self.body.shaft_speed(), size), self.units());
         let law: Vec<DiagramRun> = runs
             .iter()
             .map(|run| run.at.iter().map(|(at, values)| [self.place(*at, run.turns), factor * value(values)]).collect())
@@ -384,6 +399,31 @@ fn size_of(values: impl Iterator<Item = f64>) -> (f64, [f64; 2]) {
         .filter(|value| value.is_finite())
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
     if low > high { (0.0, [0.0; 2]) } else { (high.max(-low), [low, high]) }
+}
+
+/// A unit of lengths and the factor to it in the unit of the diagram.
+fn in_units((name, factor): (&'static str, f64), units: LengthUnit) -> (&'static str, f64) {
+    if units == LengthUnit::Millimetre {
+        return (name, factor);
+    }
+    let metre = 1e3;
+    let (inch, millimetres, power) = match name {
+        "mm" => ("in", 1.0, 1),
+        "mm/rad" => ("in/rad", 1.0, 1),
+        "mm/rad²" => ("in/rad²", 1.0, 1),
+        "mm/rad³" => ("in/rad³", 1.0, 1),
+        "mm/s" => ("in/s", 1.0, 1),
+        "m/s" => ("in/s", metre, 1),
+        "mm/s²" => ("in/s²", 1.0, 1),
+        "m/s²" => ("in/s²", metre, 1),
+        "mm/s³" => ("in/s³", 1.0, 1),
+        "m/s³" => ("in/s³", metre, 1),
+        "mm/mm" => ("in/in", 1.0, 0),
+        "mm/mm²" => ("in/in²", 1.0, -1),
+        "mm/mm³" => ("in/in³", 1.0, -2),
+        other => (other, 1.0, 0),
+    };
+    (inch, units.of_mm_to(millimetres * factor, power))
 }
 
 /// The unit of a column in the diagram, and the factor of its values: by time where the speed of the shaft is known, rad/s.

@@ -28,7 +28,8 @@ pub(super) const MOST_ROWS: usize = 200_000;
 pub(super) fn program(body: &dyn Body, request: &Request, asked: Milling) -> Result<Vec<MillingProgram>, MillingError> {
     let cutting = body.machine().cutting();
     let controller = asked.controller.unwrap_or(cutting.controller);
-    let decimals = cutting.decimals.unwrap_or(controller.decimals());
+    let units = body.machine().units();
+    let decimals = cutting.decimals.unwrap_or(controller.decimals(units));
     if controller == Controller::Heidenhain {
         return Err(without_time("cut.form \"polar\"")
             .remedy("give another --controller, or cut.form = \"milling\"")
@@ -39,14 +40,14 @@ pub(super) fn program(body: &dyn Body, request: &Request, asked: Milling) -> Res
         let refusal = Refusal::new("cut.form \"polar\" moves the centre of a wheel whose size is not given");
         refusal.remedy("give --cutter-diameter")
     })?;
-    let grid = Grid::of_decimals(decimals);
+    let grid = Grid::of_lengths(decimals, units);
     let mut rows = rows((body, disc), request, (wheel, grid, decimals))?;
     let climbs = cutting.direction == MillingDirection::Climb;
     if climbs == (sense(body) < 0.0) {
         rows.reverse();
     }
     let away = rows.iter().map(|row| row[1]).fold(0.0, f64::max) + AWAY;
-    let depths = depths(body, &cutting, decimals)?;
+    let depths = depths(body, &cutting, grid)?;
     if depths.len() * rows.len() > MOST_ROWS {
         let what = format!("the program would have {} rows, more than {MOST_ROWS}", depths.len() * rows.len());
         return Err(Refusal::new(what).remedy("give a larger cut.depth_per_pass, or a coarser --tolerance").into());
@@ -61,6 +62,7 @@ pub(super) fn program(body: &dyn Body, request: &Request, asked: Milling) -> Res
         cuts: vec![0],
         controller,
         decimals,
+        units,
         cutting,
         cutter,
         passes: Vec::new(),
@@ -106,7 +108,8 @@ fn rows(
         |tolerance: f64| place(&path, &PointTableSpec { form, step, between, tolerance }, None).map_err(Refusal::from);
     // Half a step of X, and half a step of C at the largest distance.
     let farthest = within(MILLIMETRES * half)?.rows.iter().map(|row| row[1]).fold(0.0, f64::max);
-    let rounding = 0.5 * grid.step() * (1.0 + farthest.to_radians());
+    let angles = Grid::of_decimals(decimals);
+    let rounding = 0.5 * (grid.step() + angles.step() * farthest.to_radians());
     let tolerance = MILLIMETRES * half - rounding;
     if tolerance < LEAST_SHARE * MILLIMETRES * half {
         let asked = shown(1e6 * request.fit.tolerance);
@@ -115,7 +118,7 @@ fn rows(
         return Err(Refusal::new(what).remedy(remedy).into());
     }
     let sense = sense(body);
-    let on_grid = |[angle, radius]: &[f64; 2]| [grid.nearest(sense * angle), grid.nearest(*radius)];
+    let on_grid = |[angle, radius]: &[f64; 2]| [angles.nearest(sense * angle), grid.nearest(*radius)];
     let mut rows: Vec<[f64; 2]> = within(tolerance)?.rows.iter().map(on_grid).collect();
     // A full turn, whatever the rounding of its ends.
     if let [first, .., last] = rows.as_mut_slice() {

@@ -13,6 +13,7 @@ use crate::profile::followed::FollowerOnChain;
 use crate::profile::outline::Outline;
 use crate::report::sheet::{Mark, PlaceTable, ProfileTolerance, ShapeGroup, SheetShape, rounded};
 use crate::report::trace::Trace;
+use crate::units::LengthUnit;
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -69,10 +70,18 @@ pub(crate) fn axes(crossed: &Extents) -> Vec<SheetShape> {
     ]
 }
 
+/// A travel, m, for a text: "x = 12.34 mm".
+pub(crate) fn travelled(machine: &Machine, travel: f64) -> String {
+    match machine.units() {
+        LengthUnit::Millimetre => format!("x = {:.2} mm", MILLIMETRES * travel),
+        LengthUnit::Inch => format!("x = {} in", LengthUnit::Inch.cell(MILLIMETRES * travel)),
+    }
+}
+
 /// Length and height of an outline, as dimensions to its left and below.
-pub(crate) fn overall(outline: &Extents) -> Vec<Mark> {
+pub(crate) fn overall(outline: &Extents, units: LengthUnit) -> Vec<Mark> {
     let (least, largest) = (outline.least, outline.largest);
-    let text = |length: f64| rounded((length * 1e3).round() / 1e3);
+    let text = |length: f64| units.dimension((length * 1e3).round() / 1e3);
     vec![
         Mark::Distance {
             from: least,
@@ -89,15 +98,10 @@ pub(crate) fn overall(outline: &Extents) -> Vec<Mark> {
     ]
 }
 
-/// " H7 +0.021/0": a tolerance class with its deviations at a size (m), mm.
-fn fit_words(fit: HoleFit, size: f64) -> String {
-    let signed = |value: f64| {
-        let text = rounded((MILLIMETRES * value * 1e4).round() / 1e4);
-        if value > 0.0 { format!("+{text}") } else { text.replace('-', "−") }
-    };
+/// " H7 +0.021/0": a tolerance class with its deviations at a size (m), in a unit.
+fn fit_words(fit: HoleFit, size: f64, units: LengthUnit) -> String {
     match fit.deviations(size) {
-        Some([low, high]) if low == -high => format!(" {fit} ±{}", rounded(MILLIMETRES * high)),
-        Some([low, high]) => format!(" {fit} {}/{}", signed(high), signed(low)),
+        Some(limits) => format!(" {fit} {}", units.limits(limits.map(|limit| MILLIMETRES * limit))),
         None => format!(" {fit}"),
     }
 }
@@ -132,11 +136,26 @@ pub(crate) fn profile_tolerance(
     (half > 0.0 && width_mm > 0.0).then_some(ProfileTolerance { width_mm, proposed_from: Some(from) })
 }
 
+/// The standard of the zone of a profile on a drawing in a unit.
+fn zone_standard(units: LengthUnit) -> &'static str {
+    match units {
+        LengthUnit::Millimetre => "ISO 1101",
+        LengthUnit::Inch => "ASME Y14.5",
+    }
+}
+
 /// A given zone of the profile as a note, for a body whose drawing has no place for the frame.
 pub(crate) fn tolerance_note(machine: &Machine) -> Vec<String> {
-    let width = machine.title.profile_tolerance.map(|width| rounded(MILLIMETRES * width));
+    let units = machine.units();
+    let width = machine.title.profile_tolerance.map(|width| units.zone(MILLIMETRES * width));
     width
-        .map(|width| format!("all profiles within a zone of {width} mm about the drawn ones (ISO 1101)"))
+        .map(|width| {
+            format!(
+                "all profiles within a zone of {width} {} about the drawn ones ({})",
+                units.symbol(),
+                zone_standard(units)
+            )
+        })
         .into_iter()
         .collect()
 }
@@ -149,7 +168,7 @@ pub(crate) fn tolerance_frame(
 ) -> Mark {
     let cam = &machine.cam;
     let datums = [cam.bore_radius.map(|_| "A"), cam.bore_radius.and(cam.keyway).map(|_| "B")];
-    let width = rounded(tolerance.width_mm);
+    let width = machine.units().zone(tolerance.width_mm);
     let cells = std::iter::once(width).chain(datums.into_iter().flatten().map(str::to_owned)).collect();
     let behind = tolerance.proposed_from.map_or_else(String::new, |from| format!("proposal: {from}"));
     Mark::Tolerance { places, cells, behind }
@@ -159,14 +178,16 @@ pub(crate) fn tolerance_frame(
 pub(crate) fn bore(machine: &Machine, balancing: Option<&Balancing>) -> Vec<Mark> {
     let mut marks = Vec::new();
     let Some(bore) = machine.cam.bore_radius else { return marks };
+    let units = machine.units();
     let radius = MILLIMETRES * bore;
+    let size_with = |fit: bool, length: f64| if fit { units.toleranced(length) } else { units.dimension(length) };
     let down_right = Vector2::new(0.6, -0.8);
-    let fit = machine.cam.bore_fit.map(|fit| fit_words(fit, 2.0 * bore)).unwrap_or_default();
+    let fit = machine.cam.bore_fit.map(|fit| fit_words(fit, 2.0 * bore, units)).unwrap_or_default();
     marks.push(Mark::Label {
         class: "dimension",
         at: down_right * radius,
         towards: down_right,
-        text: format!("Ø{}{fit}", rounded(2.0 * radius)),
+        text: format!("Ø{}{fit}", size_with(machine.cam.bore_fit.is_some(), 2.0 * radius)),
     });
     let down_left = Vector2::new(-0.6, -0.8);
     marks.push(Mark::Datum { at: down_left * radius, towards: down_left, letter: "A" });
@@ -174,9 +195,9 @@ pub(crate) fn bore(machine: &Machine, balancing: Option<&Balancing>) -> Vec<Mark
         let along = Vector2::new(libm::cos(keyway.angle), libm::sin(keyway.angle));
         let along = point_as_turned(machine, along);
         let (width, depth) = (MILLIMETRES * keyway.width, MILLIMETRES * keyway.depth);
-        let fit = machine.cam.keyway_fit.map(|fit| fit_words(fit, keyway.width)).unwrap_or_default();
+        let fit = machine.cam.keyway_fit.map(|fit| fit_words(fit, keyway.width, units)).unwrap_or_default();
         let standard = parallel_key::standard(2.0 * bore, keyway.width, keyway.depth);
-        let deeper = standard.map(|standard| format!(" +{}", rounded(MILLIMETRES * standard.deeper)));
+        let deeper = standard.map(|standard| format!(" +{}", units.zone(MILLIMETRES * standard.deeper)));
         let place = rounded(keyway.angle.to_degrees());
         // Off the axis, which its leader would lie on.
         let (sin, cos) = libm::sincos(0.4);
@@ -187,8 +208,8 @@ pub(crate) fn bore(machine: &Machine, balancing: Option<&Balancing>) -> Vec<Mark
             towards,
             text: format!(
                 "keyway {}{fit}, {}{} over the bore, at θ = {place}°{}",
-                rounded(width),
-                rounded(2.0 * radius + depth),
+                size_with(machine.cam.keyway_fit.is_some(), width),
+                size_with(standard.is_some(), 2.0 * radius + depth),
                 deeper.unwrap_or_default(),
                 standard.map_or("", |_| ", DIN 6885-1"),
             ),
@@ -205,7 +226,7 @@ pub(crate) fn bore(machine: &Machine, balancing: Option<&Balancing>) -> Vec<Mark
         class: "dimension",
         at: centre + Vector2::new(*radius, 0.0),
         towards: Vector2::new(1.0, 0.3),
-        text: format!("Ø{}", rounded(2.0 * radius)),
+        text: format!("Ø{}", units.dimension(2.0 * radius)),
     }));
     marks
 }
@@ -261,19 +282,24 @@ fn cell(value: Option<f64>, decimals: usize) -> String {
     value.map_or("–".to_owned(), |value| format!("{:.decimals$}", value + 0.0))
 }
 
+/// A length, mm, as a cell of a table in a unit; a dash where there is no value.
+pub(crate) fn length_cell(value: Option<f64>, units: LengthUnit) -> String {
+    value.map_or("–".to_owned(), |value| units.cell(value))
+}
+
 /// The profiles of several sections as a shop plots them: R of each at the polar angles ψ, with the head of its column.
-pub(crate) fn section_profiles(sections: &[(String, &Contour)]) -> Vec<PlaceTable> {
+pub(crate) fn section_profiles(sections: &[(String, &Contour)], units: LengthUnit) -> Vec<PlaceTable> {
     let (angles, rays) = rays();
     let radii: Vec<Vec<Option<f64>>> = sections.iter().map(|(_, contour)| polar::outermost(contour, &rays)).collect();
     let row = |(index, degrees): (usize, &f64)| {
-        let of = |radii: &Vec<Option<f64>>| cell(radii.get(index).copied().flatten(), 3);
+        let of = |radii: &Vec<Option<f64>>| length_cell(radii.get(index).copied().flatten(), units);
         std::iter::once(cell(Some(*degrees), 0)).chain(radii.iter().map(of)).collect()
     };
     let rows: Arc<[Vec<String>]> = angles.iter().enumerate().map(row).collect();
     let heads: Vec<String> =
         std::iter::once("ψ, °".to_owned()).chain(sections.iter().map(|(head, _)| head.clone())).collect();
     let table = |(degrees, every): &(u32, usize)| PlaceTable {
-        title: format!("Profiles of the sections: radius R, mm, at polar angle ψ, each {degrees}°"),
+        title: format!("Profiles of the sections: radius R, {}, at polar angle ψ, each {degrees}°", units.symbol()),
         heads: heads.clone(),
         rows: Arc::clone(&rows),
         every: *every,
@@ -285,7 +311,7 @@ pub(crate) fn section_profiles(sections: &[(String, &Contour)]) -> Vec<PlaceTabl
 pub(crate) fn side_view(
     left: f64,
     outline: &Extents,
-    thickness: f64,
+    (thickness, units): (f64, LengthUnit),
     bore: Option<f64>,
 ) -> (Vec<ShapeGroup>, Vec<Mark>) {
     let (low, high) = (Vector2::new(left, outline.least.y), Vector2::new(left + thickness, outline.largest.y));
@@ -303,7 +329,7 @@ pub(crate) fn side_view(
         from: low,
         to: Vector2::new(high.x, low.y),
         away: Vector2::new(0.0, -1.0),
-        text: rounded(thickness),
+        text: units.dimension(thickness),
     };
     (groups, vec![size])
 }
@@ -312,6 +338,8 @@ pub(crate) fn side_view(
 /// which the follower touches that place and its lift there.
 pub(crate) fn profile_table(machine: &Machine, curves: Curves<'_>, outline: &Contour) -> Vec<PlaceTable> {
     let swings = curves.motion.quantity() == Quantity::Angle;
+    let units = machine.units();
+    let unit = units.symbol();
     let (angles, rays) = rays();
     let radii = polar::outermost(outline, &rays);
     let touched = touched(machine, curves, &rays, &radii);
@@ -319,9 +347,10 @@ pub(crate) fn profile_table(machine: &Machine, curves: Curves<'_>, outline: &Con
         let lift = at.map(|at| {
             let (piece, angle) = curves.motion.locate(at);
             let lift = curves.motion.jet(piece, angle).s;
-            if swings { lift.to_degrees() } else { MILLIMETRES * lift }
+            if swings { cell(Some(lift.to_degrees()), 3) } else { units.cell(MILLIMETRES * lift) }
         });
-        vec![cell(Some(degrees), 0), cell(*radius, 3), cell(at.map(|at| turn(at.to_degrees())), 2), cell(lift, 3)]
+        let touches = cell(at.map(|at| turn(at.to_degrees())), 2);
+        vec![cell(Some(degrees), 0), length_cell(*radius, units), touches, lift.unwrap_or_else(|| cell(None, 3))]
     };
     let rows: Arc<[Vec<String>]> = angles.into_iter().zip(&radii).zip(&touched).map(row).collect();
     EVERY
@@ -330,7 +359,12 @@ pub(crate) fn profile_table(machine: &Machine, curves: Curves<'_>, outline: &Con
             title: format!(
                 "Profile on the part: radius R at polar angle ψ, each {degrees}°; cam angle θ of contact, lift there"
             ),
-            heads: ["ψ, °", "R, mm", "θ, °", if swings { "lift, °" } else { "lift, mm" }].map(str::to_owned).to_vec(),
+            heads: vec![
+                "ψ, °".to_owned(),
+                format!("R, {unit}"),
+                "θ, °".to_owned(),
+                format!("lift, {}", if swings { "°" } else { unit }),
+            ],
             rows: Arc::clone(&rows),
             every: *every,
         })
@@ -368,28 +402,37 @@ fn touched(machine: &Machine, curves: Curves<'_>, rays: &[Vector2<f64>], radii: 
 #[must_use]
 pub fn traces(first: torque::DiscOutline<'_>, second: Option<torque::DiscOutline<'_>>) -> Vec<Trace> {
     let (Some(curves), Some(followed)) = (curves_of(first.0), torque::followed(first)) else { return Vec::new() };
-    std::iter::once(acceleration(curves, &followed)).chain(torque::trace(first.0, &followed, second)).collect()
+    std::iter::once(acceleration(curves, &followed, first.0.machine().units()))
+        .chain(torque::trace(first.0, &followed, second))
+        .collect()
 }
 
-fn acceleration(curves: Curves<'_>, followed: &FollowerOnChain<'_>) -> Trace {
+fn acceleration(curves: Curves<'_>, followed: &FollowerOnChain<'_>, units: LengthUnit) -> Trace {
     let turns = curves.motion.period().is_some();
     let swings = curves.motion.quantity() == Quantity::Angle;
     let by_travel = curves.motion.is_by_travel();
-    let place = if turns { 1.0_f64.to_degrees() } else { 1e3 };
+    let place = if turns { 1.0_f64.to_degrees() } else { units.of_mm(1e3) };
+    let symbol = units.symbol();
     let (value, unit) = match (swings, by_travel) {
-        (true, _) => (1.0, "rad/rad²"),
-        (false, true) => (1e-3, "mm/mm²"),
-        (false, false) => (1e3, "mm/rad²"),
+        (true, _) => (1.0, "rad/rad²".to_owned()),
+        (false, true) => (units.of_mm_to(1e-3, -1), format!("{symbol}/{symbol}²")),
+        (false, false) => (units.of_mm(1e3), format!("{symbol}/rad²")),
     };
     let points = followed.accelerations(TRACE_SHARE);
     Trace {
         head: format!("Follower's acceleration, {unit}: motion (thin), as cut (bold)"),
-        places: match (turns, by_travel) {
-            (true, _) => "cam angle, deg",
-            (false, true) => "travel of the plate, mm",
-            (false, false) => "overrun of the bed, mm",
+        places: match (turns, by_travel, units) {
+            (true, ..) => "cam angle, deg",
+            (false, true, LengthUnit::Millimetre) => "travel of the plate, mm",
+            (false, true, LengthUnit::Inch) => "travel of the plate, in",
+            (false, false, LengthUnit::Millimetre) => "overrun of the bed, mm",
+            (false, false, LengthUnit::Inch) => "overrun of the bed, in",
         },
-        step: if turns { 30.0 } else { 20.0 },
+        step: match (turns, units) {
+            (true, _) => 30.0,
+            (false, LengthUnit::Millimetre) => 20.0,
+            (false, LengthUnit::Inch) => 1.0,
+        },
         period: turns.then_some(360.0),
         points: points.into_iter().map(|[at, motion, cut]| [place * at, value * motion, value * cut]).collect(),
     }

@@ -236,7 +236,7 @@ pub(super) fn laws(args: &LawsArgs) -> Result<Outcome, Failure> {
     }
     // Files are written as usual, but one of them is printed instead of the report.
     let (format, ending) = if args.csv { ("csv", ".csv") } else { ("svg", ".svg") };
-    let judged = Judged::new(analysis);
+    let judged = args.analysis.to.judged(Judged::new(analysis));
     let writing = writing(&args.analysis, judged.stem(&name))?;
     let shown = judged.files(&Writing { formats: Some(vec![format.to_owned()]), ..writing.clone() });
     let shown = shown.map_err(Failure::new)?;
@@ -266,12 +266,12 @@ impl AnalysisArgs {
 
 /// Judges, writes and reports.
 fn judge_and_write((analysis, machine): NamedAnalysis, args: &AnalysisArgs) -> Result<Outcome, Failure> {
-    write_judged(&Judged::new(analysis), args, &machine)
+    write_judged(&args.to.judged(Judged::new(analysis)), args, &machine)
 }
 
 /// Judges, writes under a stem of its own and reports.
 pub(super) fn judge_and_write_as(analysis: Analysis, args: &AnalysisArgs, stem: String) -> Result<Outcome, Failure> {
-    write_as(&Judged::new(analysis), args, &writing(args, stem)?)
+    write_as(&args.to.judged(Judged::new(analysis)), args, &writing(args, stem)?)
 }
 
 /// Which files of a judged analysis are written, and where.

@@ -5,7 +5,9 @@ use super::args::BrakeArgs;
 use super::progress::Progress;
 use super::{Failure, Outcome};
 use camgen::catalogue::catalogue;
+use camgen::document::NamedChoice;
 use camgen::domains::brake::{self, BrakeDisc, BrakeMachine, BrakeOutput, analysis};
+use camgen::machine::UNITS_KEY;
 use camgen::pipeline::{Judged, ProvenAssembly, Spec};
 use std::sync::Arc;
 
@@ -22,12 +24,14 @@ pub(super) fn of_brake(machine: &BrakeMachine) -> Result<(Spec, Arc<BrakeDisc>),
 }
 
 pub(super) fn run(args: &BrakeArgs) -> Result<Outcome, Failure> {
-    let loaded = BrakeMachine::load(catalogue(), &args.machine, &args.analysis.set, wanted(args));
+    let of_flag = args.analysis.to.units.map(|units| format!("{UNITS_KEY}={}", units.word()));
+    let set: Vec<String> = args.analysis.set.iter().cloned().chain(of_flag).collect();
+    let loaded = BrakeMachine::load(catalogue(), &args.machine, &set, wanted(args));
     let (machine, name) = loaded.map_err(Failure::new)?;
     let progress = Progress::of_stages(args.analysis.report.shows_progress());
     let judged = judged(args, &machine, |stage| progress.stage(stage))?;
     drop(progress);
-    write_judged(&judged, &args.analysis, &name)
+    write_judged(&args.analysis.to.judged(judged), &args.analysis, &name)
 }
 
 /// What of the file is read.

@@ -21,7 +21,7 @@ use camgen::domains::press::wedge::LAW_TOLERANCE;
 use camgen::geometry::lead_in::{LeadIn, LeadInForm};
 use camgen::geometry::points::PointInterpolation;
 use camgen::machine::Machine;
-use camgen::pipeline::{Cam, FileSet, ProvenAssembly, Spec, Writing};
+use camgen::pipeline::{Cam, FileSet, Judged, ProvenAssembly, Spec, Writing};
 use camgen::profile::outline::Fit;
 use camgen::report::LazyReport;
 use camgen::units::{self, Dimension};
@@ -41,6 +41,7 @@ pub(super) fn rotary(args: &RotaryArgs) -> Result<Outcome, Failure> {
     let args = &args.disc;
     let overrides: Vec<String> = args.common.set.iter().cloned().chain(keys).collect();
     let (mut machine, name) = args.common.machine_with(args.common.machine_name(), &overrides)?;
+    machine = args.files.to.of_units(machine);
     let rpm = args.common.one_speed(&machine)?;
     let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
     cut(Spec::rotary(machine, rpm), request, &args.common, &args.files, &name)
@@ -48,6 +49,7 @@ pub(super) fn rotary(args: &RotaryArgs) -> Result<Outcome, Failure> {
 
 pub(super) fn translating(args: &TranslatingArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.common.machine()?;
+    let machine = args.files.to.of_units(machine);
     let rpm = args.common.one_speed(&machine)?;
     let solver = match (args.solver, args.stations) {
         (SolverKind::Paper, stations) => Solver::Paper { stations: stations.unwrap_or(STATIONS) },
@@ -62,7 +64,7 @@ pub(super) fn translating(args: &TranslatingArgs) -> Result<Outcome, Failure> {
 
 pub(super) fn conoid(args: &ConoidArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.common.machine()?;
-    let spec = of_conoid(&args.common, machine, args.residual)?;
+    let spec = of_conoid(&args.common, args.files.to.of_units(machine), args.residual)?;
     cut(spec, args.files.request(&args.common)?, &args.common, &args.files, &name)
 }
 
@@ -73,6 +75,7 @@ pub(super) fn make(args: &DiscArgs) -> Result<Outcome, Failure> {
     if args.common.end.is_some() {
         return Err(Failure("--end belongs to the cams of a press: a motion program has no ends of a stroke".into()));
     }
+    machine = args.files.to.of_units(machine);
     let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
     let spec = of_program(&args.common, (machine, file))?;
     cut(spec, request, &args.common, &args.files, &name)
@@ -246,6 +249,22 @@ fn lead_in(words: &[String]) -> Result<LeadIn, Failure> {
 }
 
 impl OutputArgs {
+    /// The machine with the unit of the flag, where it is given.
+    pub(super) fn of_units(&self, machine: Machine) -> Machine {
+        match self.units {
+            Some(units) => machine.in_units(units),
+            None => machine,
+        }
+    }
+
+    /// What was judged, in the unit of the flag, where it is given.
+    pub(super) fn judged(&self, judged: Judged) -> Judged {
+        match self.units {
+            Some(units) => judged.in_units(units),
+            None => judged,
+        }
+    }
+
     /// The template of the sheet.
     pub(super) fn template(&self) -> Result<String, Failure> {
         match &self.template {

@@ -7,16 +7,18 @@ use super::progress::Progress;
 use super::{Failure, Outcome, print, print_painted, text};
 use camgen::body::Request;
 use camgen::body::conjugate::COUNTER;
+use camgen::document::NamedChoice;
 use camgen::document::file::bytes_of;
 use camgen::domains::press::motion::equation_18::Solver;
 use camgen::domains::press::wedge::LAW_TOLERANCE;
-use camgen::machine::Machine;
+use camgen::machine::{Machine, UNITS_KEY};
 use camgen::pipeline::{Cam, Error, ExpectedFile, FileKind, Spec};
 use camgen::profile::outline::Fit;
 use camgen::reading::LARGEST_FILE;
 use camgen::report::{Report, Section};
+use camgen::units::LengthUnit;
 use camgen::write::json;
-use camgen::write::record::RecordedRun;
+use camgen::write::record::{self, RecordedRun};
 use std::path::Path;
 
 pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
@@ -37,6 +39,10 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
         cutter: args.cutter_radius.or(args.cutter_diameter).or(recorded_cutter),
     };
     let Design { spec, told, recorded, exact } = design;
+    let spec = match args.units.or_else(|| recorded_units(&args.file)) {
+        Some(units) => spec.in_units(units),
+        None => spec,
+    };
     let progress = Progress::of_stages(args.common.report.shows_progress());
     progress.stage("solving");
     let (machine, given) = (spec.machine().clone(), recorded.is_none());
@@ -71,6 +77,16 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
         print_painted(&text::check_report(&file, &report, args.common.report.page()))?;
     }
     Ok(if report.passed() { Outcome::Fine } else { Outcome::CheckFailed })
+}
+
+/// The unit in which the run wrote its files that the record next to a file has under the longest part of its name.
+fn recorded_units(file: &Path) -> Option<LengthUnit> {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let name = file.file_name()?.to_str()?;
+    let of_name = |run: &RecordedRun| name.strip_prefix(&*run.stem).is_some_and(|rest| rest.starts_with(['.', '-']));
+    let run = record::runs(folder).into_iter().filter(of_name).max_by_key(|run| run.stem.len())?;
+    let given = run.inputs.iter().find(|input| input.key == UNITS_KEY);
+    given.and_then(|input| LengthUnit::named(&input.value))
 }
 
 /// The speed that the name of a section's file ends with, in a run of several speeds.

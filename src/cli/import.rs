@@ -44,7 +44,7 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
         }
     };
     let analysis = import::analysis(&source, &options).map_err(|why| Failure(format!("`{file}`: {why}")))?;
-    let judged = Judged::new(analysis);
+    let judged = args.to.judged(Judged::new(analysis));
     let stem = args.to.name.clone().unwrap_or_else(|| judged.stem(&name));
     let usual = || USUAL.map(str::to_owned).to_vec();
     let writing = Writing {

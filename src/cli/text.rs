@@ -5,6 +5,7 @@ mod glossary;
 
 use camgen::document::plain;
 use camgen::report::{Finding, Place, Report, Section, Verdict};
+use camgen::units::LengthUnit;
 use std::io::IsTerminal;
 
 const GREEN: &str = "\u{1b}[32m";
@@ -49,12 +50,13 @@ pub(super) fn check_report(file: &str, report: &Report, page: Page) -> String {
 }
 
 fn written(first: &str, report: &Report, page: Page) -> String {
+    let report = &*report.for_people();
     let mut lines = vec![plain(first).into_owned()];
     lines.extend(report.sections.iter().flat_map(|of| section(of, page)).map(|line| plain(&line).into_owned()));
     if !report.checks.is_empty() {
         lines.push("  checks".into());
     }
-    lines.extend(checks(&report.checks, page));
+    lines.extend(checks(&report.checks, report.units, page));
     let entries = |entries: &[String]| -> Vec<String> {
         entries.iter().map(|entry| wrapped(&format!("    {}", plain(entry)), 6, page)).collect()
     };
@@ -83,17 +85,17 @@ fn section(section: &Section, page: Page) -> Vec<String> {
 }
 
 /// The cells of a check: its name, the value without and the unit with its sign, the limit, the place.
-fn cells(finding: &Finding) -> [String; 5] {
+fn cells(finding: &Finding, units: LengthUnit) -> [String; 5] {
     let value = finding.value_words();
     let (number, unit) = value.split_once(' ').unwrap_or((&value, ""));
-    let place = if finding.place == Place::default() { String::new() } else { finding.place.to_string() };
+    let place = if finding.place == Place::default() { String::new() } else { finding.place.words(units) };
     let limit = finding.limit_words().unwrap_or_default();
     [finding.check.to_string(), number.to_owned(), unit.to_owned(), limit, place]
 }
 
 /// A line for each check, in columns, and one below where there is more to say.
-fn checks(findings: &[Finding], page: Page) -> Vec<String> {
-    let rows: Vec<[String; 5]> = findings.iter().map(cells).collect();
+fn checks(findings: &[Finding], units: LengthUnit, page: Page) -> Vec<String> {
+    let rows: Vec<[String; 5]> = findings.iter().map(|finding| cells(finding, units)).collect();
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
     let [name, number, unit, limit] = [0, 1, 2, 3].map(width);
     let mut lines = Vec::new();

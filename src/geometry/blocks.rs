@@ -5,6 +5,7 @@
 //! LinuxCNC, `CIRCLE_ERROR_CONST` of 0.01 mm in SINUMERIK, `circleDeviation` of at most 0.016 mm in HEIDENHAIN controls).
 
 use super::contour::Segment;
+use crate::units::LengthUnit;
 use nalgebra::Vector2;
 
 /// Larger radii than this are out of the range of some controls (FANUC: 99999.999 mm): such an arc is written as lines.
@@ -56,6 +57,12 @@ impl Grid {
     #[must_use]
     pub fn of_decimals(decimals: u32) -> Self {
         Self { per_unit: (0..decimals.min(9)).fold(1.0, |power, _| 10.0 * power) }
+    }
+
+    /// The lengths, mm, that are numbers with so many decimals of a unit.
+    #[must_use]
+    pub fn of_lengths(decimals: u32, units: LengthUnit) -> Self {
+        Self { per_unit: units.of_mm(Self::of_decimals(decimals).per_unit) }
     }
 
     /// The distance between two numbers.

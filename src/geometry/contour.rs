@@ -68,6 +68,19 @@ pub struct Contour {
 }
 
 impl Contour {
+    /// The contour with all of its lengths multiplied, about the origin.
+    #[must_use]
+    pub fn scaled(&self, scale: f64) -> Self {
+        let vertex = |vertex: &Vertex| {
+            let bend = match vertex.bend {
+                Bend::Arc(bulge) => Bend::Arc(bulge),
+                Bend::Cubic([leaves, arrives]) => Bend::Cubic([leaves * scale, arrives * scale]),
+            };
+            Vertex { point: vertex.point * scale, bend }
+        };
+        Self { vertices: self.vertices.iter().map(vertex).collect() }
+    }
+
     /// A full circle, counter-clockwise, as two half arcs.
     #[must_use]
     pub fn circle(centre: Vector2<f64>, radius: f64) -> Self {

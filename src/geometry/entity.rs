@@ -27,6 +27,18 @@ impl Entity {
         }
     }
 
+    /// The entity with all of its lengths multiplied, about the origin.
+    #[must_use]
+    pub fn scaled(&self, scale: f64) -> Self {
+        match self {
+            Entity::Polyline(contour) => Entity::Polyline(contour.scaled(scale)),
+            Entity::Circle(centre, radius) => Entity::Circle(centre * scale, radius * scale),
+            Entity::Segment(Segment { start, end, bulge }) => {
+                Entity::Segment(Segment { start: start * scale, end: end * scale, bulge: *bulge })
+            }
+        }
+    }
+
     /// Extents, mm.
     #[must_use]
     pub fn extents(&self) -> Extents {

@@ -5,6 +5,7 @@ use crate::document::cams::FLAT;
 use crate::document::range::{LARGEST_NUMBER, LONGEST};
 use crate::document::{Field, KeySection, NamedChoice, Occurrence, Reader, above, within};
 use crate::units::Dimension::{Length, Speed};
+use crate::units::LengthUnit;
 
 /// A control, whose words a program is written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -36,13 +37,15 @@ impl NamedChoice for Controller {
 }
 
 impl Controller {
-    /// Decimals of a millimetre that it takes without another setting: the 0.001 mm of FANUC's increment system IS-B, 0.0001 mm of the others.
+    /// Decimals that it takes without another setting: the 0.001 mm or 0.0001 in of FANUC's increment system IS-B, 0.0001 mm or 0.00001 in of the
+    /// others.
     #[must_use]
-    pub fn decimals(self) -> u32 {
-        match self {
+    pub fn decimals(self, units: LengthUnit) -> u32 {
+        let of_millimetre = match self {
             Self::Fanuc => 3,
             Self::LinuxCnc | Self::Sinumerik | Self::Heidenhain => 4,
-        }
+        };
+        of_millimetre + u32::from(units == LengthUnit::Inch)
     }
 
     /// The ending that it expects of the name of a program.
@@ -92,7 +95,7 @@ pub struct CuttingData {
     pub controller: Controller,
     /// How it is cut.
     pub form: CuttingForm,
-    /// Decimals of a millimetre; `None`: those of the control.
+    /// Decimals of lengths; `None`: those of the control.
     pub decimals: Option<u32>,
     /// Lines before what the program itself sets, and before its first move.
     pub preamble: Vec<String>,
@@ -149,7 +152,7 @@ const FORM: Field<CuttingForm> = Field::words(
 );
 const DECIMALS: Field<f64> = Field::number(
     "decimals",
-    "decimals of a millimetre in a program, 3 to 6; 4 when absent, 3 for fanuc (4 with increment system IS-C)",
+    "decimals of the lengths in a program, 3 to 6; 4 when absent, 3 for fanuc (4 with increment system IS-C); one more in inches",
     Optional("4"),
     within(3.0, 6.0),
 )

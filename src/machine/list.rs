@@ -1,6 +1,6 @@
 //! The tables of a machine file.
 
-use super::{ROOT, barrel, bearing, cutting, disc, dynamics, limits, plate, title, track, turret};
+use super::{ROOT, barrel, bearing, cutting, disc, dynamics, limits, output, plate, title, track, turret};
 use crate::document::KeySection;
 use crate::follower::FOLLOWERS;
 use crate::motion::program;
@@ -27,6 +27,7 @@ const BODY_TABLES: &[&KeySection] = &[
     &limits::SECTION,
     &title::SECTION,
     &cutting::SECTION,
+    &output::SECTION,
 ];
 
 /// The tables of a machine file, and one for each kind of follower.

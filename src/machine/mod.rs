@@ -17,6 +17,7 @@ mod limits;
 mod list;
 mod material;
 mod other_files;
+mod output;
 pub mod parallel_key;
 mod parts;
 mod plate;
@@ -39,6 +40,7 @@ pub(crate) use lift_table::read as read_lift_table;
 pub use limits::{Limits, OvershootLimit, customary_stress, customary_stress_of, stress_at_rest};
 pub use list::sections;
 pub use material::{CamMaterial, Grade, Material};
+pub use output::UNITS_KEY;
 pub use parts::{MachinePart, MachineParts};
 pub use plate::PlateData;
 pub use source::{Catalogue, MachineSource, ReadParts};
@@ -51,11 +53,12 @@ pub use turret::TurretData;
 use crate::document::Presence::Required;
 use crate::document::cams;
 use crate::document::range::{LARGEST_NUMBER, LEAST_RPM, TURNS_FORWARD};
-use crate::document::{Field, Input, KeySection, Occurrence, Reader};
+use crate::document::{Field, Input, KeySection, NamedChoice, Occurrence, Reader};
 use crate::follower::{self, FollowerPlacement};
 use crate::motion::program::{FollowerMovement, ProgramSpan};
 use crate::motion::{Motion, Quantity, program};
 use crate::refusal::Refusal;
+use crate::units::LengthUnit;
 use std::fmt;
 use std::sync::Arc;
 
@@ -134,6 +137,8 @@ pub struct Machine {
     pub(crate) limits: Limits,
     /// Title block.
     pub(crate) title: Title,
+    /// The unit of its files.
+    units: LengthUnit,
     /// How it is milled, where the file says so.
     cutting: Option<CuttingData>,
     /// The parts that domains have read.
@@ -219,6 +224,7 @@ impl Machine {
             dynamics: Dynamics::read(reader, &follower, quantity),
             limits: limits::read(reader, &*follower.shape, quantity)?,
             title: title::read(reader),
+            units: output::read(reader),
             cutting: cutting::read(reader),
             parts,
             key_values: Arc::new(KeyValues {
@@ -315,6 +321,22 @@ impl Machine {
     #[must_use]
     pub fn cutting(&self) -> CuttingData {
         self.cutting.clone().unwrap_or_default()
+    }
+
+    /// The unit of the lengths in its files.
+    #[must_use]
+    pub fn units(&self) -> LengthUnit {
+        self.units
+    }
+
+    /// The machine with its files in another unit.
+    #[must_use]
+    pub fn in_units(self, units: LengthUnit) -> Self {
+        let mut machine = self.with_input(Input::word(output::UNITS_KEY, units.word()));
+        if units == LengthUnit::default() {
+            Arc::make_mut(&mut machine.key_values).inputs.retain(|input| input.key != output::UNITS_KEY);
+        }
+        Self { units, ..machine }
     }
 
     /// What reports call it.

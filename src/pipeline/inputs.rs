@@ -5,6 +5,7 @@ use crate::body::{Body, RateTolerance, Request};
 use crate::document::{Input, NamedChoice};
 use crate::geometry::lead_in::LeadInForm;
 use crate::geometry::points::PointInterpolation;
+use crate::machine::UNITS_KEY;
 use crate::profile::Curves;
 use crate::report::sha256;
 
@@ -72,6 +73,7 @@ pub(super) fn is_of_request(input: &Input) -> bool {
         "cutter",
         "cutter-diameter",
         "start",
+        UNITS_KEY,
     ];
     let of_form = LeadInForm::ALL.iter().any(|(_, form)| input.key == lead_in_key(*form));
     drawing.contains(&input.key.as_str()) || of_form || input.key.starts_with("points-")

@@ -2,9 +2,11 @@
 
 use super::{Error, FileSet, ProvenAssembly, Writing};
 use crate::analysis::Analysis;
-use crate::document::Input;
+use crate::document::{Input, NamedChoice};
+use crate::machine::UNITS_KEY;
 use crate::numeric::parallel;
 use crate::report::{Finding, Inputs, LazyReport, Report, failed, passed, worst_first};
+use crate::units::LengthUnit;
 use crate::verify;
 use crate::write::{AnalysisFormat, AnalysisRendering, Format, FormatSelection, by_name};
 
@@ -24,6 +26,7 @@ pub struct Judged {
     analysis: Analysis,
     findings: Vec<Finding>,
     cams: Option<ProvenAssembly>,
+    units: LengthUnit,
 }
 
 /// A report and named files.
@@ -45,7 +48,15 @@ impl Judged {
     #[must_use]
     pub fn new(analysis: Analysis) -> Self {
         let findings = verify::judge(&analysis.measures);
-        Self { analysis, findings, cams: None }
+        let of_file = analysis.inputs.iter().find(|input| input.key == UNITS_KEY);
+        let units = of_file.and_then(|input| LengthUnit::named(&input.value)).unwrap_or_default();
+        Self { analysis, findings, cams: None, units }
+    }
+
+    /// With its report and its files in a unit.
+    #[must_use]
+    pub fn in_units(self, units: LengthUnit) -> Self {
+        Self { units, ..self }
     }
 
     /// With the cams that are cut for it: their findings are reported with those of the analysis, and their files are written with its own or
@@ -101,6 +112,7 @@ impl Judged {
             notes: analysis.notes.iter().cloned().chain(notes).collect(),
             not_modelled,
             files: Vec::new(),
+            units: self.units,
         }
     }
 

@@ -148,7 +148,7 @@ impl Cam {
     /// Whether it is made from the inputs of a recorded run; how it is drawn does not matter.
     #[must_use]
     pub fn is_made_from(&self, recorded: &[Input]) -> bool {
-        let inputs = self.inputs();
+        let inputs: Vec<Input> = self.inputs().into_iter().filter(|input| !inputs::is_of_request(input)).collect();
         let known = |input: &Input| inputs.contains(input);
         let left = recorded.iter().filter(|input| !known(input));
         inputs.iter().all(|input| recorded.contains(input)) && left.into_iter().all(inputs::is_of_request)
@@ -203,5 +203,6 @@ fn report(body: &dyn Body, inputs: Inputs, sections: Vec<Section>, checks: Vec<c
         notes: machine.idle_key_notes(kind.keys, kind.noun).into_iter().chain(machine.material_note()).collect(),
         not_modelled: body.not_modelled().into_iter().map(str::to_owned).collect(),
         files: Vec::new(),
+        units: machine.units(),
     }
 }

@@ -25,7 +25,7 @@ use crate::verify::{
 };
 use crate::write::Rendering;
 use crate::write::csv;
-use crate::write::dxf::Version;
+use crate::write::dxf::{DxfForm, Version};
 use crate::write::gauge as write_gauge;
 use crate::write::inspection as write_inspection;
 use crate::write::{gcode, points, proof, servo, step};
@@ -135,10 +135,11 @@ impl Drawing {
         let body = self.cam.body();
         let inputs = Inputs::of(&self.inputs);
         let mark = inputs.to_string();
+        let form = DxfForm { version, units: body.machine().units() };
         let (mut cut_files, mut outlines) = (Vec::new(), Vec::new());
         for part in self.drawn.iter().flat_map(|drawn| &drawn.parts) {
             // The proof is of the bytes that would be cut, not of the drawing they were made from.
-            let written = proof::write_marked(part, version, &mark).map_err(Error::Proof)?;
+            let written = proof::write_marked(part, form, &mark).map_err(Error::Proof)?;
             cut_files.push(written.bytes);
             for contour in written.outlines {
                 let (cut, others) = (outlines.len(), written.others.clone());
@@ -151,7 +152,7 @@ impl Drawing {
             let solid = step::write(&drawing.solid, "", None);
             let mut read = WrittenSwept::of_solid(body, &solid, tolerance_mm).map_err(Error::Proof)?;
             if !drawing.developed.is_empty() {
-                let unrolled = proof::developed(&drawing.developed, version, &mark).map_err(Error::Proof)?;
+                let unrolled = proof::developed(&drawing.developed, form, &mark).map_err(Error::Proof)?;
                 read = read.with(WrittenSwept::of_unrolled(body, &unrolled, proof::JOIN).map_err(Error::Proof)?);
                 cut_files.push(unrolled);
             }
@@ -164,10 +165,11 @@ impl Drawing {
     /// The paths of a cutter as another program would read them.
     fn written_paths(&self, version: Version) -> Vec<WrittenPath> {
         let (middle, _) = self.request.fit.band();
+        let form = DxfForm { version, units: self.cam.body().machine().units() };
         let paths = self.drawn.iter().flat_map(Drawn::cutter_paths).enumerate();
         let written_path = |(cut, outline): (usize, &Result<Outline, OutlineError>)| {
             let read = match outline {
-                Ok(outline) => proof::cutter_path(outline, version).map_err(|error| error.to_string()),
+                Ok(outline) => proof::cutter_path(outline, form).map_err(|error| error.to_string()),
                 Err(error) => Err(error.to_string()),
             };
             let (contour, lead_ins) = match read {

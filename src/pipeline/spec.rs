@@ -9,6 +9,7 @@ use crate::machine::Machine;
 use crate::motion::Motion;
 use crate::refusal::Refusal;
 use crate::report::Inputs;
+use crate::units::LengthUnit;
 use std::fmt;
 use std::sync::Arc;
 
@@ -197,6 +198,12 @@ impl Spec {
     #[must_use]
     pub fn machine(&self) -> &Machine {
         &self.machine
+    }
+
+    /// With its files in a unit.
+    #[must_use]
+    pub fn in_units(self, units: LengthUnit) -> Self {
+        Self { machine: self.machine.in_units(units), ..self }
     }
 
     /// Solves the motion and sizes the cam.

@@ -1,10 +1,10 @@
 //! The parts of a DXF file: its unit, its layers, its blocks, and the entities of model space.
 
-use super::FileUnit;
 use super::groups::{DxfGroup, DxfSection, DxfSections, TYPE};
 use super::limits::MOST_NAMES;
 use super::record::EntityRecord;
 use super::too_much;
+use super::{FileUnit, INCHES};
 use crate::refusal::Refusal;
 use std::collections::BTreeMap;
 
@@ -166,7 +166,7 @@ fn unit(number: i64) -> (FileUnit, f64) {
     let (name, scale) = match number {
         0 => return (FileUnit::Unstated, 1.0),
         4 => return (FileUnit::Millimetres, 1.0),
-        1 => ("inches", 25.4),
+        1 => (INCHES, 25.4),
         2 => ("feet", 304.8),
         5 => ("centimetres", 10.0),
         6 => ("metres", 1e3),

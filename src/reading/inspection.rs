@@ -1,5 +1,6 @@
 //! Reads lists of places for a measuring machine: the CSV file, plain lines of numbers, and DMIS (ISO 22093).
 
+use crate::units::LengthUnit;
 use nalgebra::Vector2;
 
 /// A place as it was read, mm.
@@ -21,6 +22,10 @@ pub struct ReadPlace {
 
 /// What the header of a list begins with.
 const HEAD: &str = "no,cam_deg,polar_deg,radius_mm,x_mm,y_mm,normal_x,normal_y,ball_x_mm,ball_y_mm,";
+/// The same of a list in inches.
+const INCH_HEAD: &str = "no,cam_deg,polar_deg,radius_in,x_in,y_in,normal_x,normal_y,ball_x_in,ball_y_in,";
+/// The line that plain lines of numbers in inches begin with.
+pub const PLAIN_INCHES: &str = "# units: inches";
 /// The statement that begins a DMIS program.
 const DMIS: &str = "DMISMN/";
 /// Most places.
@@ -35,7 +40,10 @@ pub fn is_inspection(bytes: &[u8]) -> bool {
     let Some(first) = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with(['#', '$'])) else {
         return false;
     };
-    first.starts_with(HEAD) || first.starts_with(DMIS) || plain(first).is_some_and(|place| place[0] == 1.0)
+    first.starts_with(HEAD)
+        || first.starts_with(INCH_HEAD)
+        || first.starts_with(DMIS)
+        || plain(first).is_some_and(|place| place[0] == 1.0)
 }
 
 /// Reads a list.
@@ -46,12 +54,34 @@ pub fn read(bytes: &[u8]) -> Result<Vec<ReadPlace>, String> {
     let text = std::str::from_utf8(bytes).map_err(|error| error.to_string())?;
     let mut lines = text.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty());
     let all = match lines.next() {
-        Some(line) if line.starts_with(HEAD) => lines.enumerate().map(row).collect::<Result<Vec<_>, _>>()?,
+        Some(line) if line.starts_with(HEAD) => rows(lines, LengthUnit::Millimetre)?,
+        Some(line) if line.starts_with(INCH_HEAD) => rows(lines, LengthUnit::Inch)?,
         Some(_) if text.lines().any(|line| line.trim_start().starts_with(DMIS)) => dmis(text)?,
-        Some(line) if plain(line).is_some() => numbered(std::iter::once(line).chain(lines))?,
+        Some(line) if plain(line).is_some() => {
+            let inches = text.lines().any(|line| line.trim_end() == PLAIN_INCHES);
+            let units = if inches { LengthUnit::Inch } else { LengthUnit::Millimetre };
+            in_millimetres(numbered(std::iter::once(line).chain(lines))?, units)
+        }
         _ => return Err("the line that names the columns is missing".into()),
     };
     if all.len() > MOST_PLACES { Err(format!("it has more than {MOST_PLACES} places")) } else { Ok(all) }
+}
+
+/// Places that were read in a unit.
+fn in_millimetres(mut all: Vec<ReadPlace>, units: LengthUnit) -> Vec<ReadPlace> {
+    let scale = units.millimetres();
+    for place in &mut all {
+        place.point *= scale;
+        place.ball *= scale;
+        place.zone = place.zone.map(|zone| zone.map(|length| scale * length));
+        place.curvature_radius = place.curvature_radius.map(|radius| scale * radius);
+    }
+    all
+}
+
+/// The rows of the CSV file in a unit.
+fn rows<'t>(lines: impl Iterator<Item = &'t str>, units: LengthUnit) -> Result<Vec<ReadPlace>, String> {
+    Ok(in_millimetres(lines.enumerate().map(row).collect::<Result<_, _>>()?, units))
 }
 
 /// A row of the CSV file.
@@ -123,7 +153,7 @@ fn in_turn(mut all: Vec<ReadPlace>) -> Result<Vec<ReadPlace>, String> {
 /// The points of a DMIS program: each is defined (`FEAT/POINT`) and measured in one touch (`PTMEAS`) at the same place and normal.
 fn dmis(text: &str) -> Result<Vec<ReadPlace>, String> {
     let mut all: Vec<ReadPlace> = Vec::new();
-    let (mut metric, mut ended) = (false, false);
+    let (mut units, mut ended) = (None, false);
     // The label that is to be measured, and whether it was touched.
     let mut open: Option<(String, [f64; 6], u8)> = None;
     for (line, statement) in statements(text) {
@@ -135,8 +165,11 @@ fn dmis(text: &str) -> Result<Vec<ReadPlace>, String> {
         let cells: Vec<&str> = rest.split(',').collect();
         match (word, cells.as_slice(), &mut open) {
             ("DMISMN", _, _) => {}
-            ("UNITS", ["MM", ..], _) => metric = true,
-            ("UNITS", ..) => return refused("the unit is not the millimetre"),
+            ("UNITS", _, _) if units.is_some() => return refused("the unit is stated twice"),
+            ("UNITS", ["MM", ..], _) => units = Some(LengthUnit::Millimetre),
+            ("UNITS", ["INCH", ..], _) => units = Some(LengthUnit::Inch),
+            ("UNITS", ..) => return refused("the unit is neither the millimetre nor the inch"),
+            _ if units.is_none() => return refused("the unit is not stated before it (UNITS/MM or UNITS/INCH)"),
             ("ENDFIL", _, None) => ended = true,
             (feature, ["POINT", "CART", numbers @ ..], None) if feature.ends_with("=FEAT") => {
                 let label = feature.trim_end_matches("=FEAT").to_owned();
@@ -160,9 +193,9 @@ fn dmis(text: &str) -> Result<Vec<ReadPlace>, String> {
             }
         }
     }
-    match (metric, ended && open.is_none()) {
-        (true, true) => in_turn(all),
-        (false, _) => Err("it does not state its unit (UNITS/MM)".into()),
+    match (units, ended && open.is_none()) {
+        (Some(units), true) => Ok(in_millimetres(in_turn(all)?, units)),
+        (None, _) => Err("it does not state its unit (UNITS/MM or UNITS/INCH)".into()),
         (_, false) => Err("it has no end (ENDFIL)".into()),
     }
 }
@@ -215,7 +248,8 @@ mod tests {
     #[test]
     fn a_program_that_would_measure_elsewhere_is_refused_with_its_line() {
         for (from, to, why) in [
-            ("UNITS/MM", "UNITS/INCH", "line 3"),
+            ("UNITS/MM", "UNITS/FEET", "line 3"),
+            ("UNITS/MM,ANGDEC\n", "UNITS/MM,ANGDEC\nUNITS/INCH,ANGDEC\n", "twice"),
             ("UNITS/MM,ANGDEC\n", "", "UNITS/MM"),
             ("PTMEAS/CART, 10.0", "PTMEAS/CART, 10.1", "another place"),
             ("F(P2),1", "F(P1),1", "not a statement"),

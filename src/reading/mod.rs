@@ -42,6 +42,9 @@ const BORE_LAYER: &str = "BORE";
 /// Largest distance of arcs from the curves they replace, over the reach of [`read`].
 const CURVE_SHARE: f64 = 0.05;
 
+/// What [`FileUnit::Other`] calls inches.
+pub const INCHES: &str = "inches";
+
 /// The unit a file states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileUnit {

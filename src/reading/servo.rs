@@ -1,5 +1,7 @@
 //! Reads tables for servo drives: rows of a CSV file, or the points of a declaration in structured text.
 
+use crate::units::LengthUnit;
+
 /// A table as it was read: master in degrees, slave in mm or degrees, velocity and acceleration by the master.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ServoRows {
@@ -11,14 +13,25 @@ pub struct ServoRows {
     pub rows: Vec<[f64; 4]>,
 }
 
+impl ServoRows {
+    /// With a slave in millimetres that was read in a unit.
+    fn scaled(mut self, units: LengthUnit) -> Self {
+        for value in self.rows.iter_mut().flat_map(|row| row.iter_mut().skip(1)) {
+            *value *= units.millimetres();
+        }
+        self
+    }
+}
+
 /// The names of the four numbers of a point in the structures of CODESYS and TwinCAT.
 const NAMES: [[&str; 4]; 2] = [["dX", "dY", "dV", "dA"], ["MasterPos", "SlavePos", "SlaveVelo", "SlaveAcc"]];
 /// What the header of a CSV table begins with.
 const CSV_HEAD: &str = "master_deg,slave_";
-/// The columns of a table of a slave in mm, and of one in degrees.
-const CSV_HEADS: [&str; 2] = [
+/// The columns of a table of a slave in mm, of one in degrees, and of one in inches.
+const CSV_HEADS: [&str; 3] = [
     "master_deg,slave_mm,velocity_mm_per_deg,acceleration_mm_per_deg2",
     "master_deg,slave_deg,velocity_deg_per_deg,acceleration_deg_per_deg2",
+    "master_deg,slave_in,velocity_in_per_deg,acceleration_in_per_deg2",
 ];
 /// What begins and ends the lines of a table of the controls of ISG, and what its units are.
 const BEGIN: &str = "Begintable";
@@ -26,6 +39,8 @@ const END: &str = "EndTable";
 const TEN_THOUSANDTH: f64 = 1e-4;
 /// What a head says of a slave in degrees.
 const SWINGS: &str = "slave: deg";
+/// What a head says of a slave in inches.
+const INCHES: &str = "slave: in;";
 /// Most rows.
 const MOST_ROWS: usize = 1_000_000;
 
@@ -66,10 +81,11 @@ fn finite(text: &str) -> Option<f64> {
 }
 
 fn rows(text: &str) -> Result<ServoRows, String> {
-    let mut read = ServoRows::default();
+    let (mut read, mut units) = (ServoRows::default(), LengthUnit::Millimetre);
     for line in text.lines().filter(|line| !line.starts_with('#') && !line.is_empty()) {
         if line.starts_with(CSV_HEAD) {
             read.swings = line == CSV_HEADS[1];
+            units = if line == CSV_HEADS[2] { LengthUnit::Inch } else { LengthUnit::Millimetre };
             if !CSV_HEADS.contains(&line) {
                 return Err(format!("its columns are not {}", CSV_HEADS.join(" or ")));
             }
@@ -77,11 +93,13 @@ fn rows(text: &str) -> Result<ServoRows, String> {
         }
         let cells: Vec<Option<f64>> = line.split(',').map(finite).collect();
         match cells.as_slice() {
-            [Some(x), Some(y), Some(v), Some(a)] if read.rows.len() < MOST_ROWS => read.rows.push([*x, *y, *v, *a]),
+            [Some(x), Some(y), Some(v), Some(a)] if read.rows.len() < MOST_ROWS => {
+                read.rows.push([*x, *y, *v, *a]);
+            }
             _ => return Err(format!("`{}` is not a row of four numbers", line.chars().take(60).collect::<String>())),
         }
     }
-    Ok(read)
+    Ok(read.scaled(units))
 }
 
 /// A table of one column of the controls of ISG: positions at equal parts of the turn, with straight lines between them, closed by the first.
@@ -148,7 +166,10 @@ fn points(text: &str) -> Result<ServoRows, String> {
     let bounds = code.split("ARRAY[").nth(1).and_then(|rest| rest.split_once(']')).map(|(bounds, _)| bounds);
     let bounds = bounds.and_then(|bounds| bounds.split_once("..")).ok_or("the array has no bounds")?;
     match (bounds.0.trim().parse::<usize>(), bounds.1.trim().parse::<usize>()) {
-        (Ok(first), Ok(last)) if last + 1 == first + read.rows.len() => Ok(read),
+        (Ok(first), Ok(last)) if last + 1 == first + read.rows.len() => {
+            let inches = comments.contains(INCHES);
+            Ok(read.scaled(if inches { LengthUnit::Inch } else { LengthUnit::Millimetre }))
+        }
         _ => Err(format!("the array is declared for another number of points than {}", read.rows.len())),
     }
 }
@@ -209,6 +230,8 @@ mod tests {
         let st = "(* slave: mm *)\nVAR_GLOBAL\nA : ARRAY[0..1] OF SMC_CAMXYVA := [(dX := 0, dY:=1, dV:= 2 ,dA := 3),\n\
                   (dX := 90.5, dY := -1E-3, dV := 0, dA := 4)];\nEND_VAR\n";
         assert_eq!(read(st.as_bytes()), Ok(ServoRows { swings: false, straight: false, rows }));
+        let inches = read(st.replace("slave: mm", "slave: in;").as_bytes()).expect("a table in inches");
+        assert_eq!(inches.rows[0], [0.0, 25.4, 50.8, 25.4 * 3.0]);
         assert!(is_servo(st.as_bytes()) && is_servo(csv.as_bytes()) && !is_servo(b"x_mm,y_mm\n"));
         for (from, to, why) in [
             ("0..1", "0..2", "another number"),

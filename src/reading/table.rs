@@ -1,12 +1,29 @@
 //! Reads tables of numbers under the names of their columns, as `--format csv` writes them.
 
-/// A table as it was read.
+use crate::units::{LengthUnit, metric_column};
+
+/// A table as it was read, its lengths in millimetres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NumberTable {
     /// Names of its columns.
     pub columns: Vec<String>,
     /// Its rows, as many numbers each; not a number where a cell is `NaN`.
     pub rows: Vec<Vec<f64>>,
+}
+
+impl NumberTable {
+    /// With the columns of inches as those of millimetres.
+    fn in_millimetres(mut self) -> Self {
+        for (at, name) in self.columns.iter_mut().enumerate() {
+            let (metric, power) = metric_column(name);
+            let metric = metric.into_owned();
+            for value in self.rows.iter_mut().filter_map(|row| row.get_mut(at)) {
+                *value = LengthUnit::Inch.of_mm_to(*value, -power);
+            }
+            *name = metric;
+        }
+        self
+    }
 }
 
 /// Most rows, and most columns.
@@ -45,7 +62,7 @@ pub fn read(bytes: &[u8]) -> Result<NumberTable, String> {
     };
     let lines = text.lines().skip(1).filter(|line| !line.trim().is_empty());
     let rows: Vec<Vec<f64>> = lines.take(MOST_ROWS).enumerate().map(row).collect::<Result<_, _>>()?;
-    if rows.is_empty() { Err("it has no rows".into()) } else { Ok(NumberTable { columns, rows }) }
+    if rows.is_empty() { Err("it has no rows".into()) } else { Ok(NumberTable { columns, rows }.in_millimetres()) }
 }
 
 #[cfg(test)]
@@ -57,6 +74,8 @@ mod tests {
         let table = read(b"cam_deg,lift_mm\n0,1\n0.5,NaN\n").expect("a table");
         assert_eq!((table.columns.len(), table.rows.len(), table.rows[1][0]), (2, 2, 0.5));
         assert!(is_table(b"cam_deg,lift_mm\r\n") && !is_table(b"0,1\n") && !is_table(b"  0\nSECTION\n"));
+        let inches = read(b"cam_deg,lift_in\n0,1\n").expect("a table");
+        assert_eq!((inches.columns[1].as_str(), inches.rows[0][1]), ("lift_mm", 25.4));
         assert!(read(b"cam_deg,lift_mm\n0,1\n0.5\n").is_err_and(|why| why.contains("row 2")));
     }
 }

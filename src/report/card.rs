@@ -1,12 +1,13 @@
 //! A table on a small card that hangs at a machine: A5, upright.
 
-use super::sheet::paper::{PaperSize, rectangle};
+use super::sheet::paper::{PaperSize, SheetBorder, rectangle};
 use super::sheet::{STROKE, ShapeGroup, Sheet, SheetShape, TextAnchor, font, words};
 use crate::geometry::contour::Extents;
 use nalgebra::Vector2;
 
 /// A5, ISO 216; too small for the border of ISO 5457.
-const PAPER: PaperSize = PaperSize { name: "A5", size: Vector2::new(148.0, 210.0), lettering: &[1.0] };
+const PAPER: PaperSize =
+    PaperSize { name: "A5", size: Vector2::new(148.0, 210.0), lettering: &[1.0], border: SheetBorder::Iso };
 /// Margin around the frame, and within it, mm.
 const MARGIN: f64 = 7.0;
 const INSIDE: f64 = 4.0;

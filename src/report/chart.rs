@@ -1,6 +1,6 @@
 //! A log-log chart on a sheet of paper, e.g. of computing time against residual force.
 
-use super::sheet::paper::{PAPERS, PaperSize, frame_and_grid};
+use super::sheet::paper::{PAPERS, PaperSize, SheetBorder, frame_and_grid};
 use super::sheet::placing::{OccupiedPaper, field_near, filling, half_field};
 use super::sheet::{STROKE, ShapeGroup, Sheet, SheetShape, TextAnchor, font, words};
 use crate::geometry::Entity;
@@ -74,7 +74,12 @@ pub struct Chart {
 /// The chart on a sheet; points that are not above 0 cannot be shown and are left out.
 #[must_use]
 pub fn sheet(Chart { title, x_name, panels }: &Chart) -> Sheet {
-    let paper = PAPERS.first().copied().unwrap_or(PaperSize { name: "", size: Vector2::repeat(1.0), lettering: &[] });
+    let paper = PAPERS.first().copied().unwrap_or(PaperSize {
+        name: "",
+        size: Vector2::repeat(1.0),
+        lettering: &[],
+        border: SheetBorder::Iso,
+    });
     let frame = paper.frame(Vector2::zeros());
     let mut groups = frame_and_grid(&paper, Vector2::zeros());
     let room = frame.size().x - 4.0 * TEXT;

@@ -1,6 +1,7 @@
 //! The result of a check, and where.
 
 use super::figures::shown;
+use crate::units::LengthUnit;
 use serde::ser::Serializer;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::borrow::Cow;
@@ -107,6 +108,17 @@ pub fn degrees(angle: f64) -> f64 {
     let positive = if degrees < 0.0 { degrees + 360.0 } else { degrees };
     // A hair below zero rounds up to a whole turn.
     if positive >= 360.0 { 0.0 } else { positive + 0.0 }
+}
+
+impl Place {
+    /// As a person reads it, a travel in this unit.
+    #[must_use]
+    pub fn words(&self, units: LengthUnit) -> String {
+        match (self.cam_deg, self.x_mm) {
+            (None, Some(x)) if units == LengthUnit::Inch => format!("x = {:.4} in", units.of_mm(x)),
+            _ => self.to_string(),
+        }
+    }
 }
 
 /// In degrees or millimetres, as a person reads it.

@@ -16,6 +16,7 @@ pub mod motion_diagram;
 pub mod plot;
 mod point_measures;
 mod program_measures;
+mod restated;
 mod rolled;
 pub mod scheme;
 pub mod sheet;
@@ -32,6 +33,7 @@ pub use program_measures::ProgramMeasures;
 pub use rolled::Rolled;
 pub use values::{CamMeasures, OutlineMeasures, Weight, lobes_words};
 
+use crate::units::LengthUnit;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -145,6 +147,8 @@ pub struct Report {
     pub not_modelled: Vec<String>,
     /// Files written.
     pub files: Vec<String>,
+    /// The unit of lengths for people; values for programs are in millimetres, as their names say.
+    pub units: LengthUnit,
 }
 
 impl Report {
@@ -275,6 +279,7 @@ impl<'de> Visitor<'de> for ReportVisitor {
             notes: Vec::new(),
             not_modelled: Vec::new(),
             files: Vec::new(),
+            units: LengthUnit::default(),
         };
         let mut schema = None;
         while let Some(key) = map.next_key::<String>()? {
@@ -331,6 +336,7 @@ mod tests {
             notes: vec!["`cam.balance` has no effect on a conoid".into()],
             not_modelled: vec!["Temperature: all sizes are those of the drawing.".into()],
             files: vec!["a.dxf".into()],
+            units: LengthUnit::default(),
         };
         let text = serde_json::to_string(&report).expect("JSON");
         assert_eq!(serde_json::from_str::<Report>(&text).expect("a report"), report);

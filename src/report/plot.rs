@@ -1,7 +1,7 @@
 //! Curves over a common quantity, panel below panel on a sheet of paper.
 
 use super::scheme::Scheme;
-use super::sheet::paper::{PAPERS, PaperSize, frame_and_grid};
+use super::sheet::paper::{PAPERS, PaperSize, SheetBorder, frame_and_grid};
 use super::sheet::scheme;
 use super::sheet::{STROKE, ShapeGroup, Sheet, SheetShape, TextAnchor, font, rounded, words};
 use super::trace::round_step;
@@ -76,6 +76,7 @@ pub fn sheet(plot: &Plot, mark: &str) -> Sheet {
         name: "",
         size: Vector2::repeat(1.0),
         lettering: &[],
+        border: SheetBorder::Iso,
     });
     let frame = paper.frame(Vector2::zeros());
     let mut groups = frame_and_grid(&paper, Vector2::zeros());

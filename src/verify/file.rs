@@ -3,8 +3,9 @@
 use super::check::{Evidence, FileCheck, place};
 use crate::check::{Check, CheckExplanation};
 use crate::geometry::contour::Edge;
-use crate::reading::{FileUnit, OUTLINE_LAYER, OutlinePlace, Reading, StrayEntity, few};
+use crate::reading::{FileUnit, INCHES, OUTLINE_LAYER, OutlinePlace, Reading, StrayEntity, few};
 use crate::report::{Bound, Finding, Verdict};
+use crate::units::LengthUnit;
 
 pub(super) const LAYER: FileCheck = FileCheck::on_file(
     "layer",
@@ -23,17 +24,19 @@ pub(super) const LAYER: FileCheck = FileCheck::on_file(
 pub(super) const UNITS: FileCheck = FileCheck::on_file(
     "units",
     "mm",
-    "Whether the file is in millimetres.",
+    "Whether the file is in the unit of the design: millimetres, or inches with --units inch or output.units.",
     CheckExplanation {
         bound: Bound::Exactly,
         formula: "$INSUNITS, or $MEASUREMENT, of a DXF file; the length unit of a STEP file",
-        usual: "camgen's own rule: its files are in millimetres",
-        change: "save the file in millimetres, or scale it",
+        usual: "camgen's own rule: many programs do not look at the unit that a DXF file states",
+        change: "save the file in that unit, or give --units inch where it is to be in inches",
     },
     |evidence| {
         let stated =
             evidence.foreign.first().map(|reading| reading.unit).or(evidence.solid.map(|solid| solid.file.unit))?;
-        Some(unit(stated))
+        // A STEP file stays in millimetres, whatever the unit of the others.
+        let files = if evidence.solid.is_some() { LengthUnit::Millimetre } else { evidence.body.machine().units() };
+        Some(unit(stated, files))
     },
 );
 
@@ -132,20 +135,33 @@ fn layer(reading: &Reading) -> Finding {
     count(&LAYER, usize::from(there), 1, there, note)
 }
 
-fn unit(stated: FileUnit) -> Finding {
+fn unit(stated: FileUnit, files: LengthUnit) -> Finding {
     let (verdict, note) = match stated {
+        FileUnit::Millimetres if files == LengthUnit::Inch => {
+            let why = "the file is in millimetres, and the design has its files in inches";
+            (Verdict::Warn, Some(why.to_owned()))
+        }
         FileUnit::Millimetres => (Verdict::Pass, None),
+        FileUnit::Other(INCHES) if files == LengthUnit::Inch => {
+            (Verdict::Pass, Some("the file is in inches, as its design has it".to_owned()))
+        }
         FileUnit::Unstated => (Verdict::Info, Some("the file states no unit; read as millimetres".to_owned())),
         FileUnit::UnstatedEnglish => {
             let why = "the file states no unit, and its $MEASUREMENT = 0 stands for inches; read as millimetres";
             (Verdict::Warn, Some(why.to_owned()))
+        }
+        FileUnit::Other(INCHES) => {
+            let why = "the file is in inches, not in millimetres; the other checks are of its true size; where it is to be in inches, give --units inch";
+            (Verdict::Fail, Some(why.to_owned()))
         }
         FileUnit::Other(name) => (
             Verdict::Fail,
             Some(format!("the file is in {name}, not in millimetres; the other checks are of its true size")),
         ),
     };
-    Finding { note, ..UNITS.found(1.0, None, verdict) }
+    let found = UNITS.found(1.0, None, verdict);
+    let unit = if verdict == Verdict::Pass && files == LengthUnit::Inch { "in".into() } else { found.unit.clone() };
+    Finding { unit, note, ..found }
 }
 
 fn readable(evidence: &Evidence<'_>, reading: &Reading) -> Finding {

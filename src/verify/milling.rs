@@ -37,8 +37,8 @@ pub(super) const CHECK: FileCheck = FileCheck {
     run: check,
 };
 
-/// Depths that differ by less are equal, mm: numbers of three decimals are off by half of it.
-const SAME_DEPTH: f64 = 1e-3;
+/// Depths that differ by less are equal, mm: numbers of three decimals, and of four in inches, are off by less.
+const SAME_DEPTH: f64 = 1.3e-3;
 /// Places nearer than this are one, mm: far below the numbers of a program.
 const SAME_PLACE: f64 = 1e-7;
 /// Depths of lead-ins and lead-outs are found to within this share of the tolerance.

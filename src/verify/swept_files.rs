@@ -5,8 +5,9 @@ use crate::body::{Body, Layer, SweptFlanks};
 use crate::geometry::nurbs::NurbsSurface;
 use crate::profile::Worst;
 use crate::reading::step::{FlankShape, SolidForm, StepFile, form, read};
-use crate::reading::{Chain, FileUnit, Reading, read_with_outline};
+use crate::reading::{Chain, FileUnit, INCHES, Reading, read_with_outline};
 use crate::refusal::Refusal;
+use crate::units::LengthUnit;
 use nalgebra::Vector3;
 
 /// Share of the tolerance by which rims may leave the floor and the outside, at least the uncertainty that STEP files state, mm.
@@ -54,7 +55,7 @@ impl WrittenSwept {
         for (layer, _) in body.swept().map(SweptFlanks::developed).unwrap_or_default() {
             let reading = read_with_outline(bytes, join, Some(layer.name()))?;
             if curves.is_empty() {
-                faults = faults_of(&reading);
+                faults = faults_of(body, &reading);
                 faults.extend(fault_of_blank(body, &reading));
             }
             curves.push((layer, reading.chains));
@@ -82,10 +83,12 @@ impl WrittenSwept {
 }
 
 /// What is wrong with a DXF file beside its curves.
-fn faults_of(reading: &Reading) -> Vec<String> {
+fn faults_of(body: &dyn Body, reading: &Reading) -> Vec<String> {
     let mut faults = Vec::new();
-    if let FileUnit::Other(name) = reading.unit {
-        faults.push(format!("the file is in {name}, not in millimetres"));
+    match reading.unit {
+        FileUnit::Other(INCHES) if body.machine().units() == LengthUnit::Inch => {}
+        FileUnit::Other(name) => faults.push(format!("the file is in {name}, not in millimetres")),
+        FileUnit::Millimetres | FileUnit::Unstated | FileUnit::UnstatedEnglish => {}
     }
     faults.extend(reading.unreadable.iter().take(3).map(ToString::to_string));
     let twice = reading.duplicates.len() + reading.points.len();

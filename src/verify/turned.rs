@@ -18,7 +18,7 @@ use crate::report::shown;
 use nalgebra::Vector2;
 
 /// Depths that differ by less are equal, mm: numbers of three decimals are off by half of it.
-const SAME_DEPTH: f64 = 1e-3;
+const SAME_DEPTH: f64 = 1.3e-3;
 /// Places between two rows of a barrel at which the tool is compared, at least, and the angle between two of them at most, degrees.
 const COMPARED: f64 = 8.0;
 const APART: f64 = 0.5;

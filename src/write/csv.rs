@@ -8,6 +8,7 @@ use crate::motion::{Jet, Quantity};
 use crate::profile::followed::FollowerOnChain;
 use crate::refusal::Refusal;
 use crate::table::{self, Row, Table};
+use crate::units::LengthUnit;
 use crate::verify::WrittenOutline;
 use std::borrow::Cow;
 
@@ -23,11 +24,13 @@ pub const FORMAT: Format = Format {
     endings: |_| vec![".csv".into()],
     write: |cam| {
         let rows = rows(cam.body, cam.other_cams.first().map(|(body, _)| *body), cam.outlines, cam.samples);
-        Ok(vec![of_cam(&rows)?])
+        Ok(vec![of_cam(&rows, cam.body.machine().units())?])
     },
     of_analysis: Some(AnalysisFormat {
         endings: |analysis| analysis.tables.iter().map(|(ending, _)| format!("{ending}.csv")).collect(),
-        write: |account| Ok(account.analysis.tables.iter().map(|(_, table)| write(table)).collect()),
+        write: |account| {
+            Ok(account.analysis.tables.iter().map(|(_, table)| write(table, account.report.units)).collect())
+        },
     }),
 };
 
@@ -45,7 +48,10 @@ pub const FURTHER: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |drawn| drawn.swept.iter().flat_map(|swept| swept.tables.iter().map(|name| (*name).to_owned())).collect(),
-    write: |cam| Ok(cam.body.further_tables(cam.samples, cam.cutter_radius).iter().map(write).collect()),
+    write: |cam| {
+        let units = cam.body.machine().units();
+        Ok(cam.body.further_tables(cam.samples, cam.cutter_radius).iter().map(|table| write(table, units)).collect())
+    },
     of_analysis: None,
 };
 
@@ -86,12 +92,12 @@ fn rows(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutline],
 ///
 /// # Errors
 /// [`Refusal`] when a value of the table is missing.
-fn of_cam(rows: &[Row]) -> Result<Vec<u8>, Refusal> {
+fn of_cam(rows: &[Row], units: LengthUnit) -> Result<Vec<u8>, Refusal> {
     let columns = table::columns(rows);
-    let names: Vec<&str> = columns.iter().map(|column| column.name).collect();
+    let (names, powers): (Vec<Cow<'_, str>>, Vec<i32>) = columns.iter().map(|column| units.column(column.name)).unzip();
     let mut text = names.join(",") + "\n";
     for (index, row) in rows.iter().enumerate() {
-        for column in &columns {
+        for (column, power) in columns.iter().zip(&powers) {
             let value = table::value(row, column);
             if value.is_nan() && !table::may_lack(column) {
                 let (row, name) = (index + 1, column.name);
@@ -100,7 +106,7 @@ fn of_cam(rows: &[Row]) -> Result<Vec<u8>, Refusal> {
                 ))
                 .remedy("please report this"));
             }
-            push_cell(&mut text, &shortest(value));
+            push_cell(&mut text, &shortest(units.of_mm_to(value, *power)));
         }
         end_line(&mut text);
     }
@@ -127,22 +133,23 @@ fn end_line(text: &mut String) {
     text.push('\n');
 }
 
-/// The table as text with line feeds.
+/// The table, of millimetres, as text with line feeds, its lengths in a unit, which the names of the columns have.
 #[must_use]
-pub fn write(table: &Table) -> Vec<u8> {
+pub fn write(table: &Table, units: LengthUnit) -> Vec<u8> {
     let first = table.words.iter().map(|(name, words)| (*name, words));
+    let powers: Vec<i32> = table.columns.iter().map(|column| units.column(column).1).collect();
     let before = |column: &'static str| table.more_words.iter().filter(move |words| words.before == column);
-    let mut names: Vec<&str> = first.clone().map(|(name, _)| name).collect();
+    let mut names: Vec<Cow<'_, str>> = first.clone().map(|(name, _)| name.into()).collect();
     for column in &table.columns {
-        names.extend(before(column).map(|words| words.name).chain([*column]));
+        names.extend(before(column).map(|words| words.name.into()).chain([units.column(column).0]));
     }
     let mut text = names.join(",") + "\n";
     for (index, row) in table.rows.iter().enumerate() {
         let word = |words: &'_ [String]| quoted(words.get(index).map_or("", String::as_str)).into_owned();
         first.clone().for_each(|(_, words)| push_cell(&mut text, &word(words)));
-        for (column, value) in table.columns.iter().zip(row) {
+        for ((column, value), power) in table.columns.iter().zip(row).zip(&powers) {
             before(column).for_each(|column| push_cell(&mut text, &word(&column.words)));
-            push_cell(&mut text, &shortest(*value));
+            push_cell(&mut text, &shortest(units.of_mm_to(*value, *power)));
         }
         end_line(&mut text);
     }

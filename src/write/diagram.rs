@@ -35,5 +35,5 @@ pub fn sheet(cam: &Rendering<'_>) -> Result<Option<Sheet>, Refusal> {
     let outline = cam.outlines.first().map(|outline| &outline.contour);
     let Some(diagram) = motion_diagram(cam.body, outline) else { return Ok(None) };
     let facts = cam.body.view(cam.drawn).map_err(Refusal::of)?.facts;
-    Ok(Some(motion_diagram::sheet(&diagram, cam.report, &facts, &svg::deviation_words(&cam.fit))))
+    Ok(Some(motion_diagram::sheet(&diagram, cam.report, &facts, &svg::deviation_words(&cam.fit, cam.report.units))))
 }

@@ -25,19 +25,24 @@ pub const FORMAT: Format = Format {
 /// A table under a mark.
 #[must_use]
 pub fn write(body: &dyn Body, table: &GaugeTable, mark: &str) -> Vec<u8> {
+    let units = body.machine().units();
+    let unit = units.symbol();
+    let columns = COLUMNS.iter().find(|(_, of)| *of == units).map_or("", |(columns, _)| columns);
     let follower = match table.gauge {
-        Gauge::Round(radius) => format!("{ROUND}{}", shortest(2.0 * MILLIMETRES * radius)),
+        Gauge::Round(radius) => {
+            format!("{ROUND}{unit} {}", shortest(units.of_mm(2.0 * MILLIMETRES * radius)))
+        }
         Gauge::Flat => FLAT.to_owned(),
     };
     let rest = if table.gauge == Gauge::Flat { "face" } else { "centre" };
     let mut text = format!(
         "# {mark}\n# machine: {}\n{FOLLOWER}{follower}\n# guided on a line through the axis of the cam, at cam_deg, which runs against the \
-         rotation\n# distance_mm: of its {rest} from the axis; lift_mm: from the lowest row\n{COLUMNS}\n",
+         rotation\n# distance_{unit}: of its {rest} from the axis; lift_{unit}: from the lowest row\n{columns}\n",
         body.machine().name().replace(['\n', '\r'], " ")
     );
     let lowest = table.rows.iter().map(|row| row[1]).fold(f64::INFINITY, f64::min);
     for [cam_deg, distance] in &table.rows {
-        let cells = [*cam_deg, *distance, distance - lowest].map(shortest);
+        let cells = [*cam_deg, units.of_mm(*distance), units.of_mm(distance - lowest)].map(shortest);
         text.push_str(&format!("{}\n", cells.join(",")));
     }
     text.into_bytes()

@@ -5,8 +5,10 @@ use super::number::{plain, shortest};
 use super::{Format, FormatSelection, Rendering, of_outlines, svg};
 use crate::body::Body;
 use crate::body::inspection::{self, InspectionList};
+use crate::reading::inspection as read;
 use crate::refusal::Refusal;
 use crate::report::sheet::{Mark, PlaceTable, SheetExtras, compose};
+use crate::units::LengthUnit;
 
 /// The files of a list: a table, lines of `no x y z nx ny nz`, and a DMIS program.
 const ENDINGS: [&str; 3] = ["-inspect.csv", "-inspect.txt", "-inspect.dmi"];
@@ -44,26 +46,34 @@ const LISTED: [usize; 4] = [5, 10, 20, 30];
 #[must_use]
 pub fn write(body: &dyn Body, list: &InspectionList, mark: &str) -> Vec<Vec<u8>> {
     let machine = body.machine().name().replace(['\n', '\r'], " ");
+    let units = body.machine().units();
+    let unit = units.symbol();
+    let (name, dmis, decimals) = match units {
+        LengthUnit::Millimetre => ("mm", "MM", DECIMALS),
+        LengthUnit::Inch => ("inches", "INCH", DECIMALS + 2),
+    };
     let mut table = format!(
-        "# {mark}\n# machine: {machine}\n# units: mm, degrees\n# ball_radius_mm: {}\n# normal: unit vector out of the metal; the ball touches at x, y\n\
-         # lower_mm, upper_mm: zone of the deviation along the normal\n\
-         no,cam_deg,polar_deg,radius_mm,x_mm,y_mm,normal_x,normal_y,ball_x_mm,ball_y_mm,lower_mm,upper_mm,curvature_radius_mm\n",
-        shortest(list.ball_radius)
+        "# {mark}\n# machine: {machine}\n# units: {name}, degrees\n# ball_radius_{unit}: {}\n# normal: unit vector out of the metal; the ball touches at x, y\n\
+         # lower_{unit}, upper_{unit}: zone of the deviation along the normal\n\
+         no,cam_deg,polar_deg,radius_{unit},x_{unit},y_{unit},normal_x,normal_y,ball_x_{unit},ball_y_{unit},lower_{unit},upper_{unit},\
+         curvature_radius_{unit}\n",
+        shortest(units.of_mm(list.ball_radius))
     );
     let plain_name: String = machine.chars().filter(|c| (' '..='~').contains(c) && !"'$".contains(*c)).collect();
     let mut program = format!(
-        "DMISMN/'{mark}',05.2\n$$ {plain_name}\n$$ X0 Y0 as in the drawing: the axis of the shaft; Z0 the plane of the drawing\nUNITS/MM,ANGDEC\n"
+        "DMISMN/'{mark}',05.2\n$$ {plain_name}\n$$ X0 Y0 as in the drawing: the axis of the shaft; Z0 the plane of the drawing\nUNITS/{dmis},ANGDEC\n"
     );
-    let mut lines = String::new();
+    // Numbers alone do not say what they are: lines in millimetres have no head, those in inches state them.
+    let mut lines = if units == LengthUnit::Inch { read::PLAIN_INCHES.to_owned() + "\n" } else { String::new() };
     for (index, place) in list.places.iter().enumerate() {
-        let (number, point, normal) = (index + 1, place.point, place.normal);
-        let ball = point + normal * list.ball_radius;
+        let (number, point, normal) = (index + 1, units.of_mm(1.0) * place.point, place.normal);
+        let ball = units.of_mm(1.0) * (place.point + normal * list.ball_radius);
         let of_place =
             [place.cam_deg, place.polar_deg, point.norm(), point.x, point.y, normal.x, normal.y, ball.x, ball.y];
-        let zone = [-list.zone, list.zone, place.radius];
+        let zone = [-list.zone, list.zone, place.radius].map(|length| units.of_mm(length));
         let cells: Vec<String> = of_place.into_iter().chain(zone).map(shortest).collect();
         table.push_str(&format!("{number},{}\n", cells.join(",")));
-        let numbers = [point.x, point.y, 0.0, normal.x, normal.y, 0.0].map(|number| plain(number, DECIMALS));
+        let numbers = [point.x, point.y, 0.0, normal.x, normal.y, 0.0].map(|number| plain(number, decimals));
         lines.push_str(&format!("{number} {}\n", numbers.join(" ")));
         let there = numbers.join(",");
         program.push_str(&format!(
@@ -86,10 +96,12 @@ fn sheet(cam: &Rendering<'_>, list: &InspectionList) -> Result<Vec<u8>, Refusal>
     };
     view.marks = numbered.map(label).collect();
     // Without the sign of a negative 0.
-    let millimetres = |value: f64| format!("{:.3}", (value * 1e3).round() / 1e3 + 0.0);
+    let units = cam.report.units;
+    let length = |value: f64| units.cell((value * 1e3).round() / 1e3 + 0.0);
+    let cosine = |value: f64| format!("{:.3}", (value * 1e3).round() / 1e3 + 0.0);
     let cells = |(index, place): (usize, &inspection::InspectionPlace)| {
         let (point, normal) = (place.point, place.normal);
-        let places = [point.x, point.y, normal.x, normal.y].map(millimetres);
+        let places = [length(point.x), length(point.y), cosine(normal.x), cosine(normal.y)];
         [vec![(index + 1).to_string()], places.to_vec()].concat()
     };
     let rows: Vec<Vec<String>> = list.places.iter().enumerate().map(cells).collect();
@@ -105,7 +117,7 @@ fn sheet(cam: &Rendering<'_>, list: &InspectionList) -> Result<Vec<u8>, Refusal>
         shortest(2.0 * list.ball_radius),
         shortest(list.zone)
     )];
-    let deviates = svg::deviation_words(&cam.fit);
+    let deviates = svg::deviation_words(&cam.fit, cam.report.units);
     let (checks, passed_otherwise) = svg::listed_checks(&cam.report.checks);
     let extras =
         SheetExtras { file_deviates: &deviates, number: "1/1", traces: &[], checks: &checks, passed_otherwise };

@@ -10,6 +10,8 @@ use crate::geometry::points::{PointCoordinates, PointInterpolation, PointStep};
 use crate::machine::Rotation;
 use crate::refusal::Refusal;
 use crate::report::AsCutError;
+use crate::units::LengthUnit;
+use std::borrow::Cow;
 
 /// The points of every section, as they were proved.
 pub const FORMAT: Format = Format {
@@ -27,9 +29,13 @@ pub const FORMAT: Format = Format {
 
 /// Decimals of a number, as in a DXF file.
 const DECIMALS: usize = 12;
-/// The columns of either form.
-const POLAR: &str = "cam_deg,radius_mm";
-const PLANE: &str = "x_mm,y_mm";
+/// The columns of either form in either unit.
+const COLUMNS: [(&str, PointCoordinates, LengthUnit); 4] = [
+    ("cam_deg,radius_mm", PointCoordinates::Polar, LengthUnit::Millimetre),
+    ("x_mm,y_mm", PointCoordinates::Plane, LengthUnit::Millimetre),
+    ("cam_deg,radius_in", PointCoordinates::Polar, LengthUnit::Inch),
+    ("x_in,y_in", PointCoordinates::Plane, LengthUnit::Inch),
+];
 /// Words that the reader looks for.
 const INTERPOLATION: &str = "# interpolation: ";
 const LINEAR: &str = "linear";
@@ -43,35 +49,39 @@ pub fn write(body: &dyn Body, table: &PointTable) -> Vec<u8> {
     for (key, value) in head(body, table) {
         text.push_str(&format!("# {key}: {value}\n"));
     }
-    text.push_str(if table.wish.form == PointCoordinates::Polar { POLAR } else { PLANE });
+    let (form, units) = (table.wish.form, body.machine().units());
+    let columns = COLUMNS.iter().find(|(_, of_form, of_unit)| (*of_form, *of_unit) == (form, units));
+    text.push_str(columns.map_or("", |(columns, _, _)| columns));
     text.push('\n');
     for [first, second] in table.turned(&table.rows.rows) {
-        text.push_str(&format!("{},{}\n", plain(first, DECIMALS), plain(second, DECIMALS)));
+        let first = if form == PointCoordinates::Polar { first } else { units.of_mm(first) };
+        text.push_str(&format!("{},{}\n", plain(first, DECIMALS), plain(units.of_mm(second), DECIMALS)));
     }
     text.into_bytes()
 }
 
 /// The description of the table, line by line.
-fn head(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
-    let (wish, rows) = (&table.wish, &table.rows);
+fn head(body: &dyn Body, table: &PointTable) -> Vec<(Cow<'static, str>, String)> {
+    let (wish, rows, units) = (&table.wish, &table.rows, body.machine().units());
     let speed =
         table.rpm.map_or_else(|| body.speeds().to_string(), |rpm| format!(", section for {} rpm", shortest(rpm)));
-    let mut head = vec![
-        ("machine", body.machine().name().to_owned()),
-        ("cam", format!("{}{speed}", body.kind().noun)),
-        ("given", given(table)),
-        ("units", "mm, degrees".to_owned()),
-        ("coordinates", coordinates(table).to_owned()),
+    let unit = if units == LengthUnit::Inch { "inches" } else { "mm" };
+    let mut head: Vec<(Cow<'static, str>, String)> = vec![
+        ("machine".into(), body.machine().name().to_owned()),
+        ("cam".into(), format!("{}{speed}", body.kind().noun)),
+        ("given".into(), given(table, units)),
+        ("units".into(), format!("{unit}, degrees")),
+        ("coordinates".into(), coordinates(table, units)),
     ];
     if table.closed {
         let turns = match body.machine().cam.rotation {
             Rotation::Clockwise => ("clockwise", "counter-clockwise"),
             Rotation::CounterClockwise => ("counter-clockwise", "clockwise"),
         };
-        head.push(("rotation", format!("the cam turns {}", turns.0)));
-        head.push(("order", format!("as the follower meets the points, {} round the shaft", turns.1)));
+        head.push(("rotation".into(), format!("the cam turns {}", turns.0)));
+        head.push(("order".into(), format!("as the follower meets the points, {} round the shaft", turns.1)));
     } else {
-        head.push(("order", "along the stroke".to_owned()));
+        head.push(("order".into(), "along the stroke".to_owned()));
     }
     let closed = if table.closed { "yes, the last row is the first point again" } else { "no" };
     let corners = match (rows.corners, wish.between) {
@@ -84,24 +94,33 @@ fn head(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
     if rows.jumps > 0 {
         let words = "each a row that stands twice: one spline ends where the acceleration jumps and the next begins; the \
                      velocity steps there by at most twice its error";
-        head.push(("jumps", format!("{}, {words}", rows.jumps)));
+        head.push(("jumps".into(), format!("{}, {words}", rows.jumps)));
     }
     head.extend([
-        ("points", points(table)),
-        ("interpolation", interpolation(table)),
-        ("closed", closed.to_owned()),
-        ("corners", corners),
-        ("tolerance_mm", plain(wish.tolerance, DECIMALS)),
-        ("error_mm", plain(rows.error, DECIMALS)),
-        ("error", "bound of the distance between the interpolated curve and the exact one, either way".to_owned()),
+        ("points".into(), points(table)),
+        ("interpolation".into(), interpolation(table)),
+        ("closed".into(), closed.to_owned()),
+        ("corners".into(), corners),
+        number("tolerance_mm", wish.tolerance, units),
+        number("error_mm", rows.error, units),
+        (
+            "error".into(),
+            "bound of the distance between the interpolated curve and the exact one, either way".to_owned(),
+        ),
     ]);
     head.extend(motion_lines(body, table));
-    head.push(("rows", rows.rows.len().to_string()));
+    head.push(("rows".into(), rows.rows.len().to_string()));
     head
 }
 
+/// A value under the name of its column of millimetres, in a unit.
+fn number(name: &'static str, value: f64, units: LengthUnit) -> (Cow<'static, str>, String) {
+    let (name, power) = units.column(name);
+    (name, plain(units.of_mm_to(value, power), DECIMALS))
+}
+
 /// The errors of the follower's motion on the curve that the control makes, and which tolerances are kept.
-fn motion_lines(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
+fn motion_lines(body: &dyn Body, table: &PointTable) -> Vec<(Cow<'static, str>, String)> {
     const KEYS: [[&str; 3]; 4] = [
         ["velocity_tolerance_mm_per_rad", "velocity_tolerance_rad_per_rad", "velocity_tolerance_mm_per_mm"],
         ["velocity_error_mm_per_rad", "velocity_error_rad_per_rad", "velocity_error_mm_per_mm"],
@@ -112,7 +131,7 @@ fn motion_lines(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, Strin
         ],
         ["acceleration_error_mm_per_rad2", "acceleration_error_rad_per_rad2", "acceleration_error_mm_per_mm2"],
     ];
-    let (swings, by_travel) = (swings(body), by_travel(body));
+    let (swings, by_travel, units) = (swings(body), by_travel(body), body.machine().units());
     let keys = KEYS.map(|[straight, swung, travelled]| match (swings, by_travel) {
         (true, _) => swung,
         (false, true) => travelled,
@@ -123,7 +142,7 @@ fn motion_lines(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, Strin
     let errors = match table.errors {
         PointErrors::Known(errors) => errors,
         PointErrors::Unknown(why) => {
-            head.push(("felt", format!("velocity and acceleration are not told: {why}")));
+            head.push(("felt".into(), format!("velocity and acceleration are not told: {why}")));
             [f64::INFINITY; 2]
         }
     };
@@ -134,7 +153,7 @@ fn motion_lines(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, Strin
         of_acceleration * errors[1],
     ];
     let rows = keys.iter().zip(values).filter(|(_, value)| value.is_finite());
-    head.extend(rows.map(|(key, value)| (*key, plain(value, DECIMALS))));
+    head.extend(rows.map(|(key, value)| number(key, value, units)));
     if matches!(table.errors, PointErrors::Known(_)) {
         let how = if body.surface().is_some() && table.curve == PointCurve::Profile {
             ", to first order, at five places of every interval"
@@ -150,7 +169,10 @@ fn motion_lines(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, Strin
             (false, true) => "travel of the plate",
             (false, false) => "angle of the crank",
         };
-        head.push(("felt", format!("{what} on the interpolated curve by the {by}{wheel}{how}", wheel = wheel(table))));
+        head.push((
+            "felt".into(),
+            format!("{what} on the interpolated curve by the {by}{wheel}{how}", wheel = wheel(table)),
+        ));
     }
     head.extend(kept(table, errors));
     head
@@ -166,30 +188,30 @@ fn wheel(table: &PointTable) -> &'static str {
 }
 
 /// Which tolerances are kept, and which are not.
-fn kept(table: &PointTable, errors: [f64; 2]) -> Vec<(&'static str, String)> {
+fn kept(table: &PointTable, errors: [f64; 2]) -> Vec<(Cow<'static, str>, String)> {
     let names = ["velocity", "acceleration"];
     let limited =
         || names.iter().zip(table.allowed.iter().zip(&errors)).filter(|(_, (allowed, _))| allowed.is_finite());
     let list =
         |keeps: bool| limited().filter(move |(_, (allowed, error))| (error <= allowed) == keeps).map(|(name, _)| *name);
-    let mut head = vec![("keeps", std::iter::once("distance").chain(list(true)).collect::<Vec<_>>().join(", "))];
+    let mut head = vec![("keeps".into(), std::iter::once("distance").chain(list(true)).collect::<Vec<_>>().join(", "))];
     if table.wish.between == PointInterpolation::Linear {
         let words =
             "acceleration: a control that goes straight from row to row turns at each, and the velocity jumps there";
         head.push((
-            "not_kept",
+            "not_kept".into(),
             list(false).filter(|name| *name == "velocity").chain([words]).collect::<Vec<_>>().join(", "),
         ));
     } else if list(false).next().is_some() {
-        head.push(("not_kept", list(false).collect::<Vec<_>>().join(", ")));
+        head.push(("not_kept".into(), list(false).collect::<Vec<_>>().join(", ")));
     }
     head
 }
 
-fn given(table: &PointTable) -> String {
-    let radius = table
-        .radius
-        .map_or_else(String::new, |radius| format!(" of radius {} mm", plain(MILLIMETRES * radius, DECIMALS)));
+fn given(table: &PointTable, units: LengthUnit) -> String {
+    let radius = table.radius.map_or_else(String::new, |radius| {
+        format!(" of radius {} {}", plain(units.of_mm(MILLIMETRES * radius), DECIMALS), units.symbol())
+    });
     // The lower flank of a plate with two is not written.
     let of_two = table.flipped;
     match (table.curve, table.closed) {
@@ -205,8 +227,8 @@ fn given(table: &PointTable) -> String {
     }
 }
 
-fn coordinates(table: &PointTable) -> &'static str {
-    match (table.wish.form, table.closed) {
+fn coordinates(table: &PointTable, units: LengthUnit) -> String {
+    let words = match (table.wish.form, table.closed) {
         (PointCoordinates::Polar, _) => {
             "polar; cam_deg is the angle of the point about the shaft from the X axis of the drawing, against the rotation of the \
              cam, radius_mm its distance from the shaft"
@@ -216,7 +238,8 @@ fn coordinates(table: &PointTable) -> &'static str {
         (PointCoordinates::Plane, false) => {
             "x and y of the drawing, X along the travel of the plate, the roller's centre at the origin at travel 0 and lift 0"
         }
-    }
+    };
+    words.replace("radius_mm", &units.column("radius_mm").0)
 }
 
 fn points(table: &PointTable) -> String {
@@ -266,7 +289,7 @@ pub struct StatedCurve {
 /// Whether bytes are those of a table of points, by the line that names its columns.
 #[must_use]
 pub fn is_points(bytes: &[u8]) -> bool {
-    let columns = |line: &[u8]| [POLAR.as_bytes(), PLANE.as_bytes()].contains(&line.trim_ascii_end());
+    let columns = |line: &[u8]| COLUMNS.iter().any(|(columns, _, _)| columns.as_bytes() == line.trim_ascii_end());
     let mut lines = bytes.split(|byte| *byte == b'\n').skip_while(|line| line.starts_with(b"#"));
     lines.next().is_some_and(columns)
 }
@@ -285,13 +308,18 @@ pub fn stated(bytes: &[u8]) -> StatedCurve {
         _ if given.contains("roller") => PointCurve::Centre,
         _ => PointCurve::Profile,
     };
-    let radius = given.split_once("radius ").and_then(|(_, rest)| rest.split(' ').next()?.parse::<f64>().ok());
+    let radius = given.split_once("radius ").and_then(|(_, rest)| {
+        let mut words = rest.split([' ', ',']);
+        let number = words.next()?.parse::<f64>().ok()?;
+        let unit = if words.next() == Some("in") { LengthUnit::Inch } else { LengthUnit::Millimetre };
+        Some(unit.millimetres() * number)
+    });
     let cutter = radius.filter(|_| curve == PointCurve::Cutter).map(|radius| radius / MILLIMETRES);
     let step = if line("points").contains("equal error") { PointStep::Chord } else { PointStep::Angle };
     StatedCurve { curve, cutter, step }
 }
 
-/// A table as a control reads it from a file.
+/// A table as a control reads it from a file, in millimetres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadPoints {
     /// Its coordinates, by the names of its columns.
@@ -310,7 +338,7 @@ pub struct ReadPoints {
 /// A sentence when the file is not a table of points.
 pub fn read(bytes: &[u8]) -> Result<ReadPoints, String> {
     let text = std::str::from_utf8(bytes).map_err(|error| error.to_string())?;
-    let (mut between, mut closed, mut form, mut rows) = (None, false, None, Vec::new());
+    let (mut between, mut closed, mut head, mut rows) = (None, false, None, Vec::new());
     for line in text.lines() {
         if let Some(words) = line.strip_prefix(INTERPOLATION) {
             between = match words.split(',').next() {
@@ -322,8 +350,9 @@ pub fn read(bytes: &[u8]) -> Result<ReadPoints, String> {
         closed |= line.starts_with(CLOSED);
         match line {
             _ if line.starts_with('#') => {}
-            POLAR => form = Some(PointCoordinates::Polar),
-            PLANE => form = Some(PointCoordinates::Plane),
+            line if COLUMNS.iter().any(|(columns, _, _)| *columns == line) => {
+                head = COLUMNS.iter().find(|(columns, _, _)| *columns == line).map(|(_, form, unit)| (*form, *unit));
+            }
             row => {
                 let numbers = row.split_once(',').map(|(first, second)| (first.parse(), second.parse()));
                 let Some((Ok(first), Ok(second))) = numbers else {
@@ -333,8 +362,12 @@ pub fn read(bytes: &[u8]) -> Result<ReadPoints, String> {
             }
         }
     }
-    match (form, between) {
-        (Some(form), Some(between)) => Ok(ReadPoints { form, between, closed, rows }),
+    match (head, between) {
+        (Some((form, unit)), Some(between)) => {
+            let first = if form == PointCoordinates::Polar { 1.0 } else { unit.millimetres() };
+            let rows = rows.into_iter().map(|[a, b]: [f64; 2]| [first * a, unit.millimetres() * b]).collect();
+            Ok(ReadPoints { form, between, closed, rows })
+        }
         (None, _) => Err("the line that names the columns is missing".into()),
         (_, None) => Err("the interpolation is not stated".into()),
     }
@@ -354,6 +387,9 @@ mod tests {
             rows: vec![[1.0, -2.5]],
         };
         assert_eq!(read(good.as_bytes()), Ok(table));
+        let inches = read(good.replace("_mm", "_in").as_bytes()).expect("a table in inches");
+        assert_eq!((inches.form, inches.rows), (PointCoordinates::Plane, vec![[25.4, -63.5]]));
+        assert!(read(good.replace("y_mm", "y_in").as_bytes()).is_err(), "two units");
         assert!(read(good.replace("cubic", "quintic").as_bytes()).is_err_and(|why| why.contains("interpolation")));
         assert!(read(good.replace("x_mm", "u_mm").as_bytes()).is_err_and(|why| why.contains("is not a row")));
         assert!(read(good.replace("-2.5", "").as_bytes()).is_err_and(|why| why.contains("1.0,")));

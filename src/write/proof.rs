@@ -3,7 +3,7 @@
 //! `reading` reads it, and its outline is proved. With the feature `second-reader` the dxf crate, which shares no code with `reading`, reads
 //! it as well and must find exactly the entities that were drawn.
 
-use super::dxf::{self, Version};
+use super::dxf::{self, DxfForm, Version};
 #[cfg(feature = "second-reader")]
 use super::second_reader;
 use crate::body::{Layer, Part};
@@ -44,18 +44,18 @@ fn not_one_outline() -> Refusal {
 ///
 /// # Errors
 /// [`Refusal`] when what was written is not what was drawn.
-pub fn write(part: &Part, version: Version) -> Result<WrittenCut, Refusal> {
-    write_marked(part, version, "")
+pub fn write(part: &Part, form: impl Into<DxfForm>) -> Result<WrittenCut, Refusal> {
+    write_marked(part, form.into(), "")
 }
 
 /// Writes a developed view to memory, with a comment at the head of the file.
 ///
 /// # Errors
 /// [`Refusal`] when what was written is not what was drawn.
-pub fn developed(entities: &[(Layer, Entity)], version: Version, mark: &str) -> Result<Vec<u8>, Refusal> {
-    let bytes = dxf::marked(dxf::write(entities, version), mark);
+pub fn developed(entities: &[(Layer, Entity)], form: DxfForm, mark: &str) -> Result<Vec<u8>, Refusal> {
+    let bytes = dxf::marked(dxf::write(entities, form), mark);
     #[cfg(feature = "second-reader")]
-    if !second_reader::holds(&bytes, entities) {
+    if !second_reader::holds(&bytes, &dxf::in_units(entities, form.units)) {
         return Err(other_entities());
     }
     Ok(bytes)
@@ -70,14 +70,14 @@ fn other_entities() -> Refusal {
 ///
 /// # Errors
 /// As [`write`](write()).
-pub fn write_marked(part: &Part, version: Version, mark: &str) -> Result<WrittenCut, Refusal> {
-    if version == Version::R12 && part.outlines().any(|(_, outline)| outline.contour.cubics() > 0) {
+pub fn write_marked(part: &Part, form: DxfForm, mark: &str) -> Result<WrittenCut, Refusal> {
+    if form.version == Version::R12 && part.outlines().any(|(_, outline)| outline.contour.cubics() > 0) {
         return Err(Refusal::new("DXF R12 has no SPLINE").remedy("use --outline arcs, or --dxf-version r2000 or later"));
     }
     let entities = part.entities();
-    let bytes = dxf::marked(dxf::write(&entities, version), mark);
+    let bytes = dxf::marked(dxf::write(&entities, form), mark);
     #[cfg(feature = "second-reader")]
-    if !second_reader::holds(&bytes, &entities) {
+    if !second_reader::holds(&bytes, &dxf::in_units(&entities, form.units)) {
         return Err(other_entities());
     }
     let layers: Vec<Layer> = part.outlines().map(|(layer, _)| layer).collect();
@@ -99,8 +99,8 @@ pub fn write_marked(part: &Part, version: Version, mark: &str) -> Result<Written
 ///
 /// # Errors
 /// [`Refusal`] when what was written is not what was drawn.
-pub fn cutter_path(path: &Outline, version: Version) -> Result<(Contour, Vec<Chain>), Refusal> {
-    let bytes = dxf::cutter_path(path, version);
+pub fn cutter_path(path: &Outline, form: impl Into<DxfForm>) -> Result<(Contour, Vec<Chain>), Refusal> {
+    let bytes = dxf::cutter_path(path, form);
     let reading = read_back(&bytes, Layer::CutterPath)?;
     match reading.chains.as_slice() {
         [chain] if chain.closed && reading.duplicates.is_empty() && reading.points.is_empty() => {

@@ -5,6 +5,7 @@ use super::{Format, FormatSelection, Rendering};
 use crate::body::Body;
 use crate::body::servo::{self, ServoTable};
 use crate::refusal::Refusal;
+use crate::units::LengthUnit;
 
 /// Units of a table of the controls of ISG in a millimetre or a degree, and the decimals of its numbers.
 const TEN_THOUSANDTHS: f64 = 1e4;
@@ -47,13 +48,18 @@ fn of(cam: &Rendering<'_>, name: &str) -> Result<Vec<Vec<u8>>, Refusal> {
 /// A table in each of the formats, under a mark.
 #[must_use]
 pub fn write(body: &dyn Body, table: &ServoTable, mark: &str) -> Vec<(&'static str, Vec<u8>)> {
-    let head = head(body, table, mark);
-    let files = [csv(table, &head), xyva(body, table, &head), twincat(body, table, &head)];
+    let units = if table.swings { LengthUnit::Millimetre } else { body.machine().units() };
+    let head = head(body, table, (mark, units));
+    // The drive of a table in inches has positions in inches; of a swinging follower they are angles.
+    let nodes: Vec<[f64; 4]> =
+        table.nodes.iter().map(|[x, y, v, a]| [*x, units.of_mm(*y), units.of_mm(*v), units.of_mm(*a)]).collect();
+    let scaled = ServoTable { nodes, ..table.clone() };
+    let files = [csv(&scaled, units, &head), xyva(body, &scaled, &head), twincat(body, &scaled, &head)];
     let files = files.into_iter().chain(table.equal.as_ref().map(|positions| isg(body, table.swings, positions, mark)));
     NAMES.into_iter().zip(files.map(String::into_bytes)).collect()
 }
 
-/// A table of one column, in ten thousandths of a millimetre or a degree: the position at the beginning of each of so many equal parts of the
+/// A table of one column, whatever the unit of other files in ten thousandths of a millimetre or a degree: the position at the beginning of each of so many equal parts of the
 /// turn, with straight lines between them (<https://infosys.beckhoff.com/content/1033/tccncmcplatform_fb/15306147467.html>).
 fn isg(body: &dyn Body, swings: bool, positions: &[f64], mark: &str) -> String {
     let unit = if swings { "deg" } else { "mm" };
@@ -68,9 +74,9 @@ fn isg(body: &dyn Body, swings: bool, positions: &[f64], mark: &str) -> String {
 }
 
 /// What a table is, line by line.
-fn head(body: &dyn Body, table: &ServoTable, mark: &str) -> Vec<String> {
+fn head(body: &dyn Body, table: &ServoTable, (mark, units): (&str, LengthUnit)) -> Vec<String> {
     let plain: String = body.machine().name().chars().filter(|c| c.is_ascii() && !"(*)".contains(*c)).collect();
-    let unit = if table.swings { "deg" } else { "mm" };
+    let unit = if table.swings { "deg" } else { units.symbol() };
     vec![
         mark.to_owned(),
         format!("machine: {plain}"),
@@ -82,14 +88,11 @@ fn head(body: &dyn Body, table: &ServoTable, mark: &str) -> Vec<String> {
     ]
 }
 
-fn csv(table: &ServoTable, head: &[String]) -> String {
+fn csv(table: &ServoTable, units: LengthUnit, head: &[String]) -> String {
     let head: Vec<String> = head.iter().map(|line| format!("# {line}\n")).collect();
     let mut text = head.concat();
-    text.push_str(if table.swings {
-        "master_deg,slave_deg,velocity_deg_per_deg,acceleration_deg_per_deg2\n"
-    } else {
-        "master_deg,slave_mm,velocity_mm_per_deg,acceleration_mm_per_deg2\n"
-    });
+    let unit = if table.swings { "deg" } else { units.symbol() };
+    text.push_str(&format!("master_deg,slave_{unit},velocity_{unit}_per_deg,acceleration_{unit}_per_deg2\n"));
     for node in &table.nodes {
         text.push_str(&format!("{}\n", node.map(shortest).join(",")));
     }

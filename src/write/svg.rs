@@ -11,6 +11,7 @@ use crate::profile::outline::Fit;
 use crate::refusal::Refusal;
 use crate::report::sheet::{ShapeGroup, Sheet, SheetExtras, SheetShape, TextAnchor, compose, font};
 use crate::report::{Finding, Verdict, shown};
+use crate::units::LengthUnit;
 use crate::verify;
 use svg::node::{self, Node, element};
 
@@ -46,7 +47,7 @@ pub(super) fn numbered(cam: &Rendering<'_>, number: &'static str) -> Result<Shee
     let outline = cam.outlines.first().map(|outline| &outline.contour);
     let second = cam.other_cams.first().and_then(|(body, outlines)| Some((*body, &outlines.first()?.contour)));
     let traces = outline.map_or_else(Vec::new, |outline| body::traces((cam.body, outline), second));
-    let file_deviates = deviation_words(&cam.fit);
+    let file_deviates = deviation_words(&cam.fit, cam.report.units);
     let (checks, passed_otherwise) = listed_checks(&cam.report.checks);
     let extras =
         SheetExtras { file_deviates: &file_deviates, number, traces: &traces, checks: &checks, passed_otherwise };
@@ -62,10 +63,11 @@ pub(super) fn listed_checks(all: &[Finding]) -> (Vec<Finding>, usize) {
 }
 
 /// How far the profile of the file may lie from the exact one, in words.
-pub(super) fn deviation_words(fit: &Fit) -> String {
+pub(super) fn deviation_words(fit: &Fit, units: LengthUnit) -> String {
     let (middle, half) = fit.band();
-    let [low, high] = [middle - half, middle + half].map(|limit| shown(MILLIMETRES * limit));
-    if middle == 0.0 { format!("at most {high} mm") } else { format!("{low} mm to {high} mm outwards") }
+    let [low, high] = [middle - half, middle + half].map(|limit| shown(units.of_mm(MILLIMETRES * limit)));
+    let unit = units.symbol();
+    if middle == 0.0 { format!("at most {high} {unit}") } else { format!("{low} {unit} to {high} {unit} outwards") }
 }
 
 /// The sheet used when none is given.

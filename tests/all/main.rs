@@ -34,6 +34,7 @@ mod groove;
 mod groove_cam;
 mod html;
 mod importing;
+mod inches;
 mod inputs;
 mod laws;
 mod linkage_cams;

@@ -121,9 +121,11 @@ const MEASURED_WORDS: [&str; 6] = ["act", "actual", "measured", "meas", "ist", "
 fn named(names: &[String]) -> Result<PointColumns, Refusal> {
     let plain: Vec<String> = names.iter().map(|name| name.trim_matches('"').trim().to_lowercase()).collect();
     // The table of a cam itself has its profile among other places.
-    let own = |name: &str| plain.iter().position(|other| other == name).map(|index| (index, 1.0));
-    if let (Some(x), Some(y)) = (own("profile_x_mm"), own("profile_y_mm")) {
-        return Ok(PointColumns::Plane([x, y]));
+    let own = |name: &str, size: f64| plain.iter().position(|other| other == name).map(|index| (index, size));
+    for (x, y, size) in [("profile_x_mm", "profile_y_mm", 1.0), ("profile_x_in", "profile_y_in", INCH)] {
+        if let (Some(x), Some(y)) = (own(x, size), own(y, size)) {
+            return Ok(PointColumns::Plane([x, y]));
+        }
     }
     let length: &[(&str, f64)] = &[("mm", 1.0), ("in", INCH), ("inch", INCH), ("\"", INCH)];
     let angle: &[(&str, f64)] = &[("deg", 1.0_f64.to_radians()), ("°", 1.0_f64.to_radians()), ("rad", 1.0)];

@@ -58,6 +58,7 @@ fn mass(barrel: &Barrel, volume: f64) -> f64 {
 
 /// Lengths of the developed view, and the roller in its groove at the start.
 fn developed_marks(barrel: &Barrel, view: &mut SheetView) {
+    let units = barrel.machine.units();
     let start = barrel.motion.range().0;
     let x = |angle: f64| MILLIMETRES * barrel.sense() * barrel.outer * angle;
     let (left, right) = (x(start).min(x(start + TAU)), x(start).max(x(start + TAU)));
@@ -67,13 +68,13 @@ fn developed_marks(barrel: &Barrel, view: &mut SheetView) {
         from: at(left, low),
         to: at(right, low),
         away: at(0.0, -1.0),
-        text: format!("{} = 360°", rounded(right - left)),
+        text: format!("{} = 360°", units.dimension(right - left)),
     });
     view.marks.push(Mark::Distance {
         from: at(left, low),
         to: at(left, high),
         away: at(-1.0, 0.0),
-        text: rounded(high - low),
+        text: units.dimension(high - low),
     });
     let (piece, angle) = barrel.motion.locate(0.0);
     let axis = barrel.axis(piece, angle);
@@ -86,12 +87,17 @@ fn developed_marks(barrel: &Barrel, view: &mut SheetView) {
         class: "dimension",
         at: centre,
         towards: at(0.6, 0.8),
-        text: format!("θ = 0, z = 0: groove {} wide, roller Ø{}", rounded(width), rounded(2.0 * radius)),
+        text: format!(
+            "θ = 0, z = 0: groove {} wide, roller Ø{}",
+            units.dimension(width),
+            units.dimension(2.0 * radius)
+        ),
     });
 }
 
 /// The section along the axis at θ = 0, to the right of the developed view.
 fn section(barrel: &Barrel, view: &mut SheetView) {
+    let units = barrel.machine.units();
     let (outer, floor) = (MILLIMETRES * barrel.outer, MILLIMETRES * barrel.floor());
     let (low, high) = (MILLIMETRES * barrel.ends.0, MILLIMETRES * barrel.ends.1);
     let right = crate::report::sheet::extents_of(&view.groups).largest.x + (GAP + 1.0) * outer;
@@ -124,16 +130,27 @@ fn section(barrel: &Barrel, view: &mut SheetView) {
         away: Vector2::new(0.0, way),
         text,
     };
-    view.marks.push(distance(at(-outer, low), at(outer, low), -1.0, format!("Ø{}", rounded(2.0 * outer))));
-    view.marks.push(distance(at(floor, high), at(outer, high), 1.0, format!("{} deep", rounded(outer - floor))));
+    view.marks.push(distance(at(-outer, low), at(outer, low), -1.0, format!("Ø{}", units.dimension(2.0 * outer))));
+    view.marks.push(distance(
+        at(floor, high),
+        at(outer, high),
+        1.0,
+        format!("{} deep", units.dimension(outer - floor)),
+    ));
     if let Some(radius) = bore {
         let fit = barrel.machine.cam.bore_fit.map_or(String::new(), |fit| format!(" {fit}"));
-        view.marks.push(distance(at(-radius, high), at(radius, high), 1.0, format!("Ø{}{fit}", rounded(2.0 * radius))));
+        view.marks.push(distance(
+            at(-radius, high),
+            at(radius, high),
+            1.0,
+            format!("Ø{}{fit}", units.dimension(2.0 * radius)),
+        ));
     }
 }
 
 /// Angle and height of both flanks on the outside and at the floor.
 fn tables(barrel: &Barrel) -> Vec<PlaceTable> {
+    let units = barrel.machine.units();
     let row = |index: u32| {
         let degrees = 360.0 * f64::from(index) / f64::from(ROWS);
         let place = barrel.motion.locate(degrees.to_radians());
@@ -144,16 +161,19 @@ fn tables(barrel: &Barrel) -> Vec<PlaceTable> {
                 let [angle, height] = found.map_or([f64::NAN; 2], |found| {
                     [barrel.sense() * (degrees + found.ahead.to_degrees()), MILLIMETRES * found.height]
                 });
-                cells.extend([format!("{angle:.4}"), format!("{height:.3}")]);
+                cells.extend([format!("{angle:.4}"), units.cell(height)]);
             }
         }
         cells
     };
     let rows: Arc<[Vec<String>]> = (0..ROWS).map(row).collect();
-    let [outside, floor] = [barrel.outer, barrel.floor()].map(|radius| rounded(MILLIMETRES * radius));
+    let [outside, floor] = [barrel.outer, barrel.floor()].map(|radius| units.dimension(MILLIMETRES * radius));
     let heads = ["θ", "φ above", "z above", "φ below", "z below", "φ above", "z above", "φ below", "z below"];
     let of = |every: usize| PlaceTable {
-        title: format!("Both flanks on R {outside} and on the floor R {floor}: angle φ, °, and height z, mm"),
+        title: format!(
+            "Both flanks on R {outside} and on the floor R {floor}: angle φ, °, and height z, {}",
+            units.symbol()
+        ),
         heads: heads.map(str::to_owned).to_vec(),
         rows: Arc::clone(&rows),
         every,

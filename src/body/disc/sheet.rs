@@ -12,7 +12,8 @@ use crate::geometry::contour::{Contour, Edge, Extents, Vertex};
 use crate::geometry::{Entity, MILLIMETRES, polar};
 use crate::profile::envelope;
 use crate::profile::outline::{OutlineError, pitch};
-use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView, TitleFacts, extents_of, rounded};
+use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView, TitleFacts, extents_of};
+use crate::units::LengthUnit;
 use nalgebra::Vector2;
 
 /// Half the length at which a flat face is shown, over the base radius.
@@ -36,21 +37,21 @@ pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<SheetView, OutlineError
         Some(radius) => Some(pitch_curve(disc, part, MILLIMETRES * radius)?),
         None => None,
     };
+    let units = disc.machine.units();
     let outline = part.map_or(NOWHERE, Part::extents);
     let (prime, base) = (MILLIMETRES * disc.prime_radius(), MILLIMETRES * disc.base_radius());
     let profile = part.map(|part| SheetShape::Entity(Entity::Polyline(part.outline.contour.clone())));
     let holes = part.map_or_else(Vec::new, |part| part.holes().into_iter().map(SheetShape::Entity).collect());
-    let circle = |radius: f64| vec![SheetShape::Entity(Entity::Circle(Vector2::zeros(), radius))];
     let group = ShapeGroup::new;
     let crossed = pitch_curve.as_ref().map_or(outline, |curve| curve.extents().with(&outline));
     let mut groups = vec![
         group("profile", "profile", profile.into_iter().collect()).with_legend(),
         group("bore", "bore", holes),
         group("axis", shop_views::zero_of(disc), axes(&crossed)).with_legend(),
-        group("base-circle", &format!("base circle R {}", rounded(base)), circle(base)).with_legend(),
+        circle(("base-circle", "base circle"), base, units),
     ];
     if let Some(pitch_curve) = pitch_curve {
-        groups.push(group("prime-circle", &format!("prime circle R {}", rounded(prime)), circle(prime)).with_legend());
+        groups.push(circle(("prime-circle", "prime circle"), prime, units));
         let curve = vec![SheetShape::Entity(Entity::Polyline(pitch_curve))];
         groups.push(group("pitch-curve", "pitch curve", curve).with_legend());
     }
@@ -67,11 +68,11 @@ pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<SheetView, OutlineError
     let tolerance = part.and_then(|part| shop_views::tolerance(disc, &part.outline));
     let nothing_left = disc.machine.title.lift_tolerance.is_some() && tolerance.is_none();
     let marks = [
-        overall(&outline),
+        overall(&outline, units),
         bore(&disc.machine, part.and_then(|part| part.balancing.as_ref())),
         turning(&disc.machine, base, at_zero, zero),
         angle,
-        farthest(part.map(|part| &part.outline.contour)).into_iter().collect(),
+        farthest(part.map(|part| &part.outline.contour), units).into_iter().collect(),
         arm_marks,
         side_marks,
         part.map_or_else(Vec::new, |part| shop_views::of_profile(disc, &part.outline, tolerance)),
@@ -88,6 +89,12 @@ pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<SheetView, OutlineError
             Vec::new()
         },
     })
+}
+
+/// A circle about the shaft with its radius, mm, in the legend.
+fn circle((class, name): (&'static str, &str), radius: f64, units: LengthUnit) -> ShapeGroup {
+    let shapes = vec![SheetShape::Entity(Entity::Circle(Vector2::zeros(), radius))];
+    ShapeGroup::new(class, &format!("{name} R {}", units.dimension(radius)), shapes).with_legend()
 }
 
 /// Largest distance of an outline from the exact one, mm, at which its parallel is shown: a fifth of a thin pen.
@@ -129,10 +136,10 @@ fn offset_outline(contour: &Contour, distance: f64) -> Option<Contour> {
 }
 
 /// The largest radius of the outline.
-fn farthest(outline: Option<&Contour>) -> Option<Mark> {
+fn farthest(outline: Option<&Contour>, units: LengthUnit) -> Option<Mark> {
     let points = outline?.edges().map(|edge| edge.start());
     let to = points.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
-    Some(Mark::Radius { centre: Vector2::zeros(), to, text: format!("R {}", rounded(to.norm())) })
+    Some(Mark::Radius { centre: Vector2::zeros(), to, text: format!("R {}", units.dimension(to.norm())) })
 }
 
 /// Radius of the roller, mm, or half the length at which a flat face is shown.

@@ -11,7 +11,7 @@ use crate::geometry::{Entity, MILLIMETRES, polar};
 use crate::motion::Jet;
 use crate::profile::lifts;
 use crate::profile::outline::Outline;
-use crate::report::sheet::{Mark, ProfileTolerance, ShapeGroup, SheetShape, rounded};
+use crate::report::sheet::{Mark, ProfileTolerance, ShapeGroup, SheetShape};
 use nalgebra::Vector2;
 
 /// Radius of the circle of a pivot, mm.
@@ -30,11 +30,12 @@ pub(super) fn zero_of(disc: &Disc) -> &'static str {
 /// The pivot of a swinging follower with its arm at both ends of its swing, as they are at θ = 0, and what they measure.
 pub(super) fn arm(disc: &Disc) -> (Vec<ShapeGroup>, Vec<Mark>) {
     let Carrier::Arm { pivot } = disc.follower().carrier() else { return (Vec::new(), Vec::new()) };
+    let units = disc.machine.units();
     let turned = |point| point_as_turned(&disc.machine, point * MILLIMETRES);
     let pivot = turned(pivot);
     let label = |at, towards: Vector2<f64>, text| Mark::Label { class: "arm", at, towards, text };
     let mut shapes = vec![SheetShape::Entity(Entity::Circle(pivot, PIVOT))];
-    let distance = format!("pivot, {} from the shaft", rounded(pivot.norm()));
+    let distance = format!("pivot, {} from the shaft", units.dimension(pivot.norm()));
     let mut marks = vec![label(pivot, Vector2::new(1.0, 0.3), distance)];
     if let Element::Roller { radius } = disc.curves().element() {
         let (low, high) = lifts(disc.curves().motion);
@@ -42,7 +43,7 @@ pub(super) fn arm(disc: &Disc) -> (Vec<ShapeGroup>, Vec<Mark>) {
         let ends = [end(low), end(high)];
         shapes.extend(ends.map(|end| SheetShape::Line(pivot, end)));
         shapes.extend(ends.map(|end| SheetShape::Entity(Entity::Circle(end, MILLIMETRES * radius))));
-        let length = format!("arm {}", rounded((ends[0] - pivot).norm()));
+        let length = format!("arm {}", units.dimension((ends[0] - pivot).norm()));
         marks.push(label(0.5 * (pivot + ends[0]), Vector2::new(0.0, -1.0), length));
         marks.extend(
             ends.into_iter().zip(["lowest", "highest"]).map(|(end, name)| label(end, end - pivot, name.into())),
@@ -66,7 +67,12 @@ pub(super) fn side_view(disc: &Disc, part: Option<&Part>, front: &Extents) -> (V
         Carrier::Arm { .. } => front.least.x - gap - thickness,
         Carrier::Straight | Carrier::Stem { .. } => front.largest.x + gap,
     };
-    sheet::side_view(left, &outline, thickness, disc.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius))
+    sheet::side_view(
+        left,
+        &outline,
+        (thickness, disc.machine.units()),
+        disc.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius),
+    )
 }
 
 /// The tolerance of the profile, given or proposed.

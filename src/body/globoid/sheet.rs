@@ -93,6 +93,7 @@ fn section(globoid: &Globoid) -> Vec<ShapeGroup> {
 
 /// The dimensions of the blank.
 fn marks(globoid: &Globoid, view: &mut SheetView) {
+    let units = globoid.machine.units();
     let at = Vector2::new;
     let [distance, outside, floor] =
         [globoid.turret.distance, globoid.outside, globoid.floor].map(|length| MILLIMETRES * length);
@@ -108,18 +109,23 @@ fn marks(globoid: &Globoid, view: &mut SheetView) {
         text,
     };
     let (up, down, left) = (at(0.0, 1.0), at(0.0, -1.0), at(-1.0, 0.0));
-    view.marks.push(dimension(at(-outer, outer_z), at(outer, outer_z), up, format!("Ø{}", rounded(2.0 * outer))));
-    view.marks.push(dimension(at(-rim, -height), at(rim, -height), down, format!("Ø{}", rounded(2.0 * rim))));
-    view.marks.push(dimension(at(-outer, -height), at(-outer, height), left, rounded(2.0 * height)));
-    view.marks.push(dimension(at(outer, -outer_z), at(outer, outer_z), at(1.0, 0.0), rounded(2.0 * outer_z)));
-    view.marks.push(dimension(at(0.0, -height), at(distance, -height), down, rounded(distance)));
+    view.marks.push(dimension(
+        at(-outer, outer_z),
+        at(outer, outer_z),
+        up,
+        format!("Ø{}", units.dimension(2.0 * outer)),
+    ));
+    view.marks.push(dimension(at(-rim, -height), at(rim, -height), down, format!("Ø{}", units.dimension(2.0 * rim))));
+    view.marks.push(dimension(at(-outer, -height), at(-outer, height), left, units.dimension(2.0 * height)));
+    view.marks.push(dimension(at(outer, -outer_z), at(outer, outer_z), at(1.0, 0.0), units.dimension(2.0 * outer_z)));
+    view.marks.push(dimension(at(0.0, -height), at(distance, -height), down, units.dimension(distance)));
     if let Some(radius) = globoid.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius) {
         let fit = globoid.machine.cam.bore_fit.map_or(String::new(), |fit| format!(" {fit}"));
         view.marks.push(dimension(
             at(-radius, height),
             at(radius, height),
             up,
-            format!("Ø{}{fit}", rounded(2.0 * radius)),
+            format!("Ø{}{fit}", units.dimension(2.0 * radius)),
         ));
     }
     let hollow = -0.5 * globoid.end_angle;
@@ -128,14 +134,14 @@ fn marks(globoid: &Globoid, view: &mut SheetView) {
         class: "dimension",
         at: at(distance - outside * cos, outside * sin),
         towards: at(0.9, -0.4),
-        text: format!("R{} about the turret, waist Ø{}", rounded(outside), rounded(2.0 * waist)),
+        text: format!("R{} about the turret, waist Ø{}", units.dimension(outside), units.dimension(2.0 * waist)),
     });
     let width = MILLIMETRES * globoid.distances.iter().sum::<f64>();
     view.marks.push(Mark::Label {
         class: "dimension",
         at: at(-(distance - floor), 0.0),
         towards: at(-0.7, 0.7),
-        text: format!("groove {} wide, floor R{} about the turret", rounded(width), rounded(floor)),
+        text: format!("groove {} wide, floor R{} about the turret", units.dimension(width), units.dimension(floor)),
     });
 }
 
@@ -146,6 +152,7 @@ fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
     else {
         return Vec::new();
     };
+    let units = globoid.machine.units();
     // Whole steps of five degrees, as many as the groove is long.
     let step = TAU / f64::from(ROWS);
     let (first, last) = ((from / step).floor(), (to / step).ceil());
@@ -162,8 +169,8 @@ fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
                 cells.extend(match inside {
                     Some(found) => [
                         format!("{:.4}", globoid.sense() * (angle + found.ahead()).to_degrees()),
-                        format!("{:.3}", MILLIMETRES * found.radius()),
-                        format!("{:.3}", MILLIMETRES * found.place.z),
+                        units.cell(MILLIMETRES * found.radius()),
+                        units.cell(MILLIMETRES * found.place.z),
                     ],
                     None => [NOWHERE; 3].map(str::to_owned),
                 });
@@ -177,10 +184,11 @@ fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
     let rows: Arc<[Vec<String>]> = rows.into();
     let group = ["φ above", "r above", "z above", "φ below", "r below", "z below"];
     let heads: Vec<String> = ["θ"].into_iter().chain(group).chain(group).map(str::to_owned).collect();
-    let [outside, floor] = [globoid.outside, globoid.floor].map(|from| rounded(MILLIMETRES * from));
+    let [outside, floor] = [globoid.outside, globoid.floor].map(|from| units.dimension(MILLIMETRES * from));
     let of = |every: usize| PlaceTable {
         title: format!(
-            "Both flanks of groove 1 at R {outside} and at the floor R {floor} about the turret: angle φ, °, radius r and height z, mm"
+            "Both flanks of groove 1 at R {outside} and at the floor R {floor} about the turret: angle φ, °, radius r and height z, {}",
+            units.symbol()
         ),
         heads: heads.clone(),
         rows: Arc::clone(&rows),

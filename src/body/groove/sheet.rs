@@ -5,7 +5,7 @@ use crate::body::{Body, Drawn, Layer};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Extents;
 use crate::profile::outline::OutlineError;
-use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView, rounded};
+use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView};
 use nalgebra::Vector2;
 
 /// Distance of the section from the front view, over the radius of the blank.
@@ -34,13 +34,18 @@ pub(super) fn view(groove: &Groove, drawn: &Drawn) -> Result<SheetView, OutlineE
     for table in view.tables.iter_mut().filter(|_| !ring) {
         table.title = table.title.replace("Profile on the part", "Inner flank on the part");
     }
+    let units = groove.machine().units();
     let blank = MILLIMETRES * groove.blank_radius;
     let up_left = Vector2::new(-0.8, 0.6);
     let label =
         |at: Vector2<f64>, towards: Vector2<f64>, text: String| Mark::Label { class: "dimension", at, towards, text };
-    view.marks.push(label(up_left * blank, up_left, format!("blank Ø{}", rounded(2.0 * blank))));
+    view.marks.push(label(up_left * blank, up_left, format!("blank Ø{}", units.dimension(2.0 * blank))));
     if let Some(width) = groove.width() {
-        let text = format!("groove {} wide, roller Ø{}", rounded(MILLIMETRES * width), rounded(roller(groove)));
+        let text = format!(
+            "groove {} wide, roller Ø{}",
+            units.dimension(MILLIMETRES * width),
+            units.dimension(roller(groove))
+        );
         let at =
             part.outlines().nth(1).and_then(|(_, outline)| outline.contour.vertices.first()).map(|vertex| vertex.point);
         let at = at.unwrap_or_else(Vector2::zeros);
@@ -58,6 +63,7 @@ fn roller(groove: &Groove) -> f64 {
 /// The section through the axis at θ = 0, next to the front view: how deep the groove is, and where its flanks are.
 fn section(groove: &Groove, front: &Extents, view: &mut SheetView) {
     let machine = groove.machine();
+    let units = machine.units();
     let Some(thickness) = machine.cam.thickness.map(|thickness| MILLIMETRES * thickness) else { return };
     let depth = machine.cam.track.groove_depth.map_or(thickness, |depth| MILLIMETRES * depth);
     let depth = if *groove.kind == RING { thickness } else { depth };
@@ -104,9 +110,9 @@ fn section(groove: &Groove, front: &Extents, view: &mut SheetView) {
         text,
     };
     let low = |x: f64| Vector2::new(x, -blank);
-    view.marks.push(distance(low(left), low(right), -1.0, rounded(thickness)));
+    view.marks.push(distance(low(left), low(right), -1.0, units.dimension(thickness)));
     if *groove.kind != RING && depth < thickness {
         let top = |x: f64| Vector2::new(x, blank);
-        view.marks.push(distance(top(bottom), top(right), 1.0, format!("{} deep", rounded(depth))));
+        view.marks.push(distance(top(bottom), top(right), 1.0, format!("{} deep", units.dimension(depth))));
     }
 }

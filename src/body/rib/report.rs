@@ -4,7 +4,7 @@ use super::Rib;
 use crate::body::{Body, DrawingEvidence, Drawn, Figures, Layer};
 use crate::geometry::MILLIMETRES;
 use crate::profile::outline::OutlineError;
-use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView, rounded};
+use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView};
 use crate::report::{OutlineMeasures, Rolled, Section, shown};
 use nalgebra::Vector2;
 use serde::Serialize;
@@ -83,7 +83,8 @@ pub(super) fn view(rib: &Rib, drawn: &Drawn) -> Result<SheetView, OutlineError> 
     let rollers = ShapeGroup::new("arm", "rollers at θ = 0", centres.map(circle).to_vec()).with_legend();
     view.groups.push(rollers);
     let [(outer, _), (inner, _)] = centres;
-    let text = format!("rollers {} apart", rounded(MILLIMETRES * rib.distance));
+    let units = rib.machine().units();
+    let text = format!("rollers {} apart", units.dimension(MILLIMETRES * rib.distance));
     view.marks.push(Mark::Label { class: "arm", at: 0.5 * (outer + inner), towards: Vector2::new(0.3, 1.0), text });
     Ok(view)
 }

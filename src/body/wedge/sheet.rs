@@ -1,13 +1,15 @@
 //! What the review sheet of a plate shows.
 
 use super::Wedge;
-use crate::body::sheet::{overall, pressure_angle, profile_tolerance, roller, side_view, tolerance_frame};
+use crate::body::sheet::{
+    length_cell, overall, pressure_angle, profile_tolerance, roller, side_view, tolerance_frame, travelled,
+};
 use crate::body::{Body, Drawn, Figures};
 use crate::geometry::contour::{Contour, Extents};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::motion::Motion;
 use crate::profile::outline::OutlineError;
-use crate::report::sheet::{Mark, PlaceTable, ShapeGroup, SheetShape, SheetView, TitleFacts, extents_of, rounded};
+use crate::report::sheet::{Mark, PlaceTable, ShapeGroup, SheetShape, SheetView, TitleFacts, extents_of};
 use crate::table::{Row, named_value};
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -44,7 +46,12 @@ pub(super) fn view(wedge: &Wedge, drawn: &Drawn) -> Result<SheetView, OutlineErr
     let gap = SIDE_GAP * outline.size().x;
     let side = wedge.machine.cam.thickness.map(|thickness| MILLIMETRES * thickness).map(|thickness| {
         let front = extents_of(&groups);
-        side_view(front.least.x.min(outline.least.x) - gap - thickness, &outline, thickness, None)
+        side_view(
+            front.least.x.min(outline.least.x) - gap - thickness,
+            &outline,
+            (thickness, wedge.machine.units()),
+            None,
+        )
     });
     let (mut seen, thickness) = side.unwrap_or_default();
     // It has no axis that turns.
@@ -56,7 +63,8 @@ pub(super) fn view(wedge: &Wedge, drawn: &Drawn) -> Result<SheetView, OutlineErr
     let frame = zone.map(|zone| tolerance_frame(&wedge.machine, zone, flank_places(wedge)));
     Ok(SheetView {
         groups,
-        marks: [overall(&outline), thickness, names, angle, frame.into_iter().collect()].concat(),
+        marks: [overall(&outline, wedge.machine.units()), thickness, names, angle, frame.into_iter().collect()]
+            .concat(),
         tables: places(wedge),
         facts: TitleFacts::of(&wedge.machine, weight.and_then(|weight| weight.mass_kg)),
         ..SheetView::default()
@@ -76,6 +84,7 @@ fn flank_places(wedge: &Wedge) -> Vec<(Vector2<f64>, Vector2<f64>)> {
 
 /// Where the stroke starts and where it ends, on the path of the follower there.
 fn travel(wedge: &Wedge, outline: &Extents) -> (Vec<SheetShape>, Vec<Mark>) {
+    let units = wedge.machine.units();
     let (from, to) = wedge.stroke();
     let (mut shapes, mut marks) = (Vec::new(), Vec::new());
     for x in [from, to] {
@@ -86,18 +95,18 @@ fn travel(wedge: &Wedge, outline: &Extents) -> (Vec<SheetShape>, Vec<Mark>) {
         let below = Vector2::new(centre.x, outline.least.y.min(centre.y) - 0.04 * outline.size().x);
         shapes.push(SheetShape::Line(centre, touch));
         shapes.push(SheetShape::Line(centre, below));
-        let text = format!("x = {}", rounded((MILLIMETRES * x * 1e6).round() / 1e6));
+        let text = format!("x = {}", units.dimension((MILLIMETRES * x * 1e6).round() / 1e6));
         marks.push(Mark::Label { class: "axis", at: below, towards: Vector2::new(0.0, -1.0), text });
     }
     let [start, ..] = wedge.corners().map(|corner| corner * MILLIMETRES);
     let middle = Vector2::new(start.x + 0.5 * MILLIMETRES * wedge.run_in, start.y);
-    let text = format!("run-in {}", rounded((1e3 * MILLIMETRES * wedge.run_in).round() / 1e3));
+    let text = format!("run-in {}", units.dimension((1e3 * MILLIMETRES * wedge.run_in).round() / 1e3));
     marks.push(Mark::Label { class: "dimension", at: middle, towards: Vector2::new(-0.5, -1.0), text });
     let middle = Vector2::new(0.5 * (outline.least.x + outline.largest.x), outline.largest.y);
     let text = format!(
         "thickness {} at x = {}",
-        rounded((1e3 * MILLIMETRES * wedge.thinnest.0).round() / 1e3),
-        rounded((1e3 * MILLIMETRES * wedge.thinnest.1).round() / 1e3)
+        units.dimension((1e3 * MILLIMETRES * wedge.thinnest.0).round() / 1e3),
+        units.dimension((1e3 * MILLIMETRES * wedge.thinnest.1).round() / 1e3)
     );
     marks.push(Mark::Label { class: "dimension", at: middle, towards: Vector2::new(0.0, 1.0), text });
     (shapes, marks)
@@ -116,14 +125,16 @@ fn worst_place(wedge: &Wedge) -> (Vec<SheetShape>, Vec<Mark>) {
         // A knife edge has no roller.
         shapes.retain(|shape| !matches!(shape, SheetShape::Entity(_)));
     }
-    let text = format!("α = {:.2}° at x = {:.2} mm", worst.value.to_degrees(), MILLIMETRES * worst.at);
+    let text = format!("α = {:.2}° at {}", worst.value.to_degrees(), travelled(&wedge.machine, worst.at));
     (shapes, pressure_angle(centre, drive, outward, radius, text))
 }
 
 /// Travel, lift and the flank.
 fn places(wedge: &Wedge) -> Vec<PlaceTable> {
+    let units = wedge.machine.units();
+    let unit = units.symbol();
     let row = |row: &Row| {
-        let cell = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{:.3}", value + 0.0));
+        let cell = |value: Option<f64>| length_cell(value, units);
         vec![
             cell(named_value(row, "x_mm")),
             cell(named_value(row, "lift_mm")),
@@ -132,10 +143,11 @@ fn places(wedge: &Wedge) -> Vec<PlaceTable> {
         ]
     };
     let rows: Arc<[Vec<String>]> = wedge.rows(STEPS).iter().map(row).collect();
-    let heads = ["x, mm", "lift, mm", "flank x", "flank y"].map(str::to_owned).to_vec();
+    let heads = ["x, mm", "lift, mm", "flank x", "flank y"].map(|head| head.replace("mm", unit)).to_vec();
     let table = |every: usize| PlaceTable {
-        title: "Flank of the plate: travel x, lift there, place of contact, mm from the follower at x = 0, lift 0"
-            .into(),
+        title: format!(
+            "Flank of the plate: travel x, lift there, place of contact, {unit} from the follower at x = 0, lift 0"
+        ),
         heads: heads.clone(),
         rows: Arc::clone(&rows),
         every,

@@ -6,7 +6,7 @@ use crate::body::disc::Disc;
 use crate::body::part::point_as_turned;
 use crate::follower::Element;
 use crate::geometry::{Entity, MILLIMETRES};
-use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView, rounded};
+use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView};
 use crate::report::{Section, shown};
 use nalgebra::Vector2;
 use std::f64::consts::PI;
@@ -51,7 +51,8 @@ pub(super) fn add_breadth(yoke: &Yoke, view: &mut SheetView) {
     let ((first, at), (second, opposite)) = (of(&yoke.disc, 0.0), of(&yoke.opposite, PI));
     let legend = "faces or rollers of the yoke, at θ = 0";
     view.groups.push(ShapeGroup::new("arm", legend, vec![first, second]).with_legend());
-    let text = format!("yoke {} between {}", rounded(MILLIMETRES * yoke.breadth), between(yoke));
+    let units = yoke.disc.machine().units();
+    let text = format!("yoke {} between {}", units.dimension(MILLIMETRES * yoke.breadth), between(yoke));
     // Faces that are tilted are not across the path.
     let across = yoke.disc.curves().motion.locate(0.0);
     let tilted = yoke.disc.curves().contact(across.0, across.1).pressure_angle != 0.0;

@@ -304,6 +304,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("cut.clearance", "20 mm"),
     ("cut.direction", "conventional"),
     ("cut.compensation", "control"),
+    ("output.units", "inch"),
 ];
 
 /// A shaft with every part, behind a press.

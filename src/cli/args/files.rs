@@ -5,6 +5,7 @@ use camgen::body::points::PointCurve;
 use camgen::geometry::points::{PointCoordinates, PointInterpolation, PointStep};
 use camgen::machine::Controller;
 use camgen::profile::outline::{SegmentKind, Side};
+use camgen::units::LengthUnit;
 use camgen::write::dxf::Version;
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
@@ -35,6 +36,11 @@ pub(in crate::cli) struct OutputArgs {
     /// File stem [default: MACHINE-COMMAND-RPMrpm]
     #[arg(long, value_name = "STEM", value_parser = stem)]
     pub(in crate::cli) name: Option<String>,
+
+    /// Unit of the lengths in files and reports: mm or inch. STEP files stay in mm, which they state, and JSON reports, whose names have their units
+    /// [default: output.units, mm]
+    #[arg(long, value_name = "UNIT", ignore_case = true, value_parser = word::<LengthUnit>())]
+    pub(in crate::cli) units: Option<LengthUnit>,
 
     /// Template of the SVG review sheet instead of the built-in one, templates/sheet.svg
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]

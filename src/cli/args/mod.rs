@@ -33,6 +33,7 @@ pub(super) use study::StudyArgs;
 use camgen::analysis::size::FreeDimension;
 use camgen::domains::press::bed_motion::End;
 use camgen::domains::press::motion::equation_18::ExactOn;
+use camgen::units::LengthUnit;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 pub(super) use parse::rpm;
@@ -329,6 +330,10 @@ pub(super) struct CheckArgs {
     /// Residual force for which the sections of a conoid were chosen, as given to conoid --rpm A..B
     #[arg(long, value_name = "FORCE", value_parser = force)]
     pub(super) residual: Option<f64>,
+
+    /// Unit that a DXF file is to be in, and of the report: mm or inch [default: that of the record next to the file, output.units, mm]
+    #[arg(long, value_name = "UNIT", ignore_case = true, value_parser = word::<LengthUnit>())]
+    pub(super) units: Option<LengthUnit>,
 
     #[command(flatten)]
     pub(super) common: CommonArgs,

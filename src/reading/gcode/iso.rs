@@ -31,7 +31,7 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
         }
         if control == Some(Controller::Fanuc) {
-            counted(line, block)?;
+            counted(line, block, modal.units())?;
         }
         match words(block) {
             Some(words) if are_known(&words, None) => run(line, &words, &mut state, &mut modal)?,
@@ -66,11 +66,11 @@ fn run(line: usize, words: &[Word], state: &mut MachineState, modal: &mut ModalW
         return to_the_machine(line, words, state, modal);
     }
     modal.block(line, words, Situation { has_moved: state.has_moved(), is_deep: state.is_deep() })?;
-    (state.feed, state.side) = (modal.feed, modal.side);
+    (state.feed, state.side) = (modal.feed_mm(), modal.side);
     if dwells(words) {
         return Ok(());
     }
-    let of = |letter: char| of(line, words, letter);
+    let of = |letter: char| of(line, words, letter).map(|number| number.map(|number| modal.scale() * number));
     let to = [of('X')?, of('Y')?, of('Z')?];
     let (i, j) = (of('I')?, of('J')?);
     // On a SINUMERIK these shift the datum by the coordinates that follow.
@@ -125,7 +125,8 @@ mod tests {
         let start = "G0 X0 Y0 Z5\nG1 Z-1 F100\n";
         let cases = [
             ("G91\n", "G91"),
-            ("G20\n", "inch"),
+            ("G20\n", "unit changes"),
+            ("G70\n", "feeds are not"),
             ("G18\n", "plane"),
             ("G90.1\n", "absolute"),
             ("G2 X10 I5.1\n", "off its circle"),

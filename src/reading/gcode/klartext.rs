@@ -4,6 +4,7 @@ use super::dialect::moves_the_profile_of_a_dialogue;
 use super::machine_state::{MachineState, at_line};
 use super::{CutterProgram, CutterSide, MoveKind};
 use crate::refusal::Refusal;
+use crate::units::LengthUnit;
 use nalgebra::Vector2;
 
 /// The cycles that set a frame, and that of the tolerance.
@@ -27,21 +28,41 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
                 return Err(at_line(line, "there is more behind the end of the program"));
             }
             []
-            | ["BEGIN", "PGM", _, "MM"]
             | ["STOP" | "M0" | "M1" | "M3" | "M5" | "M6" | "M8" | "M9" | "M30" | "M2"]
             // Those of them that move the profile are refused above.
             | ["PLANE" | "TRANS", ..] => {}
             ["CYCL", "DEF", cycle, ..] if KNOWN_CYCLES.contains(&cycle.split('.').next().unwrap_or_default()) => {}
             ["TOOL", "CALL", call @ ..] => tool_call(line, call, &mut state)?,
-            ["BEGIN", "PGM", ..] => return Err(at_line(line, "the unit is not the millimetre")),
+            ["BEGIN", "PGM", _, unit] => state.units = Some(unit_of(line, unit)?),
+            ["END", "PGM", _, unit] if Some(unit_of(line, unit)?) != state.units => {
+                return Err(at_line(line, "the unit is another one than at the beginning of the program"));
+            }
             ["END", "PGM", ..] => ended = true,
-            ["CC", rest @ ..] => centre = Some(centre_of(line, rest)?),
+            _ if state.units.is_none() => return Err(at_line(line, "the program does not begin with its name and unit")),
+            ["CC", rest @ ..] => centre = Some(centre_of(line, rest)? * state.scale()),
             ["L", rest @ ..] => straight(line, rest, &mut state)?,
             ["C", rest @ ..] => round(line, rest, centre, &mut state)?,
             _ => state.unknown(line, block.trim())?,
         }
     }
     if ended { Ok(state.program()) } else { Err(Refusal::new("the program has no end (END PGM)")) }
+}
+
+/// The unit of a program.
+fn unit_of(line: usize, word: &str) -> Result<LengthUnit, Refusal> {
+    match word {
+        "MM" => Ok(LengthUnit::Millimetre),
+        "INCH" => Ok(LengthUnit::Inch),
+        _ => Err(at_line(line, format!("the unit `{word}` is neither MM nor INCH"))),
+    }
+}
+
+/// The feed of a block, mm/min: of a program in inches it is in tenths of an inch per minute.
+fn feed(state: &MachineState, number: f64) -> f64 {
+    match state.units {
+        Some(LengthUnit::Inch) => 0.1 * LengthUnit::Inch.millimetres() * number,
+        _ => number,
+    }
 }
 
 fn number(line: usize, word: &str) -> Result<f64, Refusal> {
@@ -66,7 +87,7 @@ fn tool_call(line: usize, words: &[&str], state: &mut MachineState) -> Result<()
         } else if ["X", "Y", "U", "V", "W"].contains(word) {
             return Err(at_line(line, "the axis of the tool is not Z: arcs of a cam lie in the plane across it"));
         } else if let Some(feed) = word.strip_prefix('F').and_then(|feed| feed.parse().ok()) {
-            state.feed = Some(feed);
+            state.feed = Some(self::feed(state, feed));
         }
     }
     Ok(())
@@ -103,13 +124,13 @@ fn coordinates(
             ("FMAX", _) => rapid = true,
             ("M3" | "M5" | "M8" | "M9" | "M2" | "M30", _) => {}
             (word, Some(axis)) => {
-                let value = number(line, word.get(1..).unwrap_or_default())?;
+                let value = state.scale() * number(line, word.get(1..).unwrap_or_default())?;
                 if let Some(own) = to.get_mut(axis) {
                     *own = Some(value);
                 }
             }
             (word, None) => match word.strip_prefix('F') {
-                Some(feed) => state.feed = Some(number(line, feed)?),
+                Some(word) => state.feed = Some(feed(state, number(line, word)?)),
                 None => return Err(at_line(line, format!("`{word}` is not known"))),
             },
         }
@@ -177,7 +198,13 @@ mod tests {
         assert!(program("4 TOOL CALL 1 Z S3000 F9 DR+0 DL+0\n5 L X+9 RL\n6 L X+12 R0").is_ok());
         // The centre is on the path: its radius is not asked for.
         assert!(program("4 TOOL CALL 1 Z DR-0.1\n5 CYCL DEF 7.0 DATUM SHIFT\n6 CYCL DEF 7.1 X+0\n7 L X+9").is_ok());
-        assert!(super::read("0 BEGIN PGM CAM INCH\n1 END PGM CAM INCH\n").is_err());
+        let inches = super::read(
+            "0 BEGIN PGM CAM INCH\n1 L Z+1 R0 FMAX\n2 L X+1 Y+0 R0 FMAX\n3 L Z-0.1 F40\n4 CC X+0 Y+0\n5 C X-1 Y+0 DR+\n6 END PGM CAM INCH\n",
+        );
+        let moves = inches.expect("a program in inches").moves;
+        assert_eq!(moves.last().map(|moved| (moved.to, moved.from[0])), Some(([-25.4, 0.0, -2.54], 25.4)));
+        assert!(super::read("0 BEGIN PGM CAM INCH\n1 END PGM CAM MM\n").is_err());
+        assert!(super::read("0 BEGIN PGM CAM ELL\n1 END PGM CAM ELL\n").is_err());
         assert!(super::read("0 BEGIN PGM CAM MM\n").is_err());
     }
 }

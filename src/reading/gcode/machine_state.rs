@@ -2,6 +2,7 @@
 
 use super::{CutterMove, CutterProgram, CutterSide, FASTEST, MOST_MOVES, MoveKind, NO_MOVE, RADII};
 use crate::refusal::Refusal;
+use crate::units::LengthUnit;
 use nalgebra::Vector2;
 
 /// The state of a control.
@@ -9,6 +10,8 @@ use nalgebra::Vector2;
 pub(super) struct MachineState {
     /// X, Y and Z, mm, once they are known.
     at: [Option<f64>; 3],
+    /// The unit of a program that states it in its first line.
+    pub(super) units: Option<LengthUnit>,
     /// Feed, mm/min, once it is given.
     pub(super) feed: Option<f64>,
     /// The side of the cutter.
@@ -24,6 +27,11 @@ pub(super) fn at_line(line: usize, what: impl Into<String>) -> Refusal {
 }
 
 impl MachineState {
+    /// Millimetres in a length of such a program.
+    pub(super) fn scale(&self) -> f64 {
+        self.units.unwrap_or_default().millimetres()
+    }
+
     /// Whether the cutter has moved.
     pub(super) fn has_moved(&self) -> bool {
         !self.program.moves.is_empty()

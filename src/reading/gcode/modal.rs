@@ -6,6 +6,7 @@ use super::machine_state::at_line;
 use super::words::{REFERENCE, Word, of};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
+use crate::units::LengthUnit;
 
 /// What holds until another word of the group is read.
 #[derive(Debug, Default)]
@@ -14,8 +15,8 @@ pub(super) struct ModalWords {
     pub(super) motion: Option<u32>,
     /// Where the control keeps the cutter.
     pub(super) side: CutterSide,
-    /// Feed, mm/min, or by the time of a block, 1/min.
-    pub(super) feed: Option<f64>,
+    /// Feed as it was read, or by the time of a block, 1/min.
+    feed: Option<f64>,
     /// Whether each block has its time (G93).
     pub(super) by_time: bool,
     /// The control, where it is known.
@@ -24,7 +25,8 @@ pub(super) struct ModalWords {
     pub(super) begun: bool,
     pub(super) ended: bool,
     plane: bool,
-    metric: bool,
+    /// The unit of lengths, once it is stated.
+    units: Option<LengthUnit>,
     absolute: bool,
     /// Whether the cam is turned under its tool.
     turned: bool,
@@ -79,17 +81,41 @@ impl ModalWords {
 
     /// Refuses a move before it is stated how coordinates are meant.
     pub(super) fn is_stated(&self, line: usize) -> Result<(), Refusal> {
-        if self.plane && self.metric && self.absolute {
+        if self.plane && self.units.is_some() && self.absolute {
             return Ok(());
         }
         let unit = if self.control == Some(Controller::Sinumerik) { "G71" } else { "G21" };
-        let stated = [(self.plane, "G17"), (self.metric, unit), (self.absolute, "G90")];
+        let stated = [(self.plane, "G17"), (self.units.is_some(), unit), (self.absolute, "G90")];
         let missing: Vec<&str> = stated.iter().filter(|(stated, _)| !stated).map(|(_, word)| *word).collect();
         let what = format!(
             "the cutter is to move before plane, unit and absolute coordinates are stated: {} is missing",
             missing.join(", ")
         );
         Err(at_line(line, what))
+    }
+
+    /// States the unit, which must stay what it is.
+    fn measure(&mut self, line: usize, units: LengthUnit) -> Result<(), Refusal> {
+        if self.units.is_some_and(|stated| stated != units) {
+            return Err(at_line(line, "the unit changes between millimetres (G21) and inches (G20)"));
+        }
+        self.units = Some(units);
+        Ok(())
+    }
+
+    /// The unit, that of the metric system until one is stated.
+    pub(super) fn units(&self) -> LengthUnit {
+        self.units.unwrap_or_default()
+    }
+
+    /// Millimetres in a unit of length of the program.
+    pub(super) fn scale(&self) -> f64 {
+        self.units().millimetres()
+    }
+
+    /// The feed, mm/min, or by the time of a block, 1/min.
+    pub(super) fn feed_mm(&self) -> Option<f64> {
+        self.feed.map(|feed| if self.by_time { feed } else { self.scale() * feed })
     }
 
     /// A block that leaves for a place of the machine may make coordinates incremental for it.
@@ -111,16 +137,15 @@ impl ModalWords {
             () if is(30.0) => self.motion = Some(3),
             () if is(170.0) => self.plane = true,
             () if is(180.0) || is(190.0) => return refused("the plane is not XY: arcs of a cam lie in G17"),
-            () if is(210.0) || is(710.0) || is(7100.0) => self.metric = true,
-            () if is(200.0) || is(700.0) || is(7000.0) => {
-                return refused("the unit is the inch: camgen writes millimetres (G21)");
-            }
+            () if is(210.0) || is(710.0) || is(7100.0) => return self.measure(line, LengthUnit::Millimetre),
+            () if is(700.0) => return refused("lengths are in inches and feeds are not (G70): write G700"),
+            () if is(200.0) || is(7000.0) => return self.measure(line, LengthUnit::Inch),
             () if is(900.0) => self.absolute = true,
             () if is(910.0) => return refused("coordinates become incremental (G91)"),
             () if is(901.0) => return refused("centres become absolute (G90.1)"),
             () if is(930.0) && self.turned => self.by_time = true,
             () if is(940.0) => self.by_time = false,
-            () if is(930.0) || is(950.0) => return refused("the feed is not in mm/min (G94)"),
+            () if is(930.0) || is(950.0) => return refused("the feed is not by the minute (G94)"),
             () if is(400.0) => self.side = CutterSide::Centre,
             () if (is(410.0) || is(420.0)) && self.turned => {
                 return refused("the control keeps the tool beside its path (G41, G42)");

@@ -74,7 +74,7 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
         }
         if control == Some(Controller::Fanuc) {
-            counted(line, block)?;
+            counted(line, block, modal.units())?;
         }
         match words(block) {
             Some(words) if are_known(&words, Some(axis)) => state.run(line, &words, &mut modal)?,
@@ -116,7 +116,8 @@ impl TurnedState {
             return Ok(());
         }
         let [angle, x, y, z] = letters.map(|axis| of(line, words, axis));
-        let to = [angle?, x?, y?, z?];
+        let length = |read: Option<f64>| read.map(|number| modal.scale() * number);
+        let to = [angle?, length(x?), length(y?), length(z?)];
         if self.axis == 'C' && to[2].is_some_and(|y| y != 0.0) {
             return refused("the tool leaves the line through the axis (Y)");
         }
@@ -147,7 +148,7 @@ impl TurnedState {
             return refused("the tool is to cut from a place that is not known");
         }
         let fastest = if modal.by_time { MOST_BLOCKS_A_MINUTE } else { FASTEST };
-        match modal.feed {
+        match modal.feed_mm() {
             None => return refused("the tool is to move at a feed, or in a time, that is not given"),
             Some(feed) if !(feed > 0.0 && feed <= fastest) => {
                 let remedy = format!("give a feed above 0 and at most {fastest}");
@@ -273,6 +274,14 @@ mod tests {
     }
 
     #[test]
+    fn inches_are_lengths_and_no_angles() {
+        let (metric, inch) = (read(PROGRAM, 'C', None), read(&PROGRAM.replacen("G21", "G20", 1), 'C', None));
+        let rows = |read: &Result<CutterProgram, Refusal>| read.as_ref().expect("a program").turned[0].rows.clone();
+        let scaled: Vec<[f64; 3]> = rows(&metric).iter().map(|[angle, x, y]| [*angle, 25.4 * x, 25.4 * y]).collect();
+        assert_eq!(rows(&inch), scaled);
+    }
+
+    #[test]
     fn what_would_grind_otherwise_is_refused_with_its_line() {
         for (from, to, why) in [
             ("G93\n", "", "G93"),
@@ -282,7 +291,7 @@ mod tests {
             ("X30. C-360.", "X30. C-350.", "does not close"),
             ("X30. C-360.", "X30.5 C-360.", "does not close"),
             ("G1 Z-2. F100", "G0 Z-2.", "rapid"),
-            ("G21", "G20", "inch"),
+            ("G21", "G70", "feeds are not"),
             ("G90", "G91", "incremental"),
             ("G0 X40. C0.", "G68 X0 Y0 R3\nG0 X40. C0.", "turns the profile"),
             ("G94\nG1 X40. F300\nG0 Z5.\n", "", "depth"),

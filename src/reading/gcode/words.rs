@@ -2,13 +2,19 @@
 
 use super::machine_state::at_line;
 use crate::refusal::Refusal;
+use crate::units::LengthUnit;
 
 /// A word: its letter in capitals, and its number.
 pub(super) type Word = (char, f64);
 /// The words whose numbers FANUC counts in its least increments where they have no decimal point.
 const COUNTED: &str = "XYZABCIJKR";
-/// The least increment of a FANUC control in its increment system IS-B, mm.
-const INCREMENT: f64 = 1e-3;
+/// The least increment of a FANUC control in its increment system IS-B.
+fn increment(units: LengthUnit) -> f64 {
+    match units {
+        LengthUnit::Millimetre => 1e-3,
+        LengthUnit::Inch => 1e-4,
+    }
+}
 
 /// G28, G30 and G53: to a reference point, or to a place of the machine.
 pub(super) const REFERENCE: [f64; 3] = [28.0, 30.0, 53.0];
@@ -52,7 +58,7 @@ pub(super) fn words(block: &str) -> Option<Vec<Word>> {
 
 /// Refuses a number without a decimal point that FANUC reads in its least increments (parameter 3401, DPI = 0, as delivered): `X10` is
 /// 0.010 mm for it.
-pub(super) fn counted(line: usize, block: &str) -> Result<(), Refusal> {
+pub(super) fn counted(line: usize, block: &str, units: LengthUnit) -> Result<(), Refusal> {
     let mut rest = block;
     while let Some(at) = rest.find(|c: char| c.is_ascii_alphabetic()) {
         let (letter, after) = rest.split_at(at + 1);
@@ -61,8 +67,9 @@ pub(super) fn counted(line: usize, block: &str) -> Result<(), Refusal> {
         let end = after.find(|c: char| !(c.is_ascii_digit() || ['.', '+', '-'].contains(&c))).unwrap_or(after.len());
         let (number, next) = after.split_at(end);
         if COUNTED.contains(letter) && !number.contains('.') && number.parse().is_ok_and(|whole: f64| whole != 0.0) {
-            let read = INCREMENT * number.parse().unwrap_or(f64::NAN);
-            let what = format!("{letter}{number} has no decimal point: a FANUC control reads it as {read} mm");
+            let read = increment(units) * number.parse().unwrap_or(f64::NAN);
+            let what =
+                format!("{letter}{number} has no decimal point: a FANUC control reads it as {read} {}", units.symbol());
             return Err(at_line(line, what).remedy(format!("write {letter}{number}. with a point")));
         }
         rest = next;

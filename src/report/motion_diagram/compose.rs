@@ -6,13 +6,16 @@ use super::{DiagramPanel, DiagramSegment, MotionDiagram, figure, notes};
 use crate::geometry::contour::Extents;
 use crate::report::Report;
 use crate::report::sheet::block::{self, TitleBlock};
-use crate::report::sheet::paper::{PAPERS, PaperSize, frame_and_grid};
+use crate::report::sheet::paper::{PaperSize, SheetBorder, frame_and_grid, papers};
 use crate::report::sheet::{STROKE, ShapeGroup, Sheet, SheetShape, TextAnchor, TitleFacts, font, rounded, words};
 use crate::report::trace::round_step;
+use crate::units::LengthUnit;
 use nalgebra::Vector2;
 
 /// The sheet.
 const PAPER: &str = "A3";
+/// The same of a diagram in inches.
+const PAPER_IN_INCHES: &str = "B";
 /// Room to the right of the panels, mm.
 const RIGHT: f64 = 6.0;
 /// Room for the names of the segments above the panels, for the axis below them, and between two panels, mm.
@@ -30,8 +33,10 @@ const NEAR: f64 = 2.0;
 /// The motion diagram of a cam on its sheet; `deviation` is what the title block of its drawing has for the outline.
 #[must_use]
 pub fn sheet(diagram: &MotionDiagram, report: &Report, facts: &TitleFacts, deviation: &str) -> Sheet {
-    let paper = PAPERS.iter().find(|paper| paper.name == PAPER).copied();
-    let paper = paper.unwrap_or(PaperSize { name: "", size: Vector2::repeat(1.0), lettering: &[] });
+    let name = if diagram.units == LengthUnit::Inch { PAPER_IN_INCHES } else { PAPER };
+    let paper = papers(diagram.units).iter().find(|paper| paper.name == name).copied();
+    let paper =
+        paper.unwrap_or(PaperSize { name: "", size: Vector2::repeat(1.0), lettering: &[], border: SheetBorder::Iso });
     let frame = paper.frame(Vector2::zeros());
     let mut groups = frame_and_grid(&paper, Vector2::zeros());
     let field = Extents {

@@ -8,6 +8,7 @@ mod labels;
 mod notes;
 mod panel;
 
+use crate::units::LengthUnit;
 pub use compose::sheet;
 
 use super::sheet::rounded;
@@ -79,6 +80,8 @@ pub struct MotionDiagram {
     pub places: &'static str,
     /// Places are degrees of a turn, not millimetres of a travel.
     pub turns: bool,
+    /// The unit of its lengths.
+    pub units: LengthUnit,
     /// First and last place.
     pub range: (f64, f64),
     /// The stretches of the motion, in the order of the places.
@@ -93,7 +96,11 @@ impl MotionDiagram {
     /// A place as a label has it.
     pub(super) fn place(&self, place: f64) -> String {
         let rounded = |decimals: f64| (place * decimals).round() / decimals + 0.0;
-        if self.turns { format!("{:.2}°", rounded(100.0)) } else { format!("x = {:.3} mm", rounded(1000.0)) }
+        match (self.turns, self.units) {
+            (true, _) => format!("{:.2}°", rounded(100.0)),
+            (false, LengthUnit::Millimetre) => format!("x = {:.3} mm", rounded(1000.0)),
+            (false, LengthUnit::Inch) => format!("x = {:.4} in", rounded(1e4)),
+        }
     }
 
     /// The label of an extreme of a panel.

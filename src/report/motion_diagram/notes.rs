@@ -91,7 +91,7 @@ fn segments(diagram: &MotionDiagram, room: usize) -> Vec<String> {
         }
     }
     whole.sort_by_key(|(segment, _)| segment.number);
-    let unit = if diagram.turns { "°" } else { " mm" };
+    let unit = if diagram.turns { "°".to_owned() } else { format!(" {}", diagram.units.symbol()) };
     let line = |(segment, (from, to)): &(&DiagramSegment, (f64, f64))| {
         let DiagramSegment { number, name, travel, .. } = segment;
         format!("{number}: {}{unit} to {}{unit} {name}, {travel}", figure(*from), figure(*to))

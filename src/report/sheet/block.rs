@@ -1,9 +1,11 @@
 //! The title block, with the data fields of ISO 7200.
 
 use super::paper::{PaperSize, rectangle};
-use super::{ShapeGroup, SheetShape, TextAnchor, TitleFacts, font, rounded, words};
+use super::{ShapeGroup, SheetShape, TextAnchor, TitleFacts, font, words};
+use crate::geometry::Entity;
 use crate::geometry::contour::Extents;
 use crate::report::{Report, Verdict};
+use crate::units::LengthUnit;
 use nalgebra::Vector2;
 
 /// Width and height over the lettering of an A4, mm (ISO 7200: 180 mm).
@@ -26,6 +28,29 @@ struct TitleField {
 
 fn cell(name: &'static str, value: impl Into<String>, width: f64) -> TitleField {
     TitleField { name, value: value.into(), width, size: VALUE }
+}
+
+/// Name and width of the field of the projection symbol.
+const THIRD_ANGLE: &str = "Third angle";
+const SYMBOL: f64 = 24.0;
+
+/// The symbol of third-angle projection (ASME Y14.3, ISO 5456-2) about a place: a frustum, and at its left the view of its small end.
+fn third_angle(at: Vector2<f64>, k: f64) -> Vec<SheetShape> {
+    let place = |x: f64, y: f64| at + Vector2::new(x, y) * k;
+    let circle = |radius: f64| SheetShape::Entity(Entity::Circle(place(-4.5, 0.0), radius * k));
+    let line = |from: (f64, f64), to: (f64, f64)| SheetShape::Line(place(from.0, from.1), place(to.0, to.1));
+    let (small, large) = (1.25, 2.5);
+    vec![
+        circle(small),
+        circle(large),
+        line((1.0, -small), (1.0, small)),
+        line((6.0, -large), (6.0, large)),
+        line((1.0, small), (6.0, large)),
+        line((1.0, -small), (6.0, -large)),
+        line((-7.8, 0.0), (-1.2, 0.0)),
+        line((-4.5, -3.2), (-4.5, 3.2)),
+        line((0.0, 0.0), (7.0, 0.0)),
+    ]
 }
 
 fn given(text: Option<&String>) -> String {
@@ -51,14 +76,17 @@ impl TitleBlock<'_> {
     /// Heights of the rows and their fields.
     fn rows(&self) -> Vec<(f64, Vec<TitleField>)> {
         let [of_drawing, of_part] = [self.of_drawing(), self.of_part()];
-        let last = vec![
+        let inches = self.report.units == LengthUnit::Inch;
+        let [verdict, inputs, maker] = if inches { [26.0, 42.0, 28.0] } else { [30.0, 52.0, 38.0] };
+        let mut last = vec![
             cell("Scale", self.scale.clone(), 24.0),
             cell("Size", self.paper.name, 18.0),
             cell("Sheet", self.number, 18.0),
-            cell("Checks", self.verdict(), 30.0),
-            cell("Inputs", self.report.inputs_hash(), 52.0),
-            cell("Made by camgen", env!("CARGO_PKG_VERSION"), 38.0),
+            cell("Checks", self.verdict(), verdict),
+            cell("Inputs", self.report.inputs_hash(), inputs),
+            cell("Made by camgen", env!("CARGO_PKG_VERSION"), maker),
         ];
+        last.extend(inches.then(|| cell(THIRD_ANGLE, "", SYMBOL)));
         of_drawing.into_iter().chain(of_part).chain([(10.0, last)]).collect()
     }
 
@@ -87,7 +115,10 @@ impl TitleBlock<'_> {
 
     fn of_part(&self) -> Vec<(f64, Vec<TitleField>)> {
         let title = &self.facts.title;
-        let length = |value: Option<f64>| value.map_or(String::new(), |value| format!("{} mm", rounded(value)));
+        let units = self.report.units;
+        let length = |value: Option<f64>| {
+            value.map_or(String::new(), |value| format!("{} {}", units.dimension(value), units.symbol()))
+        };
         let mass = self.facts.mass_kg.map_or(String::new(), |mass| format!("{mass:.3} kg"));
         vec![
             (
@@ -159,10 +190,18 @@ impl TitleBlock<'_> {
             }
             top = bottom;
         }
-        vec![
+        let middle = Vector2::new(field.largest.x - 0.5 * SYMBOL * k, field.least.y + 3.6 * k);
+        let symbol = (self.report.units == LengthUnit::Inch).then(|| third_angle(middle, k));
+        let symbol = symbol.map(|shapes| ShapeGroup {
+            id: "projection".into(),
+            ..ShapeGroup::new("dimension", "third-angle projection", shapes)
+        });
+        let mut groups = vec![
             ShapeGroup::new("title-block", "title block", lines),
             ShapeGroup::new("title-names", "names of the title block", names),
             ShapeGroup::new("title-values", "title block", values),
-        ]
+        ];
+        groups.extend(symbol);
+        groups
     }
 }

@@ -3,12 +3,14 @@
 use super::block::{self, TitleBlock};
 use super::marks::Marker;
 use super::panels::{self, PanelWriter, SheetPanel};
-use super::paper::{ENLARGEMENTS, PAPERS, PaperSize, REDUCTIONS, frame_and_grid, rectangle};
+use super::paper::{ENLARGEMENTS, PaperSize, REDUCTIONS, frame_and_grid, papers, rectangle};
 use super::placing::OccupiedPaper;
 use super::{Mark, STROKE, ShapeGroup, Sheet, SheetShape, SheetView, TextAnchor, TitleFacts, font, words};
 use crate::geometry::contour::Extents;
+use crate::report::restated::sentence;
 use crate::report::trace::{self, Trace};
 use crate::report::{Finding, Report, failed};
+use crate::units::LengthUnit;
 use nalgebra::Vector2;
 use std::borrow::Cow;
 
@@ -55,6 +57,13 @@ struct Layout {
 #[must_use]
 pub fn compose(view: &SheetView, report: &Report, extras: &SheetExtras<'_>) -> Sheet {
     let view = &with_missing_letters(view, report);
+    let view = &in_units(view, report.units);
+    let (report, papers) = (&*report.for_people(), papers(report.units));
+    let checks = match report.units {
+        LengthUnit::Millimetre => Cow::Borrowed(extras.checks),
+        LengthUnit::Inch => extras.checks.iter().map(Finding::in_inches).collect(),
+    };
+    let extras = &SheetExtras { checks: &checks, ..*extras };
     let covered = super::extents_of(&view.groups);
     let covered = if covered.size().iter().all(|size| size.is_finite() && *size >= 0.0) {
         covered
@@ -72,14 +81,14 @@ pub fn compose(view: &SheetView, report: &Report, extras: &SheetExtras<'_>) -> S
     };
     let fitting = |partly: bool| {
         let scales = REDUCTIONS.iter().map(|reduction| 1.0 / reduction);
-        let sheets = scales.flat_map(|scale| PAPERS.iter().map(move |paper| (scale, paper)));
+        let sheets = scales.flat_map(|scale| papers.iter().map(move |paper| (scale, paper)));
         let tried = sheets.flat_map(|(scale, paper)| paper.lettering.iter().map(move |k| attempt(scale, paper, *k)));
         let fits = tried.into_iter().find_map(|tried| tried.layout(partly))?;
         // A small cam is enlarged as far as its sheet allows, a very small one on the next larger sheet.
         let is_small = covered.size().max() < SMALL;
-        let from = PAPERS.iter().position(|paper| paper.name == fits.paper.name).unwrap_or(0);
-        let papers = PAPERS.iter().skip(from).take(if is_small { 2 } else { 1 });
-        let enlarged = papers.flat_map(|paper| ENLARGEMENTS.iter().map(move |scale| (paper, scale)));
+        let from = papers.iter().position(|paper| paper.name == fits.paper.name).unwrap_or(0);
+        let larger = papers.iter().skip(from).take(if is_small { 2 } else { 1 });
+        let enlarged = larger.flat_map(|paper| ENLARGEMENTS.iter().map(move |scale| (paper, scale)));
         let mut attempts = enlarged.filter(|_| fits.scale >= 1.0).map(|(paper, scale)| {
             let k = if paper.name == fits.paper.name { Some(fits.k) } else { paper.lettering.first().copied() };
             attempt(*scale, paper, k.unwrap_or(fits.k)).layout(partly)
@@ -92,6 +101,23 @@ pub fn compose(view: &SheetView, report: &Report, extras: &SheetExtras<'_>) -> S
         None => Sheet { title: report.title(), extents: covered, stroke: STROKE, scale: 1.0, groups: Vec::new() },
     }
 }
+
+/// The view with its words in the unit of the sheet; its dimensions are.
+fn in_units(view: &SheetView, units: LengthUnit) -> Cow<'_, SheetView> {
+    if units == LengthUnit::Millimetre {
+        return Cow::Borrowed(view);
+    }
+    let mut view = view.clone();
+    for label in view.groups.iter_mut().map(|group| &mut group.label) {
+        *label = sentence(label);
+    }
+    view.notes = view.notes.iter().map(|note| sentence(note)).collect();
+    view.notes.insert(0, INCHES.to_owned());
+    Cow::Owned(view)
+}
+
+/// What ASME Y14.5 has on a drawing in inches.
+const INCHES: &str = "UNLESS OTHERWISE SPECIFIED, DIMENSIONS ARE IN INCHES";
 
 /// The view with a note of the letters that would be boxes.
 fn with_missing_letters<'a>(view: &'a SheetView, report: &Report) -> Cow<'a, SheetView> {
@@ -159,7 +185,7 @@ impl LayoutAttempt<'_> {
     fn list(&self, width: f64, table: Option<&super::PlaceTable>) -> Vec<SheetPanel> {
         let writer = || PanelWriter::new(self.k, width);
         let mut list = vec![
-            panels::checks(writer(), self.extras.checks, self.extras.passed_otherwise),
+            panels::checks(writer(), self.extras.checks, self.extras.passed_otherwise, self.report.units),
             panels::figures(writer(), self.report),
             panels::legend(writer(), self.view),
         ];
@@ -261,7 +287,7 @@ impl Layout {
             let (id, label, colour) = (group.id.clone(), group.label.clone(), group.colour.clone());
             groups.push(ShapeGroup { id, label, colour, shapes, ..*group });
         }
-        let ruler = ruler(&self.view, k);
+        let ruler = ruler(&self.view, k, report.units);
         for shape in &ruler {
             taken.put(shape);
         }
@@ -345,19 +371,25 @@ fn rules(view: &Extents, diagram: Option<&Extents>, frame: &Extents, k: f64) -> 
 
 /// Length of the ruler, mm of paper.
 const RULER: f64 = 100.0;
+/// The same of a sheet in inches, in of paper.
+const RULER_INCHES: f64 = 4.0;
 
 /// A ruler in the lower left corner of the view, by which a print is measured.
-fn ruler(view: &Extents, k: f64) -> Vec<SheetShape> {
+fn ruler(view: &Extents, k: f64, units: LengthUnit) -> Vec<SheetShape> {
+    let (length, text) = match units {
+        LengthUnit::Millimetre => (RULER, format!("{RULER} mm on paper")),
+        LengthUnit::Inch => (units.millimetres() * RULER_INCHES, format!("{RULER_INCHES} in on paper")),
+    };
     let start = view.least + Vector2::new(3.0, 2.0) * k;
     let tick = 1.5 * k;
-    let mut shapes = vec![SheetShape::Line(start, start + Vector2::new(RULER, 0.0))];
+    let mut shapes = vec![SheetShape::Line(start, start + Vector2::new(length, 0.0))];
     for tenth in 0..=10 {
-        let foot = start + Vector2::new(RULER * f64::from(tenth) / 10.0, 0.0);
+        let foot = start + Vector2::new(length * f64::from(tenth) / 10.0, 0.0);
         let long = if tenth % 5 == 0 { 1.6 } else { 1.0 };
         shapes.push(SheetShape::Line(foot, foot + Vector2::new(0.0, long * tick)));
     }
-    let end = start + Vector2::new(RULER + 2.0 * k, 0.0);
-    shapes.push(words(end, 2.6 * k, TextAnchor::Start, format!("{RULER} mm on paper")));
+    let end = start + Vector2::new(length + 2.0 * k, 0.0);
+    shapes.push(words(end, 2.6 * k, TextAnchor::Start, text));
     shapes
 }
 

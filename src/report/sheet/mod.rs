@@ -6,6 +6,7 @@
 
 pub(super) mod block;
 mod compose;
+mod dimension;
 pub mod font;
 pub(super) mod marks;
 mod panels;
@@ -19,7 +20,7 @@ pub(crate) use view::extents_of;
 pub use view::{Mark, PlaceTable, ProfileTolerance, SheetView, TitleFacts};
 
 use crate::geometry::Entity;
-use crate::geometry::contour::{Bend, Contour, Extents, Segment, Vertex};
+use crate::geometry::contour::Extents;
 use crate::report::shown;
 use nalgebra::Vector2;
 
@@ -114,15 +115,7 @@ impl SheetShape {
     #[must_use]
     fn scaled(&self, scale: f64) -> Self {
         match self {
-            SheetShape::Entity(Entity::Circle(centre, radius)) => {
-                SheetShape::Entity(Entity::Circle(centre * scale, radius * scale))
-            }
-            SheetShape::Entity(Entity::Polyline(contour)) => {
-                SheetShape::Entity(Entity::Polyline(scaled(contour, scale)))
-            }
-            SheetShape::Entity(Entity::Segment(Segment { start, end, bulge })) => {
-                SheetShape::Entity(Entity::Segment(Segment { start: start * scale, end: end * scale, bulge: *bulge }))
-            }
+            SheetShape::Entity(entity) => SheetShape::Entity(entity.scaled(scale)),
             SheetShape::Line(a, b) => SheetShape::Line(a * scale, b * scale),
             SheetShape::Path(points) => SheetShape::Path(points.iter().map(|point| point * scale).collect()),
             SheetShape::Arc(a, b, bulge) => SheetShape::Arc(a * scale, b * scale, *bulge),
@@ -148,17 +141,6 @@ impl SheetShape {
             largest: Vector2::new(left + width, at.y + font::ASCENT * height),
         })
     }
-}
-
-fn scaled(contour: &Contour, scale: f64) -> Contour {
-    let vertex = |vertex: &Vertex| {
-        let bend = match vertex.bend {
-            Bend::Arc(bulge) => Bend::Arc(bulge),
-            Bend::Cubic([leaves, arrives]) => Bend::Cubic([leaves * scale, arrives * scale]),
-        };
-        Vertex { point: vertex.point * scale, bend }
-    };
-    Contour { vertices: contour.vertices.iter().map(vertex).collect() }
 }
 
 /// A text on the sheet.

@@ -2,6 +2,7 @@
 
 use super::{PlaceTable, ShapeGroup, SheetShape, SheetView, TextAnchor, font, words};
 use crate::report::{Finding, Place, Report, Verdict};
+use crate::units::LengthUnit;
 use nalgebra::Vector2;
 
 /// Over the lettering of an A4, mm: size of texts, of headings, distance of lines, room between two panels.
@@ -109,7 +110,12 @@ fn class_of(verdict: Verdict) -> &'static str {
 }
 
 /// The checks, a row each, and how many others passed.
-pub(super) fn checks(mut writer: PanelWriter, checks: &[Finding], passed_otherwise: usize) -> SheetPanel {
+pub(super) fn checks(
+    mut writer: PanelWriter,
+    checks: &[Finding],
+    passed_otherwise: usize,
+    units: LengthUnit,
+) -> SheetPanel {
     writer.heading("Checks");
     let wide = writer.width >= NARROW;
     let columns: &[f64] = if wide { &[0.0, 11.0, 52.0, 96.0, 146.0] } else { &[0.0, 9.0, 39.0, 65.0] };
@@ -118,7 +124,7 @@ pub(super) fn checks(mut writer: PanelWriter, checks: &[Finding], passed_otherwi
     for finding in checks {
         writer.down += LINE;
         let class = class_of(finding.verdict);
-        for (index, ((x, room), text)) in rooms.iter().zip(cells(finding)).enumerate() {
+        for (index, ((x, room), text)) in rooms.iter().zip(cells(finding, units)).enumerate() {
             writer.cell(if index == 0 { class } else { "facts" }, *x, *room, &text);
         }
     }
@@ -131,9 +137,10 @@ pub(super) fn checks(mut writer: PanelWriter, checks: &[Finding], passed_otherwi
 /// The start of the note of a check whose keys are absent.
 const NOT_RUN: &str = "not run";
 
-fn cells(finding: &Finding) -> [String; 5] {
+fn cells(finding: &Finding, units: LengthUnit) -> [String; 5] {
     let limit = finding.limit_words().unwrap_or_default();
-    let place = if finding.place == Place::default() { String::new() } else { format!("at {}", finding.place) };
+    let place =
+        if finding.place == Place::default() { String::new() } else { format!("at {}", finding.place.words(units)) };
     let run = finding.note.as_ref().is_none_or(|note| !note.starts_with(NOT_RUN));
     let value = if run { finding.value_words() } else { NOT_RUN.into() };
     [finding.verdict.word().into(), finding.check.replace('_', " "), value, limit, place]

@@ -1,4 +1,4 @@
-//! The cut file: DXF in four versions, ASCII, millimetres, with nothing in it but the lines to cut.
+//! The cut file: DXF in four versions, ASCII, millimetres or inches, with nothing in it but the lines to cut.
 //!
 //! Written by hand: a cut file needs two entities, and every reader must take it without a repair. R12 is the old
 //! flat form with POLYLINE; the later ones have handles and owners for every table, record and object, the two block
@@ -15,7 +15,9 @@ use crate::geometry::cubics::{CurveRun, runs};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::profile::outline::{Outline, OutlineError};
 use crate::report::{shown, warning};
+use crate::units::LengthUnit;
 use nalgebra::Vector2;
+use std::borrow::Cow;
 use tags::{DxfTags, handle};
 
 /// The cut files, as they were proved: one for each section; the files of a cam that breaks a limit say so in their first line.
@@ -53,10 +55,11 @@ pub const CUTTER_PATH: Format = Format {
     write: |cam| {
         let path = |outline: &Result<Outline, OutlineError>| match outline {
             Ok(outline) => {
-                let diameter = cam.cutter_radius.map_or(f64::NAN, |radius| 2.0 * MILLIMETRES * radius);
-                let comment =
-                    format!("{}; path of the centre of a cutter of diameter {} mm", cam.report.mark(), shown(diameter));
-                Ok(marked(cutter_path(outline, cam.dxf_version), &comment))
+                let units = cam.body.machine().units();
+                let diameter = cam.cutter_radius.map_or(f64::NAN, |radius| units.of_mm(2.0 * MILLIMETRES * radius));
+                let (mark, unit) = (cam.report.mark(), units.symbol());
+                let comment = format!("{mark}; path of the centre of a cutter of diameter {} {unit}", shown(diameter));
+                Ok(marked(cutter_path(outline, DxfForm { version: cam.dxf_version, units }), &comment))
             }
             Err(error) => Err(error.clone().into()),
         };
@@ -67,10 +70,10 @@ pub const CUTTER_PATH: Format = Format {
 
 /// The file of a cutter's path.
 #[must_use]
-pub fn cutter_path(path: &Outline, version: Version) -> Vec<u8> {
+pub fn cutter_path(path: &Outline, form: impl Into<DxfForm>) -> Vec<u8> {
     let lead_in = path.lead_in.map(|segment| (Layer::LeadIn, Entity::Segment(segment)));
     let chain = (Layer::CutterPath, Entity::Polyline(path.contour.clone()));
-    write(&std::iter::once(chain).chain(lead_in).collect::<Vec<_>>(), version)
+    write(&std::iter::once(chain).chain(lead_in).collect::<Vec<_>>(), form)
 }
 
 /// Version of a DXF file.
@@ -103,19 +106,44 @@ impl Version {
     }
 }
 
+/// How a DXF file is written. A version alone is one in millimetres.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct DxfForm {
+    /// Its version.
+    pub version: Version,
+    /// The unit of its lengths, which it states.
+    pub units: LengthUnit,
+}
+
+impl From<Version> for DxfForm {
+    fn from(version: Version) -> Self {
+        Self { version, units: LengthUnit::Millimetre }
+    }
+}
+
 /// Bytes of a file of one outline of arcs.
 const ROOM: usize = 1 << 14;
 
-/// The entities as a DXF file.
+/// The entities, mm, in the unit of a file. No other place of the writer converts a length of what is cut.
+pub(super) fn in_units(entities: &[(Layer, Entity)], units: LengthUnit) -> Cow<'_, [(Layer, Entity)]> {
+    match units {
+        LengthUnit::Millimetre => Cow::Borrowed(entities),
+        LengthUnit::Inch => entities.iter().map(|(layer, entity)| (*layer, entity.scaled(units.of_mm(1.0)))).collect(),
+    }
+}
+
+/// The entities, mm, as a DXF file.
 #[must_use]
-pub fn write(entities: &[(Layer, Entity)], version: Version) -> Vec<u8> {
+pub fn write(entities: &[(Layer, Entity)], form: impl Into<DxfForm>) -> Vec<u8> {
+    let DxfForm { version, units } = form.into();
+    let entities = &*in_units(entities, units);
     let extents = entities.iter().map(|(_, entity)| entity.extents()).reduce(|a, b| a.with(&b));
     let extents = extents.unwrap_or(Extents { least: Vector2::zeros(), largest: Vector2::zeros() });
     let mut layers: Vec<Layer> = entities.iter().map(|(layer, _)| *layer).collect();
     layers.sort_unstable();
     layers.dedup();
     // The header holds the first free handle, which is known only at the end: it is written last, put first.
-    let mut body = DxfTags { text: Vec::with_capacity(ROOM), version, next_handle: handle::FIRST_FREE };
+    let mut body = DxfTags { text: Vec::with_capacity(ROOM), version, units, next_handle: handle::FIRST_FREE };
     if body.modern() {
         body.section("CLASSES", |_| {});
     }
@@ -132,7 +160,7 @@ pub fn write(entities: &[(Layer, Entity)], version: Version) -> Vec<u8> {
         body.section("OBJECTS", |tags| objects::objects(tags, &extents));
     }
     body.text(0, "EOF");
-    let mut head = DxfTags { text: Vec::with_capacity(ROOM), version, next_handle: body.next_handle };
+    let mut head = DxfTags { text: Vec::with_capacity(ROOM), version, units, next_handle: body.next_handle };
     header(&mut head, &extents);
     head.text.extend_from_slice(&body.text);
     head.text
@@ -167,7 +195,7 @@ fn header(tags: &mut DxfTags, extents: &Extents) {
         tags.point(10, extents.largest);
         tags.text(9, "$CLAYER");
         tags.text(8, "0");
-        // Decimal lengths; millimetres are stated twice, because some readers look at one, some at the other.
+        // Decimal lengths; the unit is stated twice, because some readers look at one, some at the other.
         tags.text(9, "$LUNITS");
         tags.integer(70, 2);
         if tags.modern() {
@@ -175,9 +203,13 @@ fn header(tags: &mut DxfTags, extents: &Extents) {
             tags.handle(5, next_handle);
         }
         tags.text(9, "$INSUNITS");
-        tags.integer(70, 4);
+        let (unit, system) = match tags.units {
+            LengthUnit::Millimetre => (4, 1),
+            LengthUnit::Inch => (1, 0),
+        };
+        tags.integer(70, unit);
         tags.text(9, "$MEASUREMENT");
-        tags.integer(70, 1);
+        tags.integer(70, system);
     });
 }
 
@@ -342,6 +374,27 @@ mod tests {
             assert_eq!(vertices, [(0.0, -10.0, 0.0), (40.0, -10.0, 1.0), (40.0, 10.0, 0.0), (0.0, 10.0, 1.0)]);
             assert!(matches!(&entities[1].specific, dxf::entities::EntityType::Circle(c) if c.radius == 4.5));
             assert_eq!(drawing.header.default_drawing_units, dxf::enums::Units::Millimeters, "{name}");
+        }
+    }
+
+    /// A file in inches states them, and its numbers times 25.4 are the millimetres that were drawn.
+    #[test]
+    fn inches_are_stated_and_read_back_as_the_millimetres_that_were_drawn() {
+        for (name, version) in Version::ALL {
+            let bytes = write(&slot(), DxfForm { version, units: LengthUnit::Inch });
+            let drawing = dxf::Drawing::load(&mut bytes.as_slice()).unwrap_or_else(|e| panic!("{name}: {e}"));
+            assert_eq!(drawing.header.default_drawing_units, dxf::enums::Units::Inches, "{name}");
+            let radius = drawing.entities().find_map(|entity| match &entity.specific {
+                dxf::entities::EntityType::Circle(circle) => Some(circle.radius),
+                _ => None,
+            });
+            assert!((25.4 * radius.expect("a bore") - 4.5).abs() < 1e-10, "{name}: {radius:?}");
+            let text = String::from_utf8(bytes.clone()).expect("ASCII");
+            assert!(text.contains("$MEASUREMENT\n 70\n0\n") && text.contains("$INSUNITS\n 70\n1\n"), "{name}");
+            let read = crate::reading::read(&bytes, 1e-9).expect("read");
+            let contour = read.chains.first().expect("an outline").contour();
+            let far = contour.vertices.iter().map(|vertex| vertex.point.x).fold(0.0, f64::max);
+            assert!((far - 40.0).abs() < 1e-10, "{name}: {far}");
         }
     }
 

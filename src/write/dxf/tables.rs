@@ -86,7 +86,7 @@ fn text_style(tags: &mut DxfTags) {
         tags.real(41, 1.0);
         tags.real(50, 0.0);
         tags.integer(71, 0);
-        tags.real(42, 2.5);
+        tags.setting(42, 2.5);
         tags.text(3, "txt");
         tags.text(4, "");
     });
@@ -102,8 +102,9 @@ fn viewport(tags: &mut DxfTags, extents: &Extents) {
     tags.point(11, Vector2::new(1.0, 1.0));
     tags.point(12, (extents.least + extents.largest) * 0.5);
     tags.point(13, Vector2::zeros());
-    tags.point(14, Vector2::new(10.0, 10.0));
-    tags.point(15, Vector2::new(10.0, 10.0));
+    for code in [14, 24, 15, 25] {
+        tags.setting(code, 10.0);
+    }
     tags.point(16, Vector2::zeros());
     tags.real(36, 1.0);
     tags.point_3d(17, Vector2::zeros());

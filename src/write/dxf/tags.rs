@@ -1,10 +1,11 @@
 //! Group codes and values, handles and owners: the grammar of the file.
 
 use super::Version;
+use crate::units::LengthUnit;
 use crate::write::number::plain;
 use nalgebra::Vector2;
 
-/// Decimals of coordinates and bulges: 1e-12 mm lies in the rounding of a metre; a bulge cut to six decimals would move
+/// Decimals of coordinates and bulges: 1e-12 mm, or 3e-11 mm of inches, lies in the rounding of a metre; a bulge cut to six decimals would move
 /// a long arc by 0.06 µm.
 const DECIMALS: usize = 12;
 
@@ -47,6 +48,7 @@ pub(super) mod handle {
 pub(super) struct DxfTags {
     pub(super) text: Vec<u8>,
     pub(super) version: Version,
+    pub(super) units: LengthUnit,
     pub(super) next_handle: u32,
 }
 
@@ -62,6 +64,11 @@ impl DxfTags {
 
     pub(super) fn real(&mut self, code: u16, value: f64) {
         self.text(code, &plain(value, DECIMALS));
+    }
+
+    /// A length of the settings for display, mm.
+    pub(super) fn setting(&mut self, code: u16, millimetres: f64) {
+        self.real(code, self.units.of_mm(millimetres));
     }
 
     /// The bulge of a vertex, of an arc only: FreeCAD's importer drops an edge of bulge 0 as a degenerate arc, and every reader

@@ -5,6 +5,7 @@ use crate::body::milling::{MillingPass, MillingProgram};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::blocks::Block;
 use crate::machine::Controller;
+use crate::units::LengthUnit;
 use crate::write::number::{plain, short};
 use nalgebra::Vector2;
 
@@ -65,10 +66,14 @@ impl IsoText<'_> {
         for line in &cutting.preamble {
             self.line(line);
         }
-        self.line(match self.program.controller {
-            Controller::LinuxCnc | Controller::Heidenhain => "G17 G21 G40 G90 G91.1 G94",
-            Controller::Fanuc => "G17 G21 G40 G90 G94",
-            Controller::Sinumerik => "G17 G40 G90 G94 G710",
+        self.line(match (self.program.controller, self.program.units) {
+            (Controller::LinuxCnc | Controller::Heidenhain, LengthUnit::Millimetre) => "G17 G21 G40 G90 G91.1 G94",
+            (Controller::LinuxCnc | Controller::Heidenhain, LengthUnit::Inch) => "G17 G20 G40 G90 G91.1 G94",
+            (Controller::Fanuc, LengthUnit::Millimetre) => "G17 G21 G40 G90 G94",
+            (Controller::Fanuc, LengthUnit::Inch) => "G17 G20 G40 G90 G94",
+            // Feeds are in the unit, too.
+            (Controller::Sinumerik, LengthUnit::Millimetre) => "G17 G40 G90 G94 G710",
+            (Controller::Sinumerik, LengthUnit::Inch) => "G17 G40 G90 G94 G700",
         });
         if let Some(tool) = cutting.tool {
             self.line(&format!("T{tool} M6"));
@@ -93,8 +98,13 @@ impl IsoText<'_> {
         }
     }
 
+    /// A length, mm, as a number of the program.
+    pub(super) fn number(&self, millimetres: f64) -> String {
+        plain(self.program.units.of_mm(millimetres), self.decimals)
+    }
+
     pub(super) fn up(&mut self) {
-        let clearance = plain(MILLIMETRES * self.program.cutting.clearance, self.decimals);
+        let clearance = self.number(MILLIMETRES * self.program.cutting.clearance);
         self.line(&format!("G0 Z{clearance}"));
     }
 
@@ -103,7 +113,7 @@ impl IsoText<'_> {
         let mut words = String::new();
         for (letter, is, was) in [('X', to.x, self.at.x), ('Y', to.y, self.at.y)] {
             if is != was {
-                words.push_str(&format!(" {letter}{}", plain(is, self.decimals)));
+                words.push_str(&format!(" {letter}{}", self.number(is)));
             }
         }
         words
@@ -111,7 +121,7 @@ impl IsoText<'_> {
 
     /// A feed; with a decimal point for FANUC, which reads one without as so many of its least increments where a parameter says so.
     pub(super) fn feed(&self, speed: f64) -> String {
-        let text = feed(speed);
+        let text = feed(speed, self.program.units);
         if self.program.controller == Controller::Fanuc && !text.contains('.') { text + "." } else { text }
     }
 
@@ -121,9 +131,9 @@ impl IsoText<'_> {
         let (plunge, along) = (self.feed(cutting.plunge_feed), self.feed(cutting.feed));
         self.comment(&pass.words);
         let start = pass.compensated.map_or(pass.start, |[from, _]| from);
-        self.line(&format!("G0 X{} Y{}", plain(start.x, self.decimals), plain(start.y, self.decimals)));
+        self.line(&format!("G0 X{} Y{}", self.number(start.x), self.number(start.y)));
         self.at = start;
-        self.line(&format!("G1 Z{} F{plunge}", plain(-depth, self.decimals)));
+        self.line(&format!("G1 Z{} F{plunge}", self.number(-depth)));
         if pass.compensated.is_some() {
             let side = if pass.cutter_left { "G41" } else { "G42" };
             let tool = match self.program.controller {
@@ -152,8 +162,8 @@ impl IsoText<'_> {
             Block::Line { to } => format!("G1{}{feed}", self.place(*to)),
             Block::Arc { to, centre, left } => {
                 let (way, from) = (if *left { "G3" } else { "G2" }, *centre - self.at);
-                let (i, j) = (plain(from.x, self.decimals), plain(from.y, self.decimals));
-                format!("{way} X{} Y{} I{i} J{j}{feed}", plain(to.x, self.decimals), plain(to.y, self.decimals))
+                let (i, j) = (self.number(from.x), self.number(from.y));
+                format!("{way} X{} Y{} I{i} J{j}{feed}", self.number(to.x), self.number(to.y))
             }
         };
         self.line(&words);

@@ -4,11 +4,14 @@ use super::feed;
 use crate::body::milling::{MillingPass, MillingProgram};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::blocks::Block;
+use crate::units::LengthUnit;
 use crate::write::number::{plain, short};
 use nalgebra::Vector2;
 
 /// Digits of a number of revolutions.
 const SPEED_DECIMALS: usize = 1;
+/// Steps of a feed in an inch per minute.
+const TENTHS: f64 = 10.0;
 
 /// A program being written.
 struct DialogueText<'p> {
@@ -20,7 +23,8 @@ struct DialogueText<'p> {
 /// The text of a program.
 pub(super) fn write(program: &MillingProgram, comments: &[String], name: &str) -> String {
     let decimals = usize::try_from(program.decimals).unwrap_or(usize::MAX);
-    let mut text = DialogueText { program, decimals, blocks: vec![format!("BEGIN PGM {name} MM")] };
+    let unit = if program.units == LengthUnit::Inch { "INCH" } else { "MM" };
+    let mut text = DialogueText { program, decimals, blocks: vec![format!("BEGIN PGM {name} {unit}")] };
     text.begin(comments);
     for depth in &program.depths {
         for pass in &program.passes {
@@ -29,7 +33,7 @@ pub(super) fn write(program: &MillingProgram, comments: &[String], name: &str) -
     }
     text.blocks.extend(program.cutting.postamble.iter().cloned());
     text.blocks.push("M30".to_owned());
-    text.blocks.push(format!("END PGM {name} MM"));
+    text.blocks.push(format!("END PGM {name} {unit}"));
     let numbered = text.blocks.iter().enumerate().map(|(number, block)| format!("{number} {block}\n"));
     numbered.collect()
 }
@@ -39,9 +43,15 @@ impl DialogueText<'_> {
         self.blocks.push(words);
     }
 
-    /// A number with its sign.
+    /// A feed: of a program in inches in tenths of an inch per minute, as the dialogue has them.
+    fn feed(&self, speed: f64) -> String {
+        let tenths = if self.program.units == LengthUnit::Inch { TENTHS } else { 1.0 };
+        feed(tenths * speed, self.program.units)
+    }
+
+    /// A length, mm, as a number with its sign.
     fn signed(&self, value: f64) -> String {
-        let text = plain(value, self.decimals);
+        let text = plain(self.program.units.of_mm(value), self.decimals);
         if text.starts_with('-') { text } else { format!("+{text}") }
     }
 
@@ -71,7 +81,7 @@ impl DialogueText<'_> {
     /// Down at its start, round, and up again.
     fn pass(&mut self, pass: &MillingPass, depth: f64) {
         let cutting = &self.program.cutting;
-        let (plunge, along) = (feed(cutting.plunge_feed), feed(cutting.feed));
+        let (plunge, along) = (self.feed(cutting.plunge_feed), self.feed(cutting.feed));
         self.block(format!("; {}", pass.words));
         let start = pass.compensated.map_or(pass.start, |[from, _]| from);
         self.block(format!("L {} R0 FMAX", self.place(start)));

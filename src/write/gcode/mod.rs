@@ -15,6 +15,7 @@ use crate::geometry::MILLIMETRES;
 use crate::machine::{Controller, MillingDirection};
 use crate::refusal::Refusal;
 use crate::report::warning;
+use crate::units::LengthUnit;
 
 /// The programs, as they were proved: one for each part, with all of its flanks.
 pub const FORMAT: Format = Format {
@@ -60,9 +61,9 @@ pub fn write(body: &dyn Body, program: &MillingProgram, marks: &[String]) -> Vec
     text.into_bytes()
 }
 
-/// A feed in mm/min.
-fn feed(speed: f64) -> String {
-    short(MINUTE * MILLIMETRES * speed, RATE_DECIMALS)
+/// A feed, a unit of length per minute.
+fn feed(speed: f64, units: LengthUnit) -> String {
+    short(units.of_mm(MINUTE * MILLIMETRES * speed), RATE_DECIMALS)
 }
 
 /// The machine's name in capitals, digits and underscores.
@@ -95,7 +96,9 @@ fn folded(text: &str) -> Vec<String> {
 
 /// What a program is, line by line.
 fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
-    let (cutting, millimetres) = (&program.cutting, |length: f64| short(MILLIMETRES * length, 6));
+    let (cutting, units) = (&program.cutting, program.units);
+    let unit = units.symbol();
+    let length = |millimetres: f64| short(units.of_mm(millimetres), 6);
     let depth = program.depths.last().copied().unwrap_or(0.0);
     let sense = match cutting.direction {
         MillingDirection::Climb => "climb milling",
@@ -103,10 +106,12 @@ fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
     };
     let path = program.cutter.map_or_else(
         || {
-            let least = short(largest_compensated(program), 3);
-            format!("the profile, on which the control keeps its cutter, of a radius below {least} mm, {sense}")
+            let least = short(units.of_mm(largest_compensated(program)), 3);
+            format!("the profile, on which the control keeps its cutter, of a radius below {least} {unit}, {sense}")
         },
-        |radius| format!("path of the centre of a cutter of diameter {} mm, {sense}", millimetres(2.0 * radius)),
+        |radius| {
+            format!("path of the centre of a cutter of diameter {} {unit}, {sense}", length(2.0 * MILLIMETRES * radius))
+        },
     );
     let axis = program.turned.as_ref().map(|turned| turned.axis);
     let turned = program.turned.iter().flat_map(|turned| turned.rounds.iter().map(|round| round.words.as_str()));
@@ -124,11 +129,12 @@ fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
     };
     let face = if axis == Some('A') { "the outside of the cam" } else { "the upper face" };
     let rib = milling::rib_between(body, program.cutter);
-    let rib = rib.map(|rib| format!("a rib of {} mm stands between the passes: clear it before", millimetres(rib)));
+    let rib = rib
+        .map(|rib| format!("a rib of {} {unit} stands between the passes: clear it before", length(MILLIMETRES * rib)));
     let mut head = vec![
         format!("{}: {}, {}", body.machine().name(), body.kind().noun, flanks.join(", ")),
         path,
-        format!("{origin}, Z0 {face}, {} mm deep in {count} {passes}", short(depth, 6)),
+        format!("{origin}, Z0 {face}, {} {unit} deep in {count} {passes}", length(depth)),
         "bore, keyway and holes are not in this program".to_owned(),
     ];
     head.extend(rib);

@@ -19,11 +19,11 @@ impl IsoText<'_> {
     }
 
     fn round(&mut self, (axis, round): (char, &TurnedRound), depth: f64) {
-        let (cutting, decimals) = (&self.program.cutting, self.decimals);
+        let (cutting, decimals, units) = (&self.program.cutting, self.decimals, self.program.units);
         let place = |[x, y]: [f64; 2]| {
             // Of a disc the tool stays over the axis.
-            let beside = if axis == 'C' { String::new() } else { format!(" Y{}", plain(y, decimals)) };
-            format!("X{}{beside}", plain(x, decimals))
+            let beside = if axis == 'C' { String::new() } else { format!(" Y{}", plain(units.of_mm(y), decimals)) };
+            format!("X{}{beside}", plain(units.of_mm(x), decimals))
         };
         let Some([first, x, y]) = round.rows.first().copied() else { return };
         let (along, plunge) = (self.feed(cutting.feed), self.feed(cutting.plunge_feed));
@@ -31,7 +31,7 @@ impl IsoText<'_> {
         let (down, to) = if axis == 'C' { (&along, &plunge) } else { (&plunge, &along) };
         self.comment(&round.words);
         self.line(&format!("G0 {} {axis}{}", place(round.away), plain(first, decimals)));
-        self.line(&format!("G1 Z{} F{down}", plain(-depth, decimals)));
+        self.line(&format!("G1 Z{} F{down}", self.number(-depth)));
         let goes_to = round.away != [x, y];
         if goes_to {
             self.line(&format!("G1 {} F{to}", place([x, y])));

@@ -9,6 +9,7 @@ use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::Rotation;
 use crate::motion::Motion;
 use crate::report::sheet::{Mark, PlaceTable, ShapeGroup, SheetShape, SheetView, TitleFacts, rounded};
+use crate::units::LengthUnit;
 use nalgebra::Vector2;
 
 /// Most speeds that are named one by one.
@@ -107,7 +108,7 @@ fn from_the_side(conoid: &Conoid, parts: &[Part], plan: &Extents) -> (Vec<ShapeG
     let (low, high) = conoid.ends();
     let left = plan.largest.x + 2.0 * GAP_OVER_WIDTH * plan.size().x;
     let bore = conoid.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius);
-    let (mut groups, marks) = side_view(left, plan, MILLIMETRES * (high - low), bore);
+    let (mut groups, marks) = side_view(left, plan, (MILLIMETRES * (high - low), conoid.machine.units()), bore);
     groups.extend(conoid.sections_cut().into_iter().zip(parts).enumerate().map(|(index, ((rpm, z, _), part))| {
         let (at, seen) = (left + MILLIMETRES * (z - low), part.outline.contour.extents());
         let line = SheetShape::Line(Vector2::new(at, seen.least.y), Vector2::new(at, seen.largest.y));
@@ -124,7 +125,7 @@ fn from_the_side(conoid: &Conoid, parts: &[Part], plan: &Extents) -> (Vec<ShapeG
 fn marks(conoid: &Conoid, parts: &[Part], plan: &Extents) -> Vec<Mark> {
     let base = parts.iter().map(|part| part.outline.contour.extents().largest.x).fold(0.0, f64::max);
     let marks = [
-        overall(plan),
+        overall(plan, conoid.machine.units()),
         bore(&conoid.machine, parts.first().and_then(|part| part.balancing.as_ref())),
         turning(&conoid.machine, 0.7 * base, base, "θ = 0, φ = 0"),
     ];
@@ -133,24 +134,33 @@ fn marks(conoid: &Conoid, parts: &[Part], plan: &Extents) -> Vec<Mark> {
 
 /// The profiles of the sections where there are few, else their sizes.
 fn tables(conoid: &Conoid, parts: &[Part]) -> Vec<PlaceTable> {
-    let head = |z: f64| format!("z = {}", rounded((1e3 * MILLIMETRES * z).round() / 1e3));
+    let units = conoid.machine.units();
+    let head = |z: f64| format!("z = {}", units.dimension((1e3 * MILLIMETRES * z).round() / 1e3));
     let named: Vec<(String, &Contour)> =
         conoid.sections_cut().iter().zip(parts).map(|((_, z, _), part)| (head(*z), &part.outline.contour)).collect();
-    let profiles = if named.len() <= MOST_NAMED { section_profiles(&named) } else { Vec::new() };
+    let profiles = if named.len() <= MOST_NAMED { section_profiles(&named, units) } else { Vec::new() };
     profiles.into_iter().chain([sections_table(conoid, parts)]).collect()
 }
 
 /// Speed, place and extents of each section.
 fn sections_table(conoid: &Conoid, parts: &[Part]) -> PlaceTable {
+    let units = conoid.machine.units();
+    let unit = units.symbol();
     let row = |((rpm, z, _), part): ((f64, f64, &Reversal), &Part)| {
         let size = part.outline.contour.extents().size();
         let area = part.area_and_moment().0;
-        let cells = [rpm, MILLIMETRES * z, size.x, size.y];
-        cells.iter().map(|value| rounded(*value)).chain([format!("{area:.1}")]).collect()
+        let lengths = [MILLIMETRES * z, size.x, size.y].map(|length| units.dimension(length));
+        let area = match units {
+            LengthUnit::Millimetre => format!("{area:.1}"),
+            LengthUnit::Inch => format!("{:.3}", units.of_mm_to(area, 2)),
+        };
+        std::iter::once(rounded(rpm)).chain(lengths).chain([area]).collect()
     };
     PlaceTable {
         title: "Sections: speed, place along the axis, width, height, area".into(),
-        heads: ["n, rpm", "z, mm", "width, mm", "height, mm", "area, mm²"].map(str::to_owned).to_vec(),
+        heads: ["n, rpm", "z, mm", "width, mm", "height, mm", "area, mm²"]
+            .map(|head| head.replace("mm", unit))
+            .to_vec(),
         rows: conoid.sections_cut().into_iter().zip(parts).map(row).collect(),
         every: 1,
     }

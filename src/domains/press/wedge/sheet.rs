@@ -1,7 +1,7 @@
 //! What the review sheet of a cam plate shows.
 
 use super::Wedge;
-use crate::body::sheet::{overall, pressure_angle, roller, side_view, tolerance_note};
+use crate::body::sheet::{length_cell, overall, pressure_angle, roller, side_view, tolerance_note, travelled};
 use crate::body::{Body, Drawn, Figures};
 use crate::geometry::contour::{Contour, Extents, Segment};
 use crate::geometry::{Entity, MILLIMETRES};
@@ -9,6 +9,7 @@ use crate::motion::Motion;
 use crate::profile::outline::OutlineError;
 use crate::report::sheet::{Mark, PlaceTable, ShapeGroup, SheetShape, SheetView, TitleFacts, extents_of};
 use crate::table::Row;
+use crate::units::LengthUnit;
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -45,14 +46,14 @@ pub(super) fn view(plate: &Wedge, drawn: &Drawn) -> Result<SheetView, OutlineErr
     let gap = SIDE_GAP * outline.size().x;
     let side = plate.machine.cam.thickness.map(|thickness| MILLIMETRES * thickness).map(|thickness| {
         let front = extents_of(&groups);
-        side_view(front.least.x - gap - thickness, &outline, thickness, None)
+        side_view(front.least.x - gap - thickness, &outline, (thickness, plate.machine.units()), None)
     });
     let (seen, thickness) = side.unwrap_or_default();
     groups.extend(seen);
     let weight = drawn.parts.first().map(|part| part.weight(&plate.machine));
     Ok(SheetView {
         groups,
-        marks: [overall(&outline), thickness, names, angle].concat(),
+        marks: [overall(&outline, plate.machine.units()), thickness, names, angle].concat(),
         tables: places(plate),
         facts: TitleFacts::of(&plate.machine, weight.and_then(|weight| weight.mass_kg)),
         notes: tolerance_note(&plate.machine),
@@ -66,8 +67,9 @@ fn axes(plate: &Wedge, outline: &Extents) -> (Vec<SheetShape>, Vec<Mark>) {
     let ends = [outline.least.x - beyond, outline.largest.x + beyond];
     let mut shapes = vec![SheetShape::Line(Vector2::new(ends[0], 0.0), Vector2::new(ends[1], 0.0))];
     let mut marks = Vec::new();
-    let stroke = MILLIMETRES * plate.stroke();
+    let (stroke, units) = (MILLIMETRES * plate.stroke(), plate.machine.units());
     let end = match plate.mechanism().bottom_law.in_line() {
+        _ if units == LengthUnit::Inch => format!("x = {} in", units.cell(stroke)),
         None => format!("x = r = {stroke} mm"),
         Some(_) => format!("x = {stroke:.3} mm"),
     };
@@ -91,7 +93,7 @@ fn rollers(plate: &Wedge) -> (Vec<SheetShape>, Vec<Mark>) {
     let (centre, drive, outward) = (contact.curve.point * MILLIMETRES, contact.drive, contact.curve.outward());
     let mut shapes = roller(centre, drive, outward, radius);
     shapes.extend(roller(flip(centre), flip(drive), flip(outward), radius));
-    let text = format!("α = {:.2}° at x = {:.2} mm", worst.value.to_degrees(), MILLIMETRES * worst.at);
+    let text = format!("α = {:.2}° at {}", worst.value.to_degrees(), travelled(&plate.machine, worst.at));
     (shapes, pressure_angle(flip(centre), flip(drive), flip(outward), radius, text))
 }
 
@@ -99,8 +101,10 @@ fn rollers(plate: &Wedge) -> (Vec<SheetShape>, Vec<Mark>) {
 fn places(plate: &Wedge) -> Vec<PlaceTable> {
     let added =
         |row: &Row, name: &str| row.added.iter().find(|(column, _)| column.name == name).map(|(_, value)| *value);
+    let units = plate.machine.units();
+    let unit = units.symbol();
     let row = |row: &Row| {
-        let cell = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{:.3}", value + 0.0));
+        let cell = |value: Option<f64>| length_cell(value, units);
         vec![
             cell(added(row, "x_mm")),
             cell(added(row, "dx_mm")),
@@ -109,10 +113,10 @@ fn places(plate: &Wedge) -> Vec<PlaceTable> {
         ]
     };
     let rows: Arc<[Vec<String>]> = plate.rows(STEPS).iter().map(row).collect();
-    let heads = ["x, mm", "Δx, mm", "profile x", "profile y"].map(str::to_owned).to_vec();
+    let heads = ["x, mm", "Δx, mm", "profile x", "profile y"].map(|head| head.replace("mm", unit)).to_vec();
     [1, 2, 4]
         .map(|every| PlaceTable {
-            title: "Overrun x, travel Δx of the bottom, place of the profile, mm".into(),
+            title: format!("Overrun x, travel Δx of the bottom, place of the profile, {unit}"),
             heads: heads.clone(),
             rows: Arc::clone(&rows),
             every,
