@@ -147,7 +147,8 @@
 //! | `linkage` | the linkage that moves a bed; includes `press` |
 //! | `shaft` | the shaft under a cam; includes `press` |
 //! | `brake` | the belt brake of a paper roll and the disc that holds its tension |
-//! | `html` | the format `html`, a moving report |
+//! | `html` | the format `html`, a moving report, and the module `engine` |
+//! | `live` | `Writing::live`: the moving report with the library in it |
 //! | `pdf` | the format `pdf`, the review sheet and the motion diagram |
 //! | `second-reader` | a second DXF reader that shares no code with the first also reads each cut file |
 //! | `cli` | the program `camgen` |
@@ -161,7 +162,7 @@
 //! - what is cut: [`machine`], [`load`], [`body`], [`analysis`]
 //! - what is found: [`report`], [`table`], [`check`], [`verify`]
 //! - files: [`reading`], [`mod@write`]
-//! - all of it together: [`pipeline`], [`mod@trade`], [`domain`], [`domains`], [`catalogue`], [`study`]
+//! - all of it together: [`pipeline`], [`mod@trade`], [`domain`], [`domains`], [`catalogue`], [`study`], `engine` (with the feature `html`)
 //!
 //! ARCHITECTURE.md describes them.
 #![forbid(unsafe_code)]
@@ -213,6 +214,9 @@ pub mod domains;
 
 pub mod catalogue;
 pub mod study;
+
+#[cfg(feature = "html")]
+pub mod engine;
 
 #[doc(inline)]
 pub use analysis::Analysis;

@@ -4,6 +4,7 @@ use super::args::{
     AccuracyArgs, CommonArgs, ConoidArgs, CutterArgs, DiscArgs, FileArgs, OutlineArgs, OutputArgs, PointsArgs,
     ReportArgs, RotaryArgs, SolverKind, Speed, TranslatingArgs, gauge_follower,
 };
+use super::live::{self, LiveSource};
 use super::progress::Progress;
 use super::put::put_set;
 use super::{Failure, Outcome, print, print_message, print_painted, text};
@@ -44,7 +45,8 @@ pub(super) fn rotary(args: &RotaryArgs) -> Result<Outcome, Failure> {
     machine = args.files.to.of_units(machine);
     let rpm = args.common.one_speed(&machine)?;
     let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
-    cut(Spec::rotary(machine, rpm), request, &args.common, &args.files, &name)
+    let source = LiveSource { machine: args.common.machine_name(), overrides };
+    cut(Spec::rotary(machine, rpm), request, (&args.common, &args.files), (&name, source))
 }
 
 pub(super) fn translating(args: &TranslatingArgs) -> Result<Outcome, Failure> {
@@ -59,13 +61,13 @@ pub(super) fn translating(args: &TranslatingArgs) -> Result<Outcome, Failure> {
         }
     };
     let spec = Spec::translating(machine.clone(), rpm, solver, balance_of(args.balance, &machine));
-    cut(spec, args.files.request(&args.common)?, &args.common, &args.files, &name)
+    cut(spec, args.files.request(&args.common)?, (&args.common, &args.files), (&name, args.common.live_source()))
 }
 
 pub(super) fn conoid(args: &ConoidArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.common.machine()?;
     let spec = of_conoid(&args.common, args.files.to.of_units(machine), args.residual)?;
-    cut(spec, args.files.request(&args.common)?, &args.common, &args.files, &name)
+    cut(spec, args.files.request(&args.common)?, (&args.common, &args.files), (&name, args.common.live_source()))
 }
 
 /// The cam of a motion program.
@@ -78,7 +80,7 @@ pub(super) fn make(args: &DiscArgs) -> Result<Outcome, Failure> {
     machine = args.files.to.of_units(machine);
     let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
     let spec = of_program(&args.common, (machine, file))?;
-    cut(spec, request, &args.common, &args.files, &name)
+    cut(spec, request, (&args.common, &args.files), (&name, args.common.live_source()))
 }
 
 /// What `make` can start from.
@@ -124,6 +126,13 @@ pub(super) fn of_conoid(common: &CommonArgs, machine: Machine, residual: Option<
         speeds.push(machine.press().map_err(Failure::new)?.design_rpm);
     }
     Ok(Spec::conoid(machine, speeds, residual))
+}
+
+impl CommonArgs {
+    /// What --live makes live.
+    fn live_source(&self) -> LiveSource<'_> {
+        LiveSource { machine: self.machine_name(), overrides: self.set.clone() }
+    }
 }
 
 impl CutterArgs {
@@ -298,15 +307,27 @@ pub(super) fn source_date() -> Result<Option<u64>, Failure> {
 }
 
 /// Solves, draws, proves, writes and reports.
-fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, machine: &str) -> Result<Outcome, Failure> {
+fn cut(
+    spec: Spec,
+    request: Request,
+    (common, files): (&CommonArgs, &FileArgs),
+    (machine, source): (&str, LiveSource<'_>),
+) -> Result<Outcome, Failure> {
+    if files.live {
+        files.live_fits(common, &request)?;
+    }
     let template = files.to.template()?;
     let progress = Progress::of_stages(common.report.shows_progress());
     progress.stage("solving");
     let cams = spec.assemble().map_err(Failure::new)?;
     let cam = cams.first();
+    let stem = stem(common, files, cam, machine);
+    let live =
+        if files.live { Some(live::design(&source, (common, cam, &stem), request.fit.tolerance)?) } else { None };
     let writing = Writing {
         directory: files.to.out.clone(),
-        stem: stem(common, files, cam, machine),
+        stem,
+        live,
         formats: files.format.clone(),
         samples: files.samples.unwrap_or(USUAL_ROWS),
         template,

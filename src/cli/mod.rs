@@ -9,10 +9,12 @@ mod check;
 mod design;
 mod explain;
 mod import;
+mod live;
 mod machines;
 mod pages;
 mod progress;
 mod put;
+mod serve;
 mod side_by_side;
 mod signals;
 mod study;
@@ -101,6 +103,7 @@ fn run(command: &Command) -> Result<Outcome, Failure> {
         Command::Check(DeferredArgs(args)) => check::run(args),
         Command::Trade(DeferredArgs(args)) => trade::run(args),
         Command::Study(DeferredArgs(args)) => study::run(args),
+        Command::Serve(DeferredArgs(args)) => serve::run(args),
         Command::Machines(args) => machines::run(args),
         Command::Init(args) => pages::init(args),
         Command::Explain(args) => explain::run(args),

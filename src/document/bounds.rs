@@ -25,6 +25,12 @@ pub const fn within(low: f64, high: f64) -> Bounds {
 const LEAST_SHARE: f64 = 1e-18;
 
 impl Bounds {
+    /// The low and the high end, in SI units.
+    #[must_use]
+    pub fn ends(self) -> (f64, f64) {
+        (self.low, self.high)
+    }
+
     /// The smallest value of a range above 0.
     fn least(self) -> Option<f64> {
         (self.low == 0.0 && !self.low_included && self.high.is_finite()).then_some(LEAST_SHARE * self.high)

@@ -113,6 +113,11 @@ pub(super) struct Document<'a> {
 }
 
 impl FlatText {
+    /// The text as it was read.
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+
     /// Reads a TOML text; the sections say which tables occur several times.
     pub(crate) fn new(text: &str, sections: &[&KeySection]) -> Self {
         let repeated =

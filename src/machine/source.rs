@@ -72,6 +72,12 @@ impl MachineSource {
         Self { catalogue, name: name.to_owned(), stem, text, known, motion, by_user: true, folder: None }
     }
 
+    /// The text.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        self.text.text()
+    }
+
     /// What the names of its files begin with.
     #[must_use]
     pub fn stem(&self) -> &str {

@@ -70,7 +70,13 @@ impl ProvenAssembly {
         // The report of the first, which some of its files contain, names those of all.
         let of_all = self.names_of_all(writing)?;
         let other_names = [self.names_of_others(writing)?, of_all.clone()].concat();
-        let made = |(name, cam): &(String, Proven)| cam.files(&Self::writing(name, writing));
+        // What is changed in a live page is the design, and its page is that of the first.
+        let plain = Writing {
+            #[cfg(feature = "live")]
+            live: None,
+            ..writing.clone()
+        };
+        let made = |(name, cam): &(String, Proven)| cam.files(&Self::writing(name, &plain));
         let of_others = || parallel::map(self.others(), made);
         let (first, others) =
             parallel::both(|| of_first(self, writing, &other_names), (!self.others().is_empty()).then_some(of_others));
@@ -118,7 +124,13 @@ fn of_first(whole: &ProvenAssembly, writing: &Writing, other_names: &[String]) -
     let rendering = proven.rendering(&report, writing.samples, &writing.template)?;
     let others: Vec<(&dyn Body, &[WrittenOutline])> =
         whole.others().iter().map(|(_, other)| (other.body(), other.outlines())).collect();
-    let rendering = Rendering { created: writing.created, other_cams: &others, ..rendering };
+    let rendering = Rendering {
+        created: writing.created,
+        other_cams: &others,
+        #[cfg(feature = "live")]
+        live: writing.live.as_ref(),
+        ..rendering
+    };
     let filled: Vec<_> = formats.iter().filter(|format| !(format.endings)(rendering.drawn).is_empty()).collect();
     // Made by one of several at the same time, it could wait for itself: its sections spread over the threads that write the others.
     if filled.len() > 1 {

@@ -7,6 +7,8 @@ use crate::refusal::Refusal;
 use crate::report::{LazyReport, Report};
 use crate::write::csv::MOST_ROWS;
 use crate::write::files::{self, OutputDirectory, StagedFiles};
+#[cfg(feature = "live")]
+use crate::write::html::live::LiveDesign;
 use crate::write::record::{WriteInputs, stage_recorded};
 use crate::write::svg;
 use crate::write::{FORMATS, Format, FormatSelection, by_name};
@@ -27,6 +29,9 @@ pub struct Writing {
     pub samples: u32,
     /// The SVG template the review sheet is put into.
     pub template: String,
+    /// The design with which the moving report (format `html`) is made live: its engine is in it.
+    #[cfg(feature = "live")]
+    pub live: Option<LiveDesign>,
     /// The time that the files bear, where their format has a place for it, seconds since 1970 UTC; `None` for no time.
     pub created: Option<u64>,
     /// Write although a check failed.
@@ -47,6 +52,8 @@ impl Writing {
             formats: None,
             samples: SAMPLES,
             template: svg::TEMPLATE.to_owned(),
+            #[cfg(feature = "live")]
+            live: None,
             created: None,
             force: false,
             overwrite: false,

@@ -537,6 +537,8 @@ impl Proven {
             report,
             samples,
             template,
+            #[cfg(feature = "live")]
+            live: None,
             created: None,
         })
     }

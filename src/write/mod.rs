@@ -80,6 +80,9 @@ pub struct Rendering<'a> {
     pub samples: u32,
     /// The template of the review sheet.
     pub template: &'a str,
+    /// The design with which the moving report is made live.
+    #[cfg(feature = "live")]
+    pub live: Option<&'a html::live::LiveDesign>,
     /// The time stamp of the files, seconds since 1970 UTC.
     pub created: Option<u64>,
 }

@@ -503,4 +503,3 @@ function start() {
   }, 0));
 }
 
-start();

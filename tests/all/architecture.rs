@@ -3,7 +3,7 @@
 use crate::common::source::{Token, closing, code, sources, src, tokens, used};
 use std::path::{Path, PathBuf};
 
-const ROOMS: [&str; 24] = [
+const ROOMS: [&str; 25] = [
     "refusal",
     "units",
     "numeric",
@@ -28,6 +28,7 @@ const ROOMS: [&str; 24] = [
     "domains",
     "catalogue",
     "study",
+    "engine",
 ];
 
 /// Longest function, in lines from its name to its closing brace.

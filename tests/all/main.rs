@@ -38,6 +38,7 @@ mod inches;
 mod inputs;
 mod laws;
 mod linkage_cams;
+mod live;
 mod lobes;
 mod mistakes;
 mod mutations;

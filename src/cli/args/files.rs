@@ -92,6 +92,10 @@ pub(in crate::cli) struct FileArgs {
     #[arg(long, value_name = "N", value_parser = samples)]
     pub(in crate::cli) samples: Option<u32>,
 
+    /// With --format html: the report has the library in it as WebAssembly, so that the design can be changed in the page
+    #[arg(long)]
+    pub(in crate::cli) live: bool,
+
     #[command(flatten)]
     pub(in crate::cli) outline: OutlineArgs,
 

@@ -27,6 +27,13 @@ Examples:
   camgen conoid --rpm 20..35 --residual 20N --dry-run
       the fewest sections that leave no more than 20 N at any speed between";
 
+pub(super) const SERVE: &str = "\
+Examples:
+  camgen serve lifter.toml --for 1
+      the design in lifter.toml as a page at the address that is printed; it ends after a second, without --for at Ctrl+C
+  camgen serve --port 8423 --for 1
+      all embedded designs, at a port of your own";
+
 pub(super) const MAKE: &str = "\
 Examples:
   camgen make lifter.toml --format dxf,step

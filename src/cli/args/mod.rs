@@ -8,6 +8,7 @@ mod deferred;
 mod files;
 mod help;
 pub(crate) mod parse;
+mod serve;
 mod side_by_side;
 mod study;
 
@@ -27,6 +28,7 @@ pub(super) use files::{CutterArgs, FileArgs, OutlineArgs, OutputArgs, PointsArgs
 #[cfg(feature = "shaft")]
 pub(super) use parse::Order;
 pub(super) use parse::{LawOrSpline, Speed, gauge_follower};
+pub(super) use serve::ServeArgs;
 pub(super) use side_by_side::SideBySideArgs;
 pub(super) use study::StudyArgs;
 
@@ -161,6 +163,12 @@ pub(super) enum Command {
     /// A study file names a base, the keys that vary and the figures that are wanted. An interrupted run is continued by the same command.
     #[command(after_help = help::STUDY)]
     Study(DeferredArgs<StudyArgs>),
+    /// The live page on this computer: a design changed in the browser
+    ///
+    /// The page has the engine of this program. It reads the machine file again when it changes, writes it back with its comments, and writes
+    /// files all or none. Without FILE it begins with all embedded designs.
+    #[command(after_help = help::SERVE)]
+    Serve(DeferredArgs<ServeArgs>),
     /// The machine files built into camgen
     #[command(after_help = help::MACHINES)]
     Machines(MachinesArgs),

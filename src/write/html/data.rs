@@ -137,7 +137,7 @@ fn curves(analysis: &Analysis, table: &Table, checks: &[Finding]) -> Vec<Value> 
 }
 
 /// What the page shows of any report.
-fn report_page(report: &Report) -> Value {
+pub(super) fn report_page(report: &Report) -> Value {
     json!({
         "title": report.title(),
         "machine": report.machine,

@@ -5,11 +5,14 @@
 //! The script knows no kinematics: it interpolates between the samples of [`crate::report::mechanism`].
 
 mod data;
+#[cfg(feature = "live")]
+pub mod live;
 mod panels;
 mod units;
 
 use super::{AnalysisFormat, Format, FormatSelection, Rendering, fits_all};
 use crate::refusal::Refusal;
+use crate::report::Report;
 use serde_json::{Value, json};
 
 /// The interactive report.
@@ -19,7 +22,7 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".html".into()],
-    write: |cam| Ok(vec![page(&cam.report.title(), &[data::of(cam)])?]),
+    write: |cam| Ok(vec![of_cam(cam)?]),
     of_analysis: Some(AnalysisFormat {
         endings: |_| vec![".html".into()],
         write: |account| Ok(vec![page(&account.report.title(), &[data::of_analysis(account)])?]),
@@ -41,12 +44,25 @@ const SCRIPTS: [&str; 4] = [
     include_str!("../../../templates/report/solid.js"),
     include_str!("../../../templates/report/page.js"),
 ];
+/// What begins: the report by itself, the live page once its engine is there.
+const START: &str = include_str!("../../../templates/report/start.js");
 /// The page of a study, with its own script.
 const STUDY: &str = include_str!("../../../templates/study.html");
 const STUDY_SCRIPT: &str = include_str!("../../../templates/report/study.js");
 const CHARTS: &str = include_str!("../../../templates/vendor/uplot/uPlot.iife.min.js");
 const CHARTS_STYLE: &str = include_str!("../../../templates/vendor/uplot/uPlot.min.css");
 const CHARTS_LICENCE: &str = include_str!("../../../templates/vendor/uplot/LICENSE");
+
+/// The page of a cam, live where that was requested.
+fn of_cam(cam: &Rendering<'_>) -> Result<Vec<u8>, Refusal> {
+    #[cfg(feature = "live")]
+    if let Some(design) = cam.live {
+        // The engine makes the rest of the rows when the page opens.
+        let first = Rendering { samples: cam.samples.min(live::FIRST_STEPS), ..*cam };
+        return live::page((&cam.report.title(), data::of(&first)), design, None);
+    }
+    page(&cam.report.title(), &[data::of(cam)])
+}
 
 /// Two cams next to each other.
 ///
@@ -57,33 +73,54 @@ pub fn side_by_side(first: &Rendering<'_>, second: &Rendering<'_>) -> Result<Vec
     page(&title, &[data::of(first), data::of(second)])
 }
 
+/// What the page shows of a cam, as data.
+#[must_use]
+pub fn data_of(cam: &Rendering<'_>) -> Value {
+    data::of(cam)
+}
+
+/// What the page shows of a cam that has no outline: its report, and no mechanism.
+#[must_use]
+pub fn data_without_outline(report: &Report) -> Value {
+    data::report_page(report)
+}
+
 /// The page of a study.
 ///
 /// # Errors
 /// As [`side_by_side`].
 pub fn of_study(title: &str, data: &Value) -> Result<Vec<u8>, Refusal> {
-    filled(STUDY, title, data, STUDY_SCRIPT)
+    report_filled(STUDY, title, data, STUDY_SCRIPT)
 }
 
 /// The page of cams.
 fn page(title: &str, cams: &[Value]) -> Result<Vec<u8>, Refusal> {
-    filled(PAGE, title, &json!({"schema": 1, "cams": cams}), &SCRIPTS.concat())
+    report_filled(PAGE, title, &json!({"schema": 1, "cams": cams}), &format!("{}{START}", SCRIPTS.concat()))
 }
 
-/// Fills a template: each placeholder occurs once or twice, and inserted text is not searched again.
-fn filled(template: &str, title: &str, data: &Value, script: &str) -> Result<Vec<u8>, Refusal> {
-    let data = serde_json::to_string(data).map_err(Refusal::of)?;
+/// Data within a script: no tag can begin within the JSON, as `<` occurs in texts only.
+fn in_script(data: &Value) -> Result<String, Refusal> {
+    Ok(serde_json::to_string(data).map_err(Refusal::of)?.replace('<', "\\u003c"))
+}
+
+/// Fills the template of a report.
+fn report_filled(template: &str, title: &str, data: &Value, script: &str) -> Result<Vec<u8>, Refusal> {
+    let data = in_script(data)?;
     let lookup = |name: &str| match name {
         "title" => text(title),
         "style" => format!("{CHARTS_STYLE}\n{STYLE}"),
-        // No tag can begin within the JSON: `<` occurs in texts only.
-        "data" => data.replace('<', "\\u003c"),
+        "data" => data.clone(),
         "licence" => text(CHARTS_LICENCE),
         "charts" => CHARTS.to_owned(),
         "script" => script.to_owned(),
         _ => String::new(),
     };
-    let mut page = String::with_capacity(template.len() + data.len() + CHARTS.len() + script.len());
+    Ok(filled(template, lookup))
+}
+
+/// Fills a template: inserted text is not searched again.
+fn filled(template: &str, lookup: impl Fn(&str) -> String) -> Vec<u8> {
+    let mut page = String::with_capacity(template.len());
     let mut rest = template;
     while let Some((before, behind)) = rest.split_once("{{") {
         let (name, after) = behind.split_once("}}").unwrap_or((behind, ""));
@@ -92,7 +129,7 @@ fn filled(template: &str, title: &str, data: &Value, script: &str) -> Result<Vec
         rest = after;
     }
     page.push_str(rest);
-    Ok(page.into_bytes())
+    page.into_bytes()
 }
 
 /// Text escaped for HTML.

@@ -1,0 +1,77 @@
+//! `--live`: the design that the moving report begins with when its engine is in it.
+
+use super::Failure;
+use super::args::{CommonArgs, FileArgs, Speed};
+use camgen::body::{Accuracy, Request};
+use camgen::engine::{self, TextChange};
+use camgen::machine::MachineSource;
+use camgen::pipeline::Cam;
+use camgen::profile::outline::Fit;
+use camgen::write::dxf::Version;
+use camgen::write::html::live::LiveDesign;
+
+/// What is made live.
+pub(super) struct LiveSource<'a> {
+    /// The name or path of the machine file.
+    pub(super) machine: &'a str,
+    /// Its overrides.
+    pub(super) overrides: Vec<String>,
+}
+
+impl FileArgs {
+    /// Refuses --live where the page would make another cam than the one that is written.
+    pub(super) fn live_fits(&self, common: &CommonArgs, request: &Request) -> Result<(), Failure> {
+        if !self.format.iter().flatten().any(|format| format == "html") {
+            return Err(Failure("--live belongs to --format html".into()));
+        }
+        // What the page itself draws with.
+        let own = Request {
+            rates: [None, Accuracy::Standard.acceleration()],
+            strict: [false; 2],
+            ..Request::within(Fit::from(request.fit.tolerance))
+        };
+        let of_files = Request { points: None, milling: None, servo: false, inspection: None, gauge: None, ..*request };
+        let flags = "--side, --outline, --start, --lead-in, --cutter-diameter, --accuracy, --tolerance-velocity, --tolerance-acceleration";
+        if of_files != own {
+            return Err(Failure(format!("--live draws within --tolerance alone: leave out {flags}")));
+        }
+        if common.end.is_some() || !common.free.is_empty() || self.outline.dxf_version != Version::default() {
+            return Err(Failure(
+                "--live cannot be combined with --end, --free or --dxf-version; set the keys in the file".into(),
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// The design of a live page, its overrides as values of its text.
+pub(super) fn design(
+    source: &LiveSource<'_>,
+    (common, cam, stem): (&CommonArgs, &Cam, &str),
+    tolerance: f64,
+) -> Result<LiveDesign, Failure> {
+    let text = MachineSource::load(source.machine).map_err(Failure::new)?;
+    let set = |typed: &String| {
+        let (key, to) = typed.split_once('=').unwrap_or((typed, ""));
+        TextChange::Set { key: key.trim().to_owned(), to: to.trim().to_owned() }
+    };
+    let changes: Vec<TextChange> = source.overrides.iter().map(set).collect();
+    let toml = engine::changed_text(text.text(), &changes).map_err(Failure::new)?;
+    if let [key, ..] = engine::keys_with_files(&toml).as_slice() {
+        return Err(Failure(format!(
+            "--live cannot read the file that `{key}` names: a page has no files; leave out --live"
+        )));
+    }
+    let rpm = |speed: &Speed| match speed {
+        Speed::One(rpm) => Ok(*rpm),
+        Speed::Range(..) => Err(Failure("--live needs the speeds themselves, --rpm 20,25,30, not a range".into())),
+    };
+    Ok(LiveDesign {
+        name: stem.to_owned(),
+        toml,
+        command: cam.body().kind().command.to_owned(),
+        commands: engine::commands(cam.body().machine()).into_iter().map(str::to_owned).collect(),
+        rpm: common.rpm.iter().map(rpm).collect::<Result<_, _>>()?,
+        tolerance,
+    })
+}

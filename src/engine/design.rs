@@ -1,0 +1,145 @@
+//! A cam of a text: solved, drawn, proved, as figures, as a page shows it, as files.
+
+use super::{EngineAnswer, EngineFile, EngineRequest, remedies};
+use crate::body::{Accuracy, Body, Request};
+use crate::geometry::MILLIMETRES;
+use crate::machine::{Machine, MachineSource, valid_rpm};
+use crate::motion::program::SegmentSummary;
+use crate::motion::{Motion, Quantity};
+use crate::pipeline::{AssemblyDrawing, Error, ProvenAssembly, Spec, Writing};
+use crate::profile::outline::Fit;
+use crate::refusal::Refusal;
+use crate::report::Finding;
+use crate::study::DesignCommand;
+use crate::verify::WrittenOutline;
+use crate::write::{Rendering, html, svg};
+use serde_json::{Map, Value, json};
+
+/// Directory of the files as reports name it.
+const DIRECTORY: &str = "output";
+
+/// Largest tolerance, m.
+const LARGEST_TOLERANCE: f64 = 1e-3;
+
+/// The proven cam of a text, and how its files are written; the answer says what is known before it is drawn.
+pub(super) fn proven(
+    request: &EngineRequest,
+    toml: &str,
+    answer: &mut EngineAnswer,
+) -> Result<(ProvenAssembly, Writing), Error> {
+    let name = if request.name.is_empty() { "design" } else { &request.name };
+    let source = MachineSource::from_toml(&format!("{name}.toml"), toml);
+    let machine = Machine::of_source(&source, &[])?;
+    let assembly = spec(request, machine)?.assemble()?;
+    let body = assembly.first().body();
+    let kind = body.kind();
+    answer.say("command", kind.command);
+    answer.say("kind", kind.keys);
+    answer.say("values", values(body));
+    answer.say("motion", segments(body.machine()));
+    let writing = Writing { formats: Some(request.formats.clone()), ..Writing::to(DIRECTORY, name) };
+    let (formats, _) = writing.chosen(body)?;
+    let drawing = assembly.draw(Request {
+        rates: [None, Accuracy::Standard.acceleration()],
+        strict: [false; 2],
+        flank: formats.iter().any(|format| format.flank),
+        ..Request::within(Fit::from(tolerance(request)?))
+    });
+    Ok((drawing.and_then(AssemblyDrawing::prove)?, writing))
+}
+
+/// Makes what is asked for of a text.
+pub(super) fn made(request: &EngineRequest, toml: &str, answer: &mut EngineAnswer) -> Result<(), Error> {
+    let (proven, writing) = proven(request, toml, answer)?;
+    answer.say("passed", proven.passed());
+    answer.say("noOutline", proven.no_outline());
+    answer.say("remedies", of_findings(proven.findings()));
+    if request.report {
+        answer.say("report", json!(proven.report()));
+    }
+    if let Some(steps) = request.page {
+        answer.say("cam", shown(&proven, steps)?);
+    }
+    if proven.passed() && !request.formats.is_empty() {
+        let files = proven.files(&writing)?;
+        let of = |file: &crate::pipeline::Output| EngineFile { name: file.name.clone(), bytes: file.bytes.clone() };
+        answer.files = files.outputs().iter().map(of).collect();
+    }
+    Ok(())
+}
+
+fn tolerance(request: &EngineRequest) -> Result<f64, Error> {
+    let tolerance = request.tolerance.unwrap_or(Accuracy::Standard.tolerance());
+    if tolerance > 0.0 && tolerance <= LARGEST_TOLERANCE {
+        return Ok(tolerance);
+    }
+    Err(Error::Draw(Refusal::new("a tolerance must be above 0 and at most 1 mm")))
+}
+
+/// The cam that a command makes of a machine.
+fn spec(request: &EngineRequest, machine: Machine) -> Result<Spec, Error> {
+    let rpm: Vec<f64> = request.rpm.iter().copied().map(valid_rpm).collect::<Result<_, _>>().map_err(refusal)?;
+    #[cfg(feature = "press")]
+    if request.command == crate::domains::press::cams::CONOID {
+        let of_design = || machine.press().map(|press| vec![press.design_rpm]);
+        let speeds = if rpm.is_empty() { of_design().map_err(Error::Solve)? } else { rpm };
+        return Ok(Spec::conoid(machine, speeds, None));
+    }
+    let known = DesignCommand::ALL.iter().find(|command| command.word() == request.command);
+    let command = match known {
+        Some(command) => *command,
+        None if request.command.is_empty() => DesignCommand::usual(&machine),
+        None => return Err(refusal(format!("no command `{}` makes a cam", request.command))),
+    };
+    if rpm.len() > 1 {
+        return Err(refusal(format!("this cam is cut for one speed, not {}", rpm.len())));
+    }
+    command.spec(machine, rpm.first().copied()).map_err(Error::Solve)
+}
+
+fn refusal(why: impl Into<String>) -> Error {
+    Error::Solve(Refusal::new(why))
+}
+
+/// The value of every key that has an effect, as it was typed.
+fn values(body: &dyn Body) -> Map<String, Value> {
+    let inputs = body.machine().inputs(body.kind().keys);
+    inputs.into_iter().map(|input| (input.key, Value::from(input.typed))).collect()
+}
+
+/// What would let each check pass that promises it.
+fn of_findings(findings: &[Finding]) -> Map<String, Value> {
+    let of = |finding: &Finding| {
+        let remedies = remedies::of(finding.note.as_deref()?);
+        (!remedies.is_empty()).then(|| (finding.check.to_string(), json!(remedies)))
+    };
+    findings.iter().filter_map(of).collect()
+}
+
+/// What a page shows; of a cam without an outline its checks alone.
+fn shown(proven: &ProvenAssembly, steps: u32) -> Result<Value, Error> {
+    let report = proven.lazy_report();
+    if proven.no_outline().is_some() {
+        return Ok(html::data_without_outline(&report));
+    }
+    let others: Vec<(&dyn Body, &[WrittenOutline])> =
+        proven.others().iter().map(|(_, other)| (other.body(), other.outlines())).collect();
+    let rendering = proven.first().rendering(&report, steps.clamp(1, 720), svg::TEMPLATE)?;
+    Ok(html::data_of(&Rendering { other_cams: &others, ..rendering }))
+}
+
+/// The segments of the motion of a machine: law, cam angles (deg) or travels (mm), and positions (deg or mm), each at its beginning and its end.
+fn segments(machine: &Machine) -> Option<Value> {
+    let program = machine.program()?;
+    let along = |at: f64| if program.stroke().is_some() { MILLIMETRES * at } else { at.to_degrees() };
+    let swings = program.quantity() == Quantity::Angle;
+    let position = |at: f64| if swings { at.to_degrees() } else { MILLIMETRES * at };
+    let of = |segment: &SegmentSummary| {
+        let ((from, to), (low, high)) = (segment.angles, segment.positions);
+        json!({"law": segment.law, "at": [along(from), along(to)], "position": [position(low), position(high)], "whole": segment.whole})
+    };
+    let segments: Vec<Value> = program.segments().iter().map(of).collect();
+    Some(
+        json!({"units": [if program.stroke().is_some() { "mm" } else { "deg" }, if swings { "deg" } else { "mm" }], "segments": segments}),
+    )
+}

@@ -1,0 +1,171 @@
+// Fields and sliders from the table of keys, grouped as in the machine file.
+
+let keyTable = null;
+/** The fields as they are shown, by the paths of their keys. */
+let fields = new Map();
+let formOf = "";
+
+/** The table of keys, with keys that are added to a table in that table. */
+function mergedKeys(table) {
+  const sections = [];
+  for (const section of table.sections) {
+    const before = sections.find((one) => one.path === section.path && one.repeated === section.repeated);
+    if (before) before.keys.push(...section.keys);
+    else sections.push(section);
+  }
+  return { ...table, sections };
+}
+
+/** A number and its unit in a value as typed; null where it is none. */
+function quantityOf(typed) {
+  const match = /^(Ø?)\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$/.exec(String(typed ?? "").trim());
+  return match ? { number: Number(match[2]), unit: match[3] } : null;
+}
+
+/** Ends and step of the slider of a value: around it, within the range of its key. */
+function sliderOf(key, typed) {
+  const found = quantityOf(typed);
+  if (!found || !key.ranges) return null;
+  const sizeIn = (range) => (range.dimension === null ? (found.unit === "" ? 1 : found.unit === "%" ? 0.01 : null) : keyTable.units[range.dimension][found.unit] ?? null);
+  const range = key.ranges.find((one) => sizeIn(one) !== null);
+  if (!range) return null;
+  const size = sizeIn(range);
+  const example = Math.abs(quantityOf(key.example)?.number || 1);
+  const span = Math.abs(found.number) || example;
+  const step = 10 ** (Math.floor(Math.log10(span)) - 2);
+  const low = Math.max(range.low / size, found.number > 0 && range.low >= 0 ? found.number / 4 : found.number - span);
+  const high = Math.min(range.high / size, found.number + span);
+  const round = (value, by) => Number((by(value / step) * step).toPrecision(12));
+  return { low: round(low, Math.ceil), high: round(high, Math.floor), step, unit: found.unit, value: found.number };
+}
+
+/** A value of a slider as typed, with the unit that the value had. */
+function typedOf(value, slider) {
+  return `${Number(Number(value).toPrecision(6))}${slider.unit ? (slider.unit === "%" ? slider.unit : ` ${slider.unit}`) : ""}`;
+}
+
+/** The paths of the tables of a section in this design: one, or one for each element of a list. */
+function pathsOf(section, answer) {
+  if (!section.repeated) return [section.path];
+  const heads = [...answer.given].map((path) => path.slice(0, path.lastIndexOf("."))).filter((path) => path.replace(/\[\d+\]/g, "[]") === `${section.path}[]`);
+  return [...new Set(heads)];
+}
+
+/** One key: its label, a field, and a slider where its value is a number. */
+function fieldOf(path, key, answer) {
+  const isGiven = answer.given.includes(path);
+  const typed = (answer.values ?? {})[path]?.replace(/^Ø/, "") ?? "";
+  const id = `key-${path}`;
+  const box = make("div", { className: isGiven ? "field" : "field absent" });
+  const label = make("label", { htmlFor: id, title: key.about }, key.name.replace(/_/g, " "));
+  const why = make("div", { className: "why" }, key.about);
+  const one = { path, key, box, typed, slider: null, range: null };
+  if (key.words && !key.ranges) {
+    one.input = make("select", { id }, ...(isGiven || key.presence === "default" ? [] : [make("option", { value: "" }, "–")]), ...key.words.map((word) => make("option", { value: word }, word)));
+    one.input.addEventListener("change", () => commit([{ set: { key: path, to: one.input.value } }]));
+  } else {
+    one.input = make("input", { id, type: "text", autocomplete: "off", placeholder: isGiven ? "" : key.example });
+    if (key.words) {
+      const list = make("datalist", { id: `${id}-words` }, ...key.words.map((word) => make("option", { value: word })));
+      one.input.setAttribute("list", list.id);
+      box.append(list);
+    }
+    one.input.addEventListener("change", () => {
+      const value = one.input.value.trim();
+      commit([value === "" ? { remove: path } : { set: { key: path, to: value } }]);
+    });
+  }
+  one.input.setAttribute("aria-describedby", `${id}-why`);
+  why.id = `${id}-why`;
+  box.append(label, one.input);
+  if (key.ranges) {
+    one.range = make("input", { type: "range", "aria-label": key.about, tabIndex: 0 });
+    one.range.addEventListener("input", () => {
+      one.input.value = typedOf(one.range.value, one.slider);
+      draft([{ set: { key: path, to: one.input.value } }]);
+    });
+    one.range.addEventListener("change", () => commit([{ set: { key: path, to: one.input.value } }]));
+    box.append(one.range);
+  }
+  box.append(why);
+  fields.set(path, one);
+  return box;
+}
+
+/** What a field shows: the value as typed; of "auto" the slider starts from what was found. */
+function fillField(one, answer) {
+  const typed = ((answer.values ?? {})[one.path] ?? "").replace(/^Ø/, "");
+  one.typed = typed;
+  if (document.activeElement !== one.input || one.input.tagName === "SELECT") one.input.value = typed;
+  one.box.classList.toggle("changed", typed !== (sent.values?.[one.path] ?? "").replace(/^Ø/, ""));
+  one.box.classList.remove("wrong");
+  if (!one.range) return;
+  const found = quantityOf(typed) ? typed : chosenValue(one.path);
+  const fits = one.slider && quantityOf(found) && one.slider.unit === quantityOf(found).unit && quantityOf(found).number > one.slider.low && quantityOf(found).number < one.slider.high;
+  if (!fits) one.slider = sliderOf(one.key, found);
+  one.range.hidden = !one.slider;
+  if (!one.slider) return;
+  Object.assign(one.range, { min: one.slider.low, max: one.slider.high, step: one.slider.step });
+  one.range.value = quantityOf(found).number;
+  one.range.setAttribute("aria-valuetext", found);
+}
+
+/** What was found for a key that is left to camgen. */
+function chosenValue(path) {
+  if (path !== "cam.base_radius") return "";
+  const values = cams[0].sections?.find((section) => section.key === "cam")?.values ?? [];
+  const found = values.find(([label]) => label === "base radius");
+  return found ? `${found[1]} mm` : "";
+}
+
+/** The form of a design: its tables, the keys that are given first, the others behind a line. */
+function form(answer) {
+  const shape = JSON.stringify([answer.kind, answer.given, language]);
+  if (shape !== formOf) {
+    formOf = shape;
+    const open = new Set([...byId("fields").querySelectorAll("details[open]")].map((box) => box.dataset.path));
+    const isFirst = fields.size === 0;
+    fields = new Map();
+    const tablesOf = (section) => pathsOf(section, answer).flatMap((path) => {
+      const has = section.keys.filter((key) => (!key.cams.length || key.cams.includes(answer.kind)) && !key.file);
+      const of = (key) => (path ? `${path}.${key.name}` : key.name);
+      const [given, absent] = [true, false].map((wanted) => has.filter((key) => answer.given.includes(of(key)) === wanted));
+      if (!given.length) return absent.length && !section.repeated ? [[path, section, [], absent, of]] : [];
+      return [[path, section, given, absent, of]];
+    });
+    const all = keyTable.sections.flatMap(tablesOf);
+    const boxOf = ([path, section, given, absent, of]) => {
+      const number = /\[(\d+)\]$/.exec(path);
+      const name = path ? path.replace(/\[(\d+)\]/g, (_, index) => ` ${Number(index) + 1}`).replace(/[._-]/g, " ") : text("design");
+      const more = absent.length ? make("details", { className: "more" }, make("summary", {}, text("add")), ...absent.map((key) => fieldOf(of(key), key, answer))) : null;
+      if (more) more.dataset.path = `${path}+`;
+      const box = make("details", { open: isFirst ? /^(follower|cam|limits)/.test(path) && given.length > 0 : false },
+        make("summary", { title: section.about }, name, number ? make("span", { className: "muted" }, ` ${(answer.values ?? {})[`${path}.law`] ?? ""}`) : null), ...given.map((key) => fieldOf(of(key), key, answer)), more);
+      box.dataset.path = path;
+      if (open.has(path)) box.open = true;
+      if (more && open.has(more.dataset.path)) more.open = true;
+      return box;
+    };
+    const [has, lacks] = [true, false].map((wanted) => all.filter(([, , given]) => (given.length > 0) === wanted).map(boxOf));
+    const rest = make("details", {}, make("summary", {}, text("addTable")), ...lacks);
+    rest.dataset.path = "+";
+    rest.open = open.has("+");
+    byId("fields").replaceChildren(...has, rest);
+  }
+  for (const one of fields.values()) fillField(one, answer);
+  search();
+}
+
+/** Shows only the keys whose names or meanings have the words that are looked for. */
+function search() {
+  const wanted = byId("find").value.trim().toLowerCase().split(/\s+/).filter(Boolean);
+  for (const { path, key, box } of fields.values()) {
+    const has = `${path} ${path.replace(/_/g, " ")} ${key.about}`.toLowerCase();
+    box.hidden = !wanted.every((word) => has.includes(word));
+  }
+  for (const box of byId("fields").querySelectorAll("details")) {
+    const left = box.querySelector(".field:not([hidden])");
+    box.hidden = wanted.length > 0 && !left;
+    if (wanted.length && left) box.open = true;
+  }
+}

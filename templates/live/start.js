@@ -1,0 +1,3 @@
+// The report first, then what makes it live.
+start();
+startLive();

@@ -1,0 +1,423 @@
+"""Changes designs in the live page in Chromium, without a network, and holds what the page gives against the command line.
+
+Random moves of sliders on embedded designs: nothing on the console; after each the verdict is that of the command line for the TOML that the
+page gives, the JSON report has the same bytes, and DXF, SVG, STEP and CSV that are downloaded have the same bytes as the files of `camgen` and
+pass `camgen check`. A value out of range names its key and leaves the cam in grey; undo leads back to the text as sent, byte for byte. Then the
+job of a packaging designer as a script of clicks, the motion editor, the second language, light and dark, and widths from 390 px to 4K. Frames
+per second while a slider moves, time to proof, start time and memory are printed, not judged: they are those of the machine.
+
+usage: live.py CAMGEN_BINARY DIRECTORY [--moves N] [--designs NAME,…] [--pictures]
+"""
+import argparse
+import json
+import random
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from playwright.sync_api import sync_playwright
+
+from page_tools import CONTRAST, FLAGS, browser_path
+
+DESIGNS = {
+    "feeder": "make",
+    "lever": "make",
+    "valve": "make",
+    "groove": "make",
+    "conjugate": "make",
+    "yoke": "make",
+    "wedge": "make",
+    "dpi": "rotary",
+    "dpi-six-bar": "rotary",
+}
+SLOW = {"barrel": "make", "indexer": "make", "dpi-shaft": "translating"}
+LARGEST = 3_000_000
+FORMATS = ("dxf", "svg", "step", "csv", "json")
+WIDTHS = ((390, 844), (800, 900), (1440, 900), (3840, 2160))
+# Most clicks and typed values for the job of the packaging designer.
+MOST_ACTS = 40
+
+
+class Live:
+    """A live page, with what it said and what it asked for."""
+
+    def __init__(self, browser, address, allowed="file:", **options):
+        self.context = browser.new_context(viewport={"width": 1440, "height": 900}, accept_downloads=True, **options)
+        self.page, self.said, self.acts = self.context.new_page(), [], 0
+        self.page.on("console", lambda message: self.said.append(f"{message.type}: {message.text}"))
+        self.page.on("pageerror", lambda error: self.said.append(f"error: {error}"))
+        self.page.on("request", lambda request: request.url.startswith((allowed, "blob:")) or self.said.append(f"asks for {request.url}"))
+        started = time.time()
+        self.page.goto(address)
+        self.until("document.documentElement.dataset.live !== undefined && document.documentElement.dataset.ready !== undefined", 120)
+        self.start = time.time() - started
+
+    def until(self, condition, seconds=60):
+        for _ in range(50 * seconds):
+            if self.page.evaluate(condition):
+                return
+            self.page.wait_for_timeout(20)
+        raise AssertionError(f"never: {condition}; {self.page.inner_text('#state')}; {self.said}")
+
+    def settled(self):
+        return int(self.page.evaluate("document.documentElement.dataset.settled ?? 0"))
+
+    def after(self, act, seconds=120):
+        """Does something and waits until the page has answered."""
+        before = self.settled()
+        act()
+        self.until(f"Number(document.documentElement.dataset.settled) > {before}", seconds)
+
+    def toml(self):
+        return self.page.input_value("#toml")
+
+    def show(self, key):
+        """Opens the tables around a field."""
+        self.page.evaluate("(id) => { for (let e = document.getElementById(id); e; e = e.parentElement) if (e.tagName === 'DETAILS') e.open = true; }", f"key-{key}")
+
+    def type(self, key, value):
+        self.show(key)
+        self.acts += 2
+
+        def typed():
+            # Key by key: a blank in a field is not the key that plays.
+            self.page.fill(f"[id='key-{key}']", "")
+            self.page.keyboard.type(value)
+            self.page.keyboard.press("Tab")
+
+        self.after(typed)
+
+    def click(self, selector):
+        self.acts += 1
+        self.page.click(selector)
+
+    def sliders(self):
+        return self.page.evaluate("[...document.querySelectorAll('.field > input[type=range]:not([hidden])')].map((e) => [e.parentElement.querySelector('input, select').id, Number(e.min), Number(e.max)])")
+
+    def slide(self, key, value):
+        """Moves a slider as a hand would: some values on the way, then rest."""
+        move = """([id, value]) => { const e = document.getElementById(id).parentElement.querySelector('input[type=range]'); const from = Number(e.value);
+          for (const share of [0.3, 0.7, 1]) { e.value = from + share * (value - from); e.dispatchEvent(new Event('input')); } e.dispatchEvent(new Event('change')); }"""
+        self.after(lambda: self.page.evaluate(move, [key, value]))
+
+    def download(self, name, count):
+        """The files of a format: one at a click, or a button for each."""
+        found = []
+        button = f"[data-format={name}]"
+        if count > 1:
+            self.page.click(button)
+            self.until(f"document.querySelectorAll('#files-list [data-file$=\".{name}\"]').length === {count}")
+            buttons = [f"#files-list [data-file='{one}']" for one in self.page.locator("#files-list [data-file]").all_inner_texts()]
+        for each in buttons if count > 1 else [button]:
+            with self.page.expect_download(timeout=120_000) as download:
+                self.page.click(each)
+            found.append((download.value.suggested_filename, Path(download.value.path()).read_bytes()))
+        return found
+
+    def refused(self):
+        return self.page.is_visible("#faults")
+
+    def close(self):
+        assert not self.said, self.said
+        self.context.close()
+
+
+def run(binary, directory, *words):
+    return subprocess.run([binary, *words], cwd=directory, capture_output=True, text=True)
+
+
+def same_file(binary, directory, command, name, suggested, bytes_):
+    """A downloaded file is that of the command line, and passes `check`."""
+    expected = (directory / f"{name}-files" / suggested).read_bytes()
+    if suggested.endswith(".json"):
+        # Every figure is the same; the report also names the files of its run.
+        own, other = json.loads(bytes_), json.loads(expected)
+        assert own.pop("files") and other.pop("files") and own == other, f"{name}: other figures than those of the command line"
+        return
+    assert bytes_ == expected, f"{name}: {suggested} differs from that of the command line"
+    if suggested.endswith((".dxf", ".step")) and not suggested.endswith(("-counter.dxf", "-counter.step", "-pair.step")):
+        (directory / suggested).write_bytes(bytes_)
+        design = ["--design", f"{name}.toml"] if command == "make" else [f"{name}.toml", "--cam", command]
+        checked = run(binary, directory, "check", suggested, *design)
+        assert checked.returncode == 0, (suggested, checked.stdout, checked.stderr)
+
+
+def same_files(live, binary, directory, command, name):
+    """What the page gives is what the command line writes for the same text."""
+    (directory / f"{name}.toml").write_text(live.toml())
+    out = directory / f"{name}-files"
+    made = run(binary, directory, command, f"{name}.toml", "--format", ",".join(FORMATS), "--name", name, "--out", out.name, "--overwrite", "--quiet")
+    if live.refused():
+        # What cannot be drawn is a failed check for the command line.
+        assert made.returncode in (1, 2), (name, made.stderr, live.page.inner_text("#faults"))
+        return "refused"
+    failed = live.page.is_visible(".broken")
+    assert made.returncode == (1 if failed else 0), (name, made.returncode, made.stderr, live.toml())
+    if failed:
+        assert live.page.is_disabled("[data-format=dxf]"), f"{name}: files of a cam that breaks a limit"
+        return "failed"
+    for kind in FORMATS:
+        for suggested, bytes_ in live.download(kind, len(list(out.glob(f"{name}*.{kind}")))):
+            same_file(binary, directory, command, name, suggested, bytes_)
+    return "passed"
+
+
+def moves(live, binary, directory, command, name, count, generator):
+    found = {}
+    for number in range(count):
+        key, low, high = generator.choice(live.sliders())
+        live.slide(key, generator.uniform(low, high))
+        if number % 4 == 3 or number == count - 1:
+            outcome = same_files(live, binary, directory, command, name)
+            found[outcome] = found.get(outcome, 0) + 1
+        if live.refused() or live.page.is_visible(".broken"):
+            live.after(lambda: live.page.click("#undo"))
+    return found
+
+
+def undone(live, sent):
+    """Undo leads back to the text as it was sent."""
+    while live.page.is_enabled("#undo"):
+        live.after(lambda: live.page.click("#undo"))
+    assert live.toml() == sent, "undo does not lead back"
+    assert not live.refused()
+
+
+def named(live):
+    """A value out of range names its key, and leaves the last cam in grey."""
+    live.type("cam.thickness", "-3 mm")
+    text = live.page.inner_text("#faults")
+    assert "cam.thickness" in text and "at least" in text, text
+    assert live.page.evaluate("document.getElementById('shown').classList.contains('stale')")
+    assert live.page.evaluate("document.getElementById('key-cam.thickness').closest('.field').classList.contains('wrong')")
+    live.after(lambda: live.page.click("#undo"))
+    assert not live.refused()
+
+
+def remedied(live):
+    """A check that fails offers what would pass, and that passes."""
+    live.type("limits.pressure_angle", "20 deg")
+    live.type("cam.base_radius", "13 mm")
+    if live.page.is_visible(".broken") or live.refused():
+        assert live.page.locator("button.remedy").count(), live.page.inner_text("#verdict")
+        live.after(lambda: live.page.locator("button.remedy").first.click())
+        assert not live.page.is_visible(".broken"), live.page.inner_text("#verdict")[:400]
+        return True
+    return False
+
+
+def frames(live):
+    """Frames a second and answers a second while a slider moves for two seconds."""
+    drag = """async (id) => { const e = document.getElementById(id).parentElement.querySelector('input[type=range]'); const from = Number(e.value); const wide = (Number(e.max) - Number(e.min)) / 20;
+      const answers = () => Number(document.documentElement.dataset.answers); const before = answers(); const begin = performance.now(); let count = 0;
+      while (performance.now() - begin < 2000) { await new Promise(requestAnimationFrame); count += 1; e.value = from + wide * Math.sin(count / 10); e.dispatchEvent(new Event('input')); }
+      const result = [count / 2, (answers() - before) / 2]; e.value = from; e.dispatchEvent(new Event('change')); return result; }"""
+    key = next(key for key, _, _ in live.sliders() if "radius" in key and "bore" not in key)
+    result = []
+    live.after(lambda: result.extend(live.page.evaluate(drag, key)))
+    return result
+
+
+def memory(live):
+    return live.page.evaluate("[performance.memory?.usedJSHeapSize ?? 0, Number(document.documentElement.dataset.engineMemory)]")
+
+
+def edited(live):
+    """The motion editor: a node by the keyboard and by hand, a dwell, a law, a removal; each changes the text as it should."""
+    live.page.locator(".node").first.focus()
+    live.after(lambda: live.page.keyboard.press("ArrowRight"))
+    assert 'over = "121 deg"' in live.toml() and live.page.evaluate("document.activeElement.dataset.node") == "0"
+    node = live.page.locator(".node").first
+    node.scroll_into_view_if_needed()
+    box = node.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    live.page.mouse.move(x, y)
+    live.page.mouse.down()
+    live.page.mouse.move(x + 20, y, steps=5)
+    live.after(live.page.mouse.up)
+    assert 'over = "121 deg"' not in live.toml() and not live.refused(), live.page.inner_text("#faults")
+    live.page.locator(".segment").nth(1).click(position={"x": 4, "y": 150})
+    live.after(lambda: live.page.click("#addDwell"))
+    assert live.toml().count("[[motion.segment]]") == 7 and not live.refused(), live.page.inner_text("#faults")
+    live.after(lambda: live.page.click("#removeSegment"))
+    assert live.toml().count("[[motion.segment]]") == 6 and not live.refused(), live.page.inner_text("#faults")
+    live.page.locator(".segment").nth(0).click(position={"x": 4, "y": 150})
+    live.after(lambda: live.page.select_option("#law", "cycloidal"))
+    assert 'law = "cycloidal"' in live.toml() and not live.refused()
+    live.after(lambda: (live.page.fill("[data-row='0-1']", "24"), live.page.keyboard.press("Tab")))
+    assert 'to = "24 mm"' in live.toml() and not live.refused()
+    live.after(lambda: (live.page.fill("#rpm", "90"), live.page.keyboard.press("Tab")))
+    assert "rpm = 90 " in live.toml() and "90 rpm" in live.page.inner_text("#title"), live.toml()[:200]
+
+
+def designed(browser, address, binary, directory, allowed="file:"):
+    """A packaging designer: rise 30 mm in 120 deg, dwell 60 deg, return in 100 deg, a roller on an arm, 250 rpm, a spring, the smallest cam, its drawing."""
+    begun = time.time()
+    live = Live(browser, address, allowed)
+    if not live.page.is_visible("#gallery"):
+        live.click("#designs")
+    live.until("document.getElementById('new-make') !== null")
+    live.page.select_option("#new-follower", "swinging-roller")
+    live.acts += 1
+    for name, value in (("rise", 30), ("riseOver", 120), ("dwellOver", 60), ("returnOver", 100), ("rpm", 250)):
+        live.page.fill(f"#new-{name}", str(value))
+        live.acts += 1
+    live.after(lambda: live.click("#new-make"))
+    assert not live.refused(), live.page.inner_text("#faults")
+    live.type("follower.swinging-roller.inertia", "0.01 kg*m2")
+    live.type("spring.rate", "40 N*m/rad")
+    live.type("spring.preload", "25 N*m")
+    if live.page.is_visible(".broken"):
+        live.click("button.remedy")
+    assert not live.refused(), live.page.inner_text("#faults")
+    outcome = same_files(live, binary, directory, "make", "new-cam")
+    assert outcome == "passed", (outcome, live.page.inner_text("#verdict")[:600], live.toml())
+    live.page.locator("#sheet summary").click()
+    assert live.page.evaluate("document.getElementById('sheet-picture').complete && document.getElementById('sheet-picture').naturalWidth > 100")
+    assert live.acts <= MOST_ACTS, live.acts
+    acts = live.acts
+    live.close()
+    return acts, time.time() - begun
+
+
+class Serving:
+    """A running `camgen serve` with its address."""
+
+    def __init__(self, binary, directory, *words):
+        self.process = subprocess.Popen([binary, "serve", *words], cwd=directory, stdout=subprocess.PIPE, text=True)
+        self.address = self.process.stdout.readline().strip()
+
+    def __enter__(self):
+        return self.address
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait(10)
+
+
+def served(browser, binary, directory):
+    """The served page: the file is written with its comments, read again when it changes, and files are written; then a new cam from the gallery."""
+    path = directory / "served.toml"
+    text = run(binary, directory, "machines", "show", "feeder").stdout
+    path.write_text(text)
+    with Serving(binary, directory, "served.toml", "--out", "served-files", "--overwrite") as address:
+        live = Live(browser, address, "http://127.0.0.1:")
+        assert live.toml() == text
+        live.type("cam.thickness", "17 mm")
+        live.page.click("#save")
+        live.until("document.getElementById('state').textContent.includes('served.toml')")
+        assert path.read_text() == text.replace('thickness = "15 mm"', 'thickness = "17 mm"')
+        live.page.click("#write")
+        live.until("document.getElementById('state').textContent.includes('.step')")
+        assert {file.name for file in (directory / "served-files").glob("served.*")} == {"served.dxf", "served.svg", "served.step", "served.csv"}
+        live.after(lambda: path.write_text(path.read_text().replace('"17 mm"', '"18 mm"')))
+        assert '"18 mm"' in live.toml()
+        # A text that is wrong is told, with the last cam in grey, and a right one is shown again.
+        live.after(lambda: path.write_text(text.replace('"15 mm"', '"wide"')))
+        assert live.refused()
+        live.after(lambda: path.write_text(text))
+        assert not live.refused() and live.toml() == text
+        rate, answers = frames(live)
+        live.close()
+    with Serving(binary, directory) as address:
+        acts, seconds = designed(browser, address, binary, directory, "http://127.0.0.1:")
+    return f"{rate:.0f} frames and {answers:.0f} cams a second, a new cam after {acts} clicks and {seconds:.0f} s"
+
+
+def looks(live, name, directory, pictures):
+    """Texts in two languages, contrast in light and dark, nothing wider than the window."""
+    english = live.page.inner_text("main")
+    live.page.select_option("#language", "de")
+    live.page.wait_for_timeout(300)
+    german = live.page.inner_text("main")
+    assert "Getriebe" in german and "Mechanism" not in german.split("\n"), "the second language"
+    live.page.select_option("#language", "en")
+    live.page.wait_for_timeout(300)
+    assert live.page.inner_text("main").split("\n")[0] == english.split("\n")[0]
+    for theme in ("light", "dark"):
+        poor = live.page.evaluate(CONTRAST)
+        assert not poor, f"{name}, {theme}: {poor[:5]}"
+        live.page.click("#theme")
+        live.page.wait_for_timeout(200)
+    for width, height in WIDTHS:
+        live.page.set_viewport_size({"width": width, "height": height})
+        live.page.wait_for_timeout(400)
+        wide = live.page.evaluate("document.documentElement.scrollWidth")
+        assert wide <= width, f"{name} at {width} px is {wide} px wide"
+        if pictures:
+            live.page.screenshot(path=str(directory / f"{name}-{width}.png"))
+    live.page.set_viewport_size({"width": 1440, "height": 900})
+    unnamed = live.page.evaluate("[...document.querySelectorAll('button, input, select, textarea, [role=slider]')].filter((e) => e.checkVisibility() && !(e.labels?.length || e.textContent.trim() || e.getAttribute('aria-label'))).map((e) => e.outerHTML.slice(0, 80))")
+    assert not unnamed, unnamed
+
+
+def page_of(directory, name):
+    """The live page of a design: of a pair of cams that of the first."""
+    return next(path for path in sorted(directory.glob(f"{name}*.html")) if b"wasm-unsafe-eval" in path.read_bytes())
+
+
+def judge(browser, options, directory, name, command, generator):
+    binary = options.binary
+    # A file of the user, as the command line will be given it.
+    text = run(binary, directory, "machines", "show", name).stdout
+    (directory / f"{name}.toml").write_text(text)
+    for old in directory.glob(f"{name}*.html"):
+        old.unlink()
+    made = run(binary, directory, command, f"{name}.toml", "--format", "html", "--live", "--name", name, "--out", ".", "--overwrite", "--quiet")
+    assert made.returncode == 0, made.stderr
+    path = page_of(directory, name)
+    size = path.stat().st_size
+    assert size < LARGEST, f"{name}: {size} bytes"
+    live = Live(browser, path.as_uri())
+    sent = live.toml()
+    assert sent == text, f"{name}: another text than the file"
+    first = same_files(live, binary, directory, command, name)
+    assert first == "passed", first
+    proof = live.page.evaluate("document.documentElement.dataset.proof")
+    begin = memory(live)
+    found = moves(live, binary, directory, command, name, options.moves, generator)
+    end = memory(live)
+    undone(live, sent)
+    named(live)
+    extra = ""
+    if name == "feeder":
+        extra = f", a remedy {'clicked' if remedied(live) else 'not needed'}"
+        undone(live, sent)
+        edited(live)
+        undone(live, sent)
+        looks(live, name, directory, options.pictures)
+    rate, answers = frames(live)
+    live.close()
+    return (f"{name}: {size // 1000} kB, live after {live.start:.2f} s, proof {proof} ms, {rate:.0f} frames and {answers:.0f} cams a second while a slider moves, {options.moves} moves {found}, "
+            f"memory {begin[0] >> 20}+{begin[1] >> 20} MiB to {end[0] >> 20}+{end[1] >> 20} MiB{extra}")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("binary", type=Path)
+    parser.add_argument("directory", type=Path)
+    parser.add_argument("--moves", type=int, default=8)
+    parser.add_argument("--designs", default=",".join(DESIGNS))
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--pictures", action="store_true")
+    options = parser.parse_args()
+    options.binary = options.binary.resolve()
+    directory = (options.directory / "live").resolve()
+    directory.mkdir(parents=True, exist_ok=True)
+    generator = random.Random(options.seed)
+    known = {**DESIGNS, **SLOW}
+    names = options.designs.split(",")
+    if unknown := [name for name in names if name not in known]:
+        sys.exit(f"no such design: {unknown}")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=browser_path(), args=FLAGS)
+        for name in names:
+            print("live:", judge(browser, options, directory, name, known[name], generator), flush=True)
+        acts, seconds = designed(browser, page_of(directory, names[0]).as_uri(), options.binary, directory)
+        print("live: served,", served(browser, options.binary, directory), flush=True)
+        print(f"live: the packaging designer is done after {acts} clicks and {seconds:.0f} s", flush=True)
+        browser.close()
+
+
+main()

@@ -1,0 +1,268 @@
+"""A hostile client for `camgen serve`: nothing is read, written or hung, and only the page itself is answered.
+
+Wrong and missing tokens, other hosts and origins, paths that climb, methods and heads that are not HTTP, bodies that are huge, slow, shorter or
+longer than they say, 200 connections at a time: none gets more than a refusal, the files of the directory stay as they are, and the page answers
+as before. Then what the page may do: the engine's answer has the bytes of the command line's files, the machine file is written with its comments
+and not over somebody else's change, files are written all or none, and the program listens on the loopback address alone.
+
+usage: serve.py CAMGEN_BINARY DIRECTORY [--requests N]
+"""
+import argparse
+import hashlib
+import http.client
+import json
+import random
+import re
+import shutil
+import socket
+import struct
+import subprocess
+import threading
+import time
+from pathlib import Path
+
+DESIGN = "feeder"
+LONGEST = 12.0
+
+
+class Program:
+    """A running `camgen serve`."""
+
+    def __init__(self, binary, directory, *words):
+        self.process = subprocess.Popen([binary, "serve", *words], cwd=directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        address = self.process.stdout.readline().strip()
+        self.port, self.token = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/\?token=([0-9a-f]{32})", address).groups()
+        self.port, self.host, self.address = int(self.port), f"127.0.0.1:{self.port}", address
+
+    def ask(self, method, path, body=None, **headers):
+        """Status and body; headers by their names with underscores, None leaves one out."""
+        sent = {"Host": self.host, "X-Camgen-Token": self.token, "Origin": f"http://{self.host}"}
+        sent.update({name.replace("_", "-"): value for name, value in headers.items()})
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+        connection.putrequest(method, path, skip_host=True, skip_accept_encoding=True)
+        for name, value in sent.items():
+            if value is not None:
+                connection.putheader(name, value)
+        if body is not None:
+            connection.putheader("Content-Length", str(len(body)))
+        connection.endheaders()
+        if body is not None:
+            try:
+                connection.send(body)
+            except (BrokenPipeError, ConnectionResetError):
+                pass
+        try:
+            answer = connection.getresponse()
+            return answer.status, answer.read()
+        except (http.client.HTTPException, ConnectionError):
+            return 0, b""
+        finally:
+            connection.close()
+
+    def raw(self, data, wait=LONGEST):
+        """What comes of raw bytes, and how long it takes until the connection ends."""
+        begin, found = time.time(), b""
+        with socket.create_connection(("127.0.0.1", self.port), timeout=wait) as stream:
+            try:
+                stream.sendall(data)
+                while part := stream.recv(1 << 16):
+                    found += part
+            except (ConnectionError, socket.timeout):
+                pass
+        return found, time.time() - begin
+
+    def engine(self, **request):
+        status, body = self.ask("POST", "/engine", json.dumps(request).encode())
+        assert status == 200, (status, body[:200])
+        (length,) = struct.unpack("<I", body[:4])
+        answer, at = json.loads(body[4 : 4 + length]), 4 + length
+        for file in answer["files"]:
+            file["bytes"], at = body[at : at + file["size"]], at + file["size"]
+        return answer
+
+    def end(self):
+        self.process.terminate()
+        self.process.wait(10)
+        return self.process.stderr.read()
+
+
+def digests(directory):
+    return {str(path.relative_to(directory)): hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(directory.rglob("*")) if path.is_file()}
+
+
+def wrong_requests(generator, token, host):
+    """One hostile request: method, path, body, headers."""
+    letters = "0123456789abcdef"
+    other = "".join(generator.choice(letters) for _ in range(32))
+    body = json.dumps({"name": "x", "toml": "", "formats": ["dxf"]}).encode()
+    path = generator.choice(["/engine", "/file", "/save", "/write", "/"])
+    climbing = generator.choice(["/../secret.txt", "/..%2f..%2fetc/passwd", "//etc/passwd", "/engine/../../secret.txt", "/%2e%2e/secret.txt", "/secret.txt", "http://evil.example/", "*"])
+    return generator.choice([
+        ("POST", path, body, {"X_Camgen_Token": None}),
+        ("POST", path, body, {"X_Camgen_Token": other}),
+        ("POST", path, body, {"X_Camgen_Token": token[:-1]}),
+        ("POST", path, body, {"X_Camgen_Token": token + "0"}),
+        ("POST", path, body, {"Host": generator.choice(["evil.example", f"evil.example:{host.split(':')[1]}", "127.0.0.1", "0.0.0.0:80", "[::1]:80", ""])}),
+        ("POST", path, body, {"Host": None}),
+        ("POST", path, body, {"Origin": generator.choice(["http://evil.example", "null", "https://" + host, "http://localhost", "http://" + host + ".evil.example", ""])}),
+        ("GET", "/?token=" + other, None, {}),
+        ("GET", "/", None, {}),
+        ("GET", "/engine?token=" + token, None, {}),
+        ("GET", climbing + "?token=" + token, None, {}),
+        ("POST", climbing, body, {}),
+        (generator.choice(["PUT", "DELETE", "OPTIONS", "TRACE", "CONNECT", "PATCH", "HEAD"]), path, None, {}),
+    ])
+
+
+def refuses(program, count, generator):
+    """Nothing but refusals for a client without the token, of another host or origin, or for another path."""
+    statuses = {}
+    for _ in range(count):
+        method, path, body, headers = wrong_requests(generator, program.token, program.host)
+        status, answer = program.ask(method, path, body, **headers)
+        assert status in (0, 400, 403, 404, 405, 411), (method, path, headers, status, answer[:200])
+        assert program.token.encode() not in answer and b"secret" not in answer and len(answer) < 200, (method, path, answer[:200])
+        statuses[status] = statuses.get(status, 0) + 1
+    return statuses
+
+
+def bounded(program):
+    """Bodies and heads that are too large, not what they say, slow, or not HTTP: each connection ends in time."""
+    head = f"POST /engine HTTP/1.1\r\nHost: {program.host}\r\nX-Camgen-Token: {program.token}\r\n"
+    longest = 0.0
+    for data, status in [
+        (f"{head}Content-Length: 1000000000\r\n\r\n".encode() + b"x" * 100_000, b"413"),
+        (f"{head}Content-Length: 99999999999999999999999999\r\n\r\n".encode(), b"413"),
+        (f"{head}Content-Length: -1\r\n\r\n".encode(), b"400"),
+        (f"{head}Content-Length: 5\r\nContent-Length: 6\r\n\r\nabcdef".encode(), b"400"),
+        (f"{head}Transfer-Encoding: chunked\r\n\r\n5\r\nabcde\r\n0\r\n\r\n".encode(), b"411"),
+        (f"{head}Content-Length: 2\r\n\r\n{{}}GET / HTTP/1.1\r\n\r\n".encode(), b"400"),
+        (head.encode() + b"X: " + b"y" * 100_000, b"431"),
+        (head.encode() + b"A: b\r\n" * 200 + b"\r\n", b"400"),
+        (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(200) + b"\r\n\r\n", b"400"),
+        (f"{head}Content-Length: 100\r\n\r\nshort".encode(), b""),
+        (b"", b""),
+        (b"GET", b""),
+    ]:
+        found, seconds = program.raw(data)
+        longest = max(longest, seconds)
+        assert found.startswith(b"HTTP/1.1 " + status) if status else found == b"", (data[:200], found[:200])
+        assert seconds < LONGEST, (data[:100], seconds)
+    return longest
+
+
+def slow(program):
+    """A body that comes a byte at a time ends with its time, however steadily it comes."""
+    begin = time.time()
+    with socket.create_connection(("127.0.0.1", program.port), timeout=LONGEST) as stream:
+        try:
+            stream.sendall(f"POST /engine HTTP/1.1\r\nHost: {program.host}\r\nX-Camgen-Token: {program.token}\r\nContent-Length: 1000\r\n\r\n".encode())
+            for _ in range(1000):
+                stream.sendall(b" ")
+                time.sleep(0.1)
+                if time.time() - begin > LONGEST:
+                    raise AssertionError("a slow body is waited for")
+        except ConnectionError:
+            pass
+    return time.time() - begin
+
+
+def crowded(program):
+    """200 connections that say nothing: the rest of the world is answered when they have had their time."""
+    streams = [socket.create_connection(("127.0.0.1", program.port), timeout=LONGEST) for _ in range(200)]
+    begin = time.time()
+    while time.time() - begin < LONGEST:
+        status, _ = program.ask("POST", "/file", b"{}")
+        if status == 200:
+            break
+        time.sleep(0.1)
+    seconds = time.time() - begin
+    for stream in streams:
+        stream.close()
+    assert status == 200, "200 connections hang the program"
+    return seconds
+
+
+def only_loopback(program):
+    """It listens on 127.0.0.1 and on nothing else."""
+    listed = Path("/proc/net/tcp").read_text() + Path("/proc/net/tcp6").read_text()
+    port = f":{program.port:04X}"
+    places = {line.split()[1] for line in listed.splitlines() if line.split()[1].endswith(port) and line.split()[3] == "0A"}
+    assert places == {f"0100007F{port}"}, places
+
+
+def works(program, binary, directory):
+    """What the page may do."""
+    path = directory / "own.toml"
+    text = path.read_text()
+    status, page = program.ask("GET", "/?token=" + program.token, X_Camgen_Token=None, Origin=None)
+    assert status == 200 and b"<!doctype html>" in page[:40] and program.token.encode() in page
+    made = program.engine(name="own", toml=text, formats=["dxf", "svg", "step", "csv"])
+    written = subprocess.run([binary, "make", "own.toml", "--name", "own", "--out", "by-command", "--quiet", "--overwrite"], cwd=directory)
+    assert written.returncode == 0 and made["passed"] and len(made["files"]) == 4
+    for file in made["files"]:
+        assert file["bytes"] == (directory / "by-command" / file["name"]).read_bytes(), file["name"]
+    # A change keeps the comments, and is written over the text that the page has seen alone.
+    changed = program.engine(task="text", toml=text, changes=[{"set": {"key": "cam.thickness", "to": "17 mm"}}])["toml"]
+    assert changed == text.replace('thickness = "15 mm"', 'thickness = "17 mm"') != text
+    told = lambda path, **body: json.loads(program.ask("POST", path, json.dumps(body).encode())[1])
+    assert "changed by another program" in told("/save", toml=changed, before="something else")["faults"][0]["message"]
+    assert "not TOML" in told("/save", toml="name = ", before=text)["faults"][0]["message"]
+    assert path.read_text() == text
+    assert "written" in told("/save", toml=changed, before=text) and path.read_text() == changed
+    assert told("/file")["toml"] == changed
+    done = told("/write", name="own", toml=changed, formats=["dxf", "csv"])
+    assert sorted(Path(name).name for name in done["written"]) == ["own.csv", "own.dxf"], done
+    # An edited file is not written over, and then none is.
+    (directory / "out" / "own.csv").write_text("mine\n")
+    before = digests(directory)
+    assert "faults" in told("/write", name="own", toml=text, formats=["dxf", "csv"]) and digests(directory) == before
+    for name in ("../own", "/own", ".own", "a/b", ""):
+        assert "faults" in told("/write", name=name, toml=text, formats=["dxf"]), name
+    failing = text.replace('base_radius = "auto"', 'base_radius = "13 mm"').replace('pressure_angle = "30 deg"', 'pressure_angle = "12 deg"')
+    assert "faults" in told("/write", name="failing", toml=failing, formats=["dxf"])
+    # A text that names a file reads none.
+    table = 'name = "A"\n[motion]\ntable = "secret.csv"\n[follower.roller]\nradius = "5 mm"\n[cam]\n[limits]\n'
+    answer = program.engine(name="a", toml=table)
+    assert "faults" in answer and "secret" not in json.dumps(answer).replace("secret.csv", ""), answer
+    assert digests(directory) == before
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("binary", type=Path)
+    parser.add_argument("directory", type=Path)
+    parser.add_argument("--requests", type=int, default=10_000)
+    options = parser.parse_args()
+    binary, directory = options.binary.resolve(), (options.directory / "serve").resolve()
+    shutil.rmtree(directory, ignore_errors=True)
+    directory.mkdir(parents=True)
+    (directory / "secret.txt").write_text("secret\n")
+    (directory / "secret.csv").write_text("0,1\n180,secret\n")
+    text = subprocess.run([binary, "machines", "show", DESIGN], capture_output=True, text=True, check=True).stdout
+    (directory / "own.toml").write_text(text)
+    program = Program(binary, directory, "own.toml", "--out", "out")
+    try:
+        only_loopback(program)
+        before = digests(directory)
+        generator, begin = random.Random(7), time.time()
+        found = {}
+        parts = [threading.Thread(target=lambda seed=seed: found.update({seed: refuses(program, options.requests // 4, random.Random(seed))})) for seed in range(4)]
+        for part in parts:
+            part.start()
+        for part in parts:
+            part.join()
+        assert len(found) == 4, "a hostile request was answered"
+        seconds = time.time() - begin
+        statuses = {status: sum(one.get(status, 0) for one in found.values()) for one in found.values() for status in one}
+        longest, dripped, waited = bounded(program), slow(program), crowded(program)
+        assert digests(directory) == before, "a hostile client has written"
+        works(program, binary, directory)
+        assert program.process.poll() is None, "the program has ended"
+    finally:
+        said = program.end()
+    assert "panicked" not in said and said == "", said
+    print(f"serve: {options.requests} hostile requests in {seconds:.0f} s, answered {statuses}; the longest connection {longest:.1f} s, a slow body {dripped:.1f} s, after 200 silent connections {waited:.1f} s")
+
+
+main()
