@@ -58,7 +58,7 @@ fn a_changed_text_is_the_machine_with_overrides() {
             }
             let to = "11 mm";
             let by_override = Machine::load(embedded.name, &[format!("{}={to}", input.key)]);
-            let text = engine::changed_text(embedded.toml, &[set(&input.key, &to)]).expect("changed");
+            let text = engine::changed_text(embedded.toml, &[set(&input.key, to)]).expect("changed");
             let by_text = Machine::from_toml("own.toml", &text, &[]);
             let inputs = |machine: &Machine| machine.inputs(machine.body());
             match (by_override, by_text) {
