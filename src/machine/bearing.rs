@@ -1,7 +1,7 @@
 //! The bearing of a roller, with the ratings of its catalogue.
 
 use crate::document::Presence::{Default, Optional, Required};
-use crate::document::cams::DISCS;
+use crate::document::cams::MAKE;
 use crate::document::range::{HEAVIEST, LARGEST_FORCE, LARGEST_NUMBER};
 use crate::document::{Field, KeySection, Occurrence, Reader, above, within};
 use crate::follower::FollowerData;
@@ -70,7 +70,7 @@ const fn section(path: &'static str) -> KeySection {
         path,
         about: "the bearing of the roller: its life (ISO 281), speed and slip",
         occurs: Occurrence::Optional,
-        cams: DISCS,
+        cams: &[MAKE],
         keys: &[
             DYNAMIC_RATING.key,
             STATIC_RATING.key,

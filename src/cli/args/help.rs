@@ -3,8 +3,7 @@
 pub(super) const CAMGEN: &str = "\
 Start with:
   camgen rotary --rpm 35                  the cam of the embedded press, four files in output/
-  camgen init press.toml                  a machine file of your own
-  camgen COMMAND --help                   flags and examples of a command";
+  camgen init press.toml                  a machine file of your own";
 
 pub(super) const ROTARY: &str = "\
 Examples:
