@@ -67,7 +67,7 @@ pub const BODIES: &[ProgramBody] = &[
     },
 ];
 
-/// Refuses what is only known of a disc for a machine whose body is none.
+/// Refuses figures of a disc for a machine whose body is not a disc.
 ///
 /// # Errors
 /// [`Refusal`] where the body has no base circle.

@@ -72,7 +72,7 @@ fn connect(stream: TcpStream, port: u16, served: &Arc<Served>, open: &Arc<Atomic
     }
 }
 
-/// Whether two texts are equal, in a time that does not tell how far they are.
+/// Whether two texts are equal, in a time that does not depend on where they differ.
 fn is_equal(a: &str, b: &str) -> bool {
     a.len() == b.len() && a.bytes().zip(b.bytes()).fold(0, |differ, (a, b)| differ | (a ^ b)) == 0
 }

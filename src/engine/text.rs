@@ -91,7 +91,7 @@ fn change_of(document: &mut DocumentMut, change: &TextChange) -> Result<(), Refu
     Ok(())
 }
 
-/// The table at a path, made where there is none.
+/// The table at a path; it is added where it is missing.
 fn table_at<'t>(root: &'t mut Table, path: &[PathPart<'_>]) -> Result<&'t mut dyn TableLike, Refusal> {
     let mut table: &mut dyn TableLike = root;
     for (name, index) in path {

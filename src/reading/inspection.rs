@@ -22,7 +22,7 @@ pub struct ReadPlace {
 
 /// What the header of a list begins with.
 const HEAD: &str = "no,cam_deg,polar_deg,radius_mm,x_mm,y_mm,normal_x,normal_y,ball_x_mm,ball_y_mm,";
-/// The same of a list in inches.
+/// The header of a list in inches.
 const INCH_HEAD: &str = "no,cam_deg,polar_deg,radius_in,x_in,y_in,normal_x,normal_y,ball_x_in,ball_y_in,";
 /// The line that plain lines of numbers in inches begin with.
 pub const PLAIN_INCHES: &str = "# units: inches";

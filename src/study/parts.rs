@@ -162,7 +162,7 @@ pub(super) fn limits(
     Some((columns, constraints, objectives))
 }
 
-/// A number of a parameter, where it is given; `Err` after a fault: it is none, or has another unit than the first one.
+/// A number of a parameter, where it is given; `Err` after a fault: it is not a number, or its unit differs from that of the first one.
 fn number(
     table: &TableReader<'_>,
     field: &crate::document::Field<String>,

@@ -44,7 +44,7 @@ pub(crate) type SettingLadder = (Vec<TradeLaw>, Vec<TradeSetting>);
 
 /// The flags of an outline that is drawn to a distance, m, and keeps a share of the acceleration.
 pub(crate) fn flags(tolerance: f64, share: Option<f64>) -> String {
-    // A tolerance is told in micrometres, and the conversion would leave digits of its own.
+    // Flags give a tolerance in micrometres; rounding removes the digits that the conversion adds.
     let micrometres = shortest((1e12 * tolerance).round() / 1e6);
     let share = share.map_or("none".to_owned(), |share| format!("{}%", shortest((1e8 * share).round() / 1e6)));
     format!("--tolerance {micrometres}um --tolerance-acceleration {share}")

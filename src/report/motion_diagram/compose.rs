@@ -14,7 +14,7 @@ use nalgebra::Vector2;
 
 /// The sheet.
 const PAPER: &str = "A3";
-/// The same of a diagram in inches.
+/// Paper of a diagram in inches.
 const PAPER_IN_INCHES: &str = "B";
 /// Room to the right of the panels, mm.
 const RIGHT: f64 = 6.0;

@@ -371,7 +371,7 @@ fn rules(view: &Extents, diagram: Option<&Extents>, frame: &Extents, k: f64) -> 
 
 /// Length of the ruler, mm of paper.
 const RULER: f64 = 100.0;
-/// The same of a sheet in inches, in of paper.
+/// Length of the ruler of a sheet in inches, inches of paper.
 const RULER_INCHES: f64 = 4.0;
 
 /// A ruler in the lower left corner of the view, by which a print is measured.
