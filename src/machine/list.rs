@@ -1,6 +1,6 @@
 //! The tables of a machine file.
 
-use super::{ROOT, barrel, bearing, cutting, disc, dynamics, limits, output, plate, title, track, turret};
+use super::{ROOT, as_made, barrel, bearing, cutting, disc, dynamics, limits, output, plate, title, track, turret};
 use crate::document::KeySection;
 use crate::follower::FOLLOWERS;
 use crate::motion::program;
@@ -24,6 +24,7 @@ const BODY_TABLES: &[&KeySection] = &[
     &plate::SECTION,
     &disc::KEYWAY,
     &track::COUNTER,
+    &as_made::SECTION,
     &limits::SECTION,
     &title::SECTION,
     &cutting::SECTION,

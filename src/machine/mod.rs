@@ -5,6 +5,7 @@
 //! Each part of the machine has a file with its data, its table of keys and its reading. `list` gathers the
 //! tables; a key is one constant in its table and one line in its reading.
 
+mod as_made;
 mod barrel;
 mod bearing;
 mod cutting;
@@ -30,6 +31,7 @@ mod turret;
 
 pub use crate::document::{Excerpt, FileFault};
 pub use crate::follower::{Crown, FollowerData, RollerData};
+pub use as_made::AsMadeData;
 pub use barrel::BarrelData;
 pub use bearing::BearingData;
 pub use cutting::{Controller, CuttingData, CuttingForm, MillingDirection, RadiusCompensation};
@@ -131,6 +133,8 @@ pub struct Machine {
     dynamics: Dynamics,
     /// Disc.
     pub(crate) cam: CamData,
+    /// Errors of the cam and its follower as they are made.
+    pub(crate) as_made: Option<AsMadeData>,
     /// The material of the disc as the file calls it.
     pub(crate) material_name: Option<String>,
     /// Limits.
@@ -211,6 +215,7 @@ impl Machine {
         if cam.track.body == cams::WEDGE {
             plate::refuse_turning(reader, &follower);
         }
+        let as_made = as_made::read(reader, &follower, cam.track.body);
         let counter = track::read_counter(reader, &follower);
         let barrel = barrel::read(reader)?;
         let follower = turret::carried(follower, turret);
@@ -220,6 +225,7 @@ impl Machine {
             name: reader.table(&ROOT).get(&NAME)?,
             motion,
             cam,
+            as_made,
             material_name: disc::material_name(reader),
             dynamics: Dynamics::read(reader, &follower, quantity),
             limits: limits::read(reader, &*follower.shape, quantity)?,

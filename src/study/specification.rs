@@ -65,8 +65,9 @@ impl fmt::Debug for Study {
 const LARGEST_FILE: u64 = 1 << 20;
 
 /// The studies in the binary, each with its text.
-const EMBEDDED: [(&str, &str); 3] = [
+const EMBEDDED: [(&str, &str); 4] = [
     ("feeder-roller", include_str!("../../profiles/studies/feeder-roller.toml")),
+    ("feeder-as-made", include_str!("../../profiles/studies/feeder-as-made.toml")),
     ("feeder-scatter", include_str!("../../profiles/studies/feeder-scatter.toml")),
     ("lever-pareto", include_str!("../../profiles/studies/lever-pareto.toml")),
 ];

@@ -239,6 +239,7 @@ fn another(key: &Key, share: f64, index: u32) -> String {
         KeyForm::Number(_) if ["tool", "program", "decimals", "samples", "seed"].contains(&key.name) => {
             (3 + index % 4).to_string()
         }
+        KeyForm::Number(_) if key.name.starts_with("waves_") => (20 + index).to_string(),
         KeyForm::Number(_) if key.name == "repeat" => (index + 1).to_string(),
         KeyForm::Texts => format!("[1, {}]", 2 + index % 2),
         KeyForm::Text if key.name == "unit" => ["in", "cm", "um"][index as usize % 3].to_owned(),

@@ -240,10 +240,7 @@ def prints(page, path):
     assert 1 <= pages <= (7 if path.stem == "beside" else 5), f"{path.name} has {pages} pages"
     if shutil.which("pdftoppm"):
         filled = [filled_share(path, number) for number in range(1, pages + 1)]
-        # A list is not divided: of two cams, that of a motion with many segments may begin a page and leave the one before it short.
-        short = [share for share in filled[:-1] if share <= 0.55]
-        most = 1 if path.stem == "beside" else 0
-        assert len(short) <= most and min(filled) > 0.15, f"{path.name}: pages filled to {filled}"
+        assert all(share > 0.55 for share in filled[:-1]) and filled[-1] > 0.15, f"{path.name}: pages filled to {filled}"
     return pages
 
 

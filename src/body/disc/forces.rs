@@ -177,6 +177,23 @@ impl Disc {
         Some(self.borne(self.signed_normal_force(at, contact)?))
     }
 
+    /// [`Self::normal_force`] with the follower `moved` (m) along its path from where the motion puts it, on this contact.
+    pub(super) fn normal_force_moved(
+        &self,
+        (piece, angle): (usize, f64),
+        contact: &Contact,
+        moved: f64,
+    ) -> Option<f64> {
+        let load = self.load.as_ref().map_or(0.0, |load| load.pressing_when(piece, angle, moved));
+        let acting = with_load(&self.pressing()?, load, || contact.lift);
+        Some(self.borne(self.along_normal(acting, (piece, angle), contact)))
+    }
+
+    /// The residual force of the balance with the follower `moved` (m) along its path, N; `None` of a disc that balances nothing.
+    pub(super) fn residual_moved(&self, (piece, angle): (usize, f64), moved: f64) -> Option<f64> {
+        self.load.as_ref().map(|load| load.residual(piece, angle, moved))
+    }
+
     /// What flanks bear of a force along the normal.
     fn borne(&self, along_normal: f64) -> f64 {
         match self.hold {

@@ -1,5 +1,6 @@
 //! The disc cam: one section for one speed, under any follower.
 
+mod as_made;
 pub(in crate::body) mod delegate;
 mod duty;
 mod dynamics;
@@ -411,6 +412,7 @@ impl Body for Disc {
         sections.push(Section::new("rolling", &found.rolled.first()));
         sections.extend(duty.and_then(|duty| duty.forces(self, found.rolled.first())));
         sections.extend(wants("dynamics").then(|| self.dynamics(found)).flatten());
+        sections.extend(wants("as_made").then(|| self.as_made()).flatten());
         sections.extend(wants("roller_bearing").then(|| self.bearing_section()).flatten());
         if wants("vibration") || wants("harmonics") {
             sections.extend(self.vibration_sections());

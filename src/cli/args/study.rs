@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct StudyArgs {
-    /// An embedded study (feeder-roller, feeder-scatter, lever-pareto) or the path of a study file
+    /// An embedded study (feeder-roller, feeder-as-made, feeder-scatter, lever-pareto) or the path of a study file
     #[arg(value_name = "STUDY")]
     pub(in crate::cli) study: String,
 
