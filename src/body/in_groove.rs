@@ -167,10 +167,12 @@ impl<'a> GrooveForces<'a> {
     /// The section `dynamics`.
     fn dynamics(&self) -> Option<Section> {
         let least = self.largest(|at| -self.normal(at));
+        let torque = self.shaft_torque()?;
         let figures = DynamicsFigures {
             machine: self.body.machine(),
             speed: self.body.shaft_speed(),
-            torque: self.shaft_torque()?,
+            largest_torque: torque.largest,
+            torque: Some(torque),
             force: Some([self.largest(|at| self.normal(at)), Worst { value: -least.value, ..least }]),
             jump: None,
             is_closed: true,

@@ -20,21 +20,34 @@ const ROUNDING: f64 = 1e-11;
 pub(super) const OF_CONTACT_FORCE: [&str; 3] =
     ["dynamics.contact_force_max_n", "dynamics.contact_force_max_at_deg", "dynamics.contact_force_min_n"];
 pub(super) const OF_JUMP: [&str; 2] = ["dynamics.jump_rpm", "dynamics.jump_at_deg"];
+/// Those that need the torque over the whole turn.
+pub(super) const OF_TURN: [&str; 6] = [
+    "dynamics.torque_mean_nm",
+    "dynamics.torque_min_nm",
+    "dynamics.torque_min_at_deg",
+    "dynamics.power_mean_w",
+    "dynamics.work_fluctuation_j",
+    "dynamics.flywheel_kg_m2",
+];
 
 /// The section `dynamics`. Power and work need the speed of the cam.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 struct DynamicsSection {
-    torque_mean_nm: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    torque_mean_nm: Option<f64>,
     torque_max_nm: f64,
     torque_max_at_deg: f64,
-    torque_min_nm: f64,
-    torque_min_at_deg: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    torque_min_nm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    torque_min_at_deg: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     power_mean_w: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     power_max_w: Option<f64>,
     /// Largest less smallest of ∮(T − T̄) dθ.
-    work_fluctuation_j: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    work_fluctuation_j: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     flywheel_kg_m2: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -106,7 +119,10 @@ pub(super) struct DynamicsFigures<'a> {
     pub(super) machine: &'a Machine,
     /// Angular speed of the cam, rad/s, where it is known.
     pub(super) speed: Option<f64>,
-    pub(super) torque: ShaftTorque,
+    /// Largest torque of the shaft, and where.
+    pub(super) largest_torque: Worst,
+    /// The torque over the turn; `None` where only the largest is wanted.
+    pub(super) torque: Option<ShaftTorque>,
     /// Largest and least force along the normal, N; the largest infinite where the follower jams. `None` where they are not wanted.
     pub(super) force: Option<[Worst; 2]>,
     /// Angular speed of the cam at which the follower first leaves it, rad/s, and where.
@@ -118,19 +134,21 @@ pub(super) struct DynamicsFigures<'a> {
 impl DynamicsFigures<'_> {
     /// The section.
     pub(super) fn section(&self) -> Section {
-        let Self { machine, speed, torque, jump, .. } = *self;
+        let Self { machine, speed, largest_torque, torque, jump, .. } = *self;
         let [force, least] = [0, 1].map(|end| self.force.map(|force| force[end]));
         let flywheel = machine.fluctuation().zip(speed);
         let figures = DynamicsSection {
-            torque_mean_nm: torque.mean,
-            torque_max_nm: torque.largest.value,
-            torque_max_at_deg: degrees(torque.largest.at),
-            torque_min_nm: torque.least.value,
-            torque_min_at_deg: degrees(torque.least.at),
-            power_mean_w: speed.map(|speed| speed * torque.mean),
-            power_max_w: speed.map(|speed| speed * torque.largest.value),
-            work_fluctuation_j: torque.fluctuation,
-            flywheel_kg_m2: flywheel.map(|(share, speed)| torque.fluctuation / (share * speed * speed)),
+            torque_mean_nm: torque.map(|torque| torque.mean),
+            torque_max_nm: largest_torque.value,
+            torque_max_at_deg: degrees(largest_torque.at),
+            torque_min_nm: torque.map(|torque| torque.least.value),
+            torque_min_at_deg: torque.map(|torque| degrees(torque.least.at)),
+            power_mean_w: speed.zip(torque).map(|(speed, torque)| speed * torque.mean),
+            power_max_w: speed.map(|speed| speed * largest_torque.value),
+            work_fluctuation_j: torque.map(|torque| torque.fluctuation),
+            flywheel_kg_m2: flywheel
+                .zip(torque)
+                .map(|((share, speed), torque)| torque.fluctuation / (share * speed * speed)),
             contact_force_max_n: force.map(|force| force.value).filter(|force| force.is_finite()),
             contact_force_max_at_deg: force.map(|force| degrees(force.at)),
             contact_force_min_n: least.map(|least| least.value),
@@ -141,13 +159,14 @@ impl DynamicsFigures<'_> {
     }
 
     fn words(&self, figures: &DynamicsSection) -> Vec<String> {
+        let Some(torque) = &self.torque else { return Vec::new() };
         let mut words = vec![format!(
             "torque of the shaft from {} N·m at {:.3}° to {} N·m at {:.3}°, mean {} N·m",
-            shown(figures.torque_min_nm),
-            figures.torque_min_at_deg,
+            shown(torque.least.value),
+            degrees(torque.least.at),
             shown(figures.torque_max_nm),
             figures.torque_max_at_deg,
-            shown(figures.torque_mean_nm)
+            shown(torque.mean)
         )];
         if let Some((mean, most)) = figures.power_mean_w.zip(figures.power_max_w) {
             words.push(format!("power at most {} W, mean {} W", shown(most), shown(mean)));
@@ -161,7 +180,7 @@ impl DynamicsFigures<'_> {
             (None, Some(_)) => "; the flywheel needs motion.rpm or --rpm".into(),
             _ => String::new(),
         };
-        words.push(format!("work of the speed fluctuation {} J{flywheel}", shown(figures.work_fluctuation_j)));
+        words.push(format!("work of the speed fluctuation {} J{flywheel}", shown(torque.fluctuation)));
         let force = figures.contact_force_max_n.zip(figures.contact_force_max_at_deg).zip(figures.contact_force_min_n);
         words.extend(force.map(|((most, at), least)| {
             format!("force along the normal up to {} N at {at:.3}°, least {} N", shown(most), shown(least))

@@ -16,7 +16,7 @@ pub struct AsMadeData {
     pub offset: f64,
     /// By how much the profile lies off the shaft, m.
     pub eccentricity: f64,
-    /// Polar angle on the cam in which it lies off, rad.
+    /// Direction on the cam in which it lies off, counted as the cam angle is, rad.
     pub eccentricity_at: f64,
     /// By how much the cam is ahead on its shaft, rad.
     pub angle: f64,
@@ -58,7 +58,7 @@ const OFFSET: Field<f64> =
 const ECCENTRICITY: Field<f64> = size("eccentricity", "distance of the centre of the profile from the shaft");
 const ECCENTRICITY_AT: Field<f64> = Field::quantity(
     "eccentricity_at",
-    "direction of that distance, as a polar angle on the cam",
+    "direction of that distance on the cam, counted as the cam angle is",
     Default("0 deg"),
     Angle,
     within(-7.0, 7.0),

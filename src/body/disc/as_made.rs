@@ -239,6 +239,8 @@ struct Turn {
     residual: f64,
     force: Extremes,
     stress: f64,
+    /// Whether waves turn the profile hollow under a face, which then rides on their crests.
+    on_crests: bool,
 }
 
 impl Turn {
@@ -255,6 +257,7 @@ impl Turn {
             residual: 0.0,
             force: Extremes::NONE,
             stress: 0.0,
+            on_crests: false,
         };
         let mut index = 0.0;
         while index < count {
@@ -282,6 +285,10 @@ impl Turn {
             self.residual = self.residual.max(residual.abs());
         }
         let made = Contact::of(place.curves().follower, place.at.1, place.contact.lift.plus(error));
+        // The speed along a profile under a face is its radius of curvature.
+        if let Element::Face = place.curves().element() {
+            self.on_crests |= place.contact.curve.speed > 0.0 && made.curve.speed <= 0.0;
+        }
         let Some(force) = place.disc.normal_force_moved(place.at, &made, moved) else { return };
         self.force = self.force.with(force);
         let pressed = place.pressure(&made, force, of.roller_radius);
@@ -302,7 +309,8 @@ impl Disc {
         let (path, largest) = (turn.path.found()?, turn.largest);
         let acceleration = self.speed.map(|speed| turn.acceleration * speed * speed).filter(|value| value.is_finite());
         let swings = self.motion.quantity() == Quantity::Angle;
-        let force = turn.force.found();
+        let force = turn.force.found().filter(|_| !turn.on_crests);
+        let acceleration = acceleration.filter(|_| !turn.on_crests);
         let found = AsMade {
             lift_error_low_mm: MILLIMETRES * path.low,
             lift_error_high_mm: MILLIMETRES * path.high,
@@ -317,11 +325,11 @@ impl Disc {
             contact_force_min_n: force.map(|force| force.low).filter(|force| force.is_finite()),
             contact_stress_max_mpa: force.map(|_| 1e-6 * turn.stress).filter(|stress| stress.is_finite()),
         };
-        Some(Section::new("as_made", &found).with_words(words(&found)))
+        Some(Section::new("as_made", &found).with_words(words(&found, turn.on_crests)))
     }
 }
 
-fn words(found: &AsMade) -> Vec<String> {
+fn words(found: &AsMade, on_crests: bool) -> Vec<String> {
     let mut words = vec![format!(
         "lift error {} to {} mm along the path ({} mm root mean square), largest at {}°",
         shown(found.lift_error_low_mm),
@@ -338,6 +346,9 @@ fn words(found: &AsMade) -> Vec<String> {
         let stress =
             found.contact_stress_max_mpa.map_or(String::new(), |stress| format!(", up to {} MPa", shown(stress)));
         words.push(format!("force of the contact {} to {} N{stress}", shown(low), shown(high)));
+    }
+    if on_crests {
+        words.push("waves make the profile hollow under the face, which rides on their crests: no acceleration and force is given".into());
     }
     words
 }

@@ -78,17 +78,22 @@ impl Disc {
         if !self.is_of_program() {
             return None;
         }
-        let torque = self.shaft_torque()?;
+        let wants = |keys: &[&str]| keys.iter().any(|key| found.wants(key));
+        // The friction of a guide may jam the follower, which only the whole turn shows.
+        let of_turn = self.program_follower.guide.is_some() || wants(&shaft_torque::OF_TURN);
+        let torque = if of_turn { Some(self.shaft_torque()?) } else { None };
+        self.pressing()?;
+        let largest = || self.largest_force(|piece, angle| self.torque(piece, angle));
         let normal = |piece: usize, angle: f64| self.normal_force(piece, angle).unwrap_or(f64::NAN);
         let force = || {
             let least = self.largest_force(|piece, angle| -normal(piece, angle));
             [self.largest_force(normal), Worst { value: -least.value, ..least }]
         };
-        let wants = |keys: &[&str]| keys.iter().any(|key| found.wants(key));
         let jump = wants(&shaft_torque::OF_JUMP).then(|| self.jump()).flatten();
         let figures = DynamicsFigures {
             machine: &self.machine,
             speed: self.speed,
+            largest_torque: torque.map_or_else(largest, |torque| torque.largest),
             torque,
             force: wants(&shaft_torque::OF_CONTACT_FORCE).then(force),
             jump: jump.and_then(Result::ok).filter(|jump| jump.value.is_finite()),
