@@ -199,7 +199,7 @@ fn nothing_overlaps_on_the_sheet_of_a_linkage() {
         let designed = name == "dpi-crank-slider" && overrides.is_empty();
         for goal in goals.into_iter().take(if designed { 4 } else { 1 }) {
             let found = analysis::analysis(&machine, 35.0, goal).expect("a linkage");
-            let sheet = found.picture.sheet("camgen 0.1.0, inputs 0123456789ab");
+            let sheet = found.picture.sheet("camgen 0.2.0, inputs 0123456789ab");
             let mut faults = faults(&sheet);
             // A PDF has no other font.
             faults.extend(
