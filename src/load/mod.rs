@@ -36,6 +36,12 @@ pub trait Load: fmt::Debug + Send + Sync {
         0.0
     }
 
+    /// The residual force in a machine that runs at another speed, by its square over that of the design, and whose load is so many times as
+    /// large, N; as [`Self::residual`] of a load that is not to be balanced.
+    fn residual_as_made(&self, piece: usize, at: f64, moved: f64, _square_and_load: [f64; 2]) -> f64 {
+        self.residual(piece, at, moved)
+    }
+
     /// Largest force that the load is to balance, N; 0 where there is no such force.
     fn largest(&self) -> f64 {
         0.0

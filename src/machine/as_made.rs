@@ -28,6 +28,10 @@ pub struct AsMadeData {
     pub waves: (u32, u32),
     /// Which of the random waves it has.
     pub draw: f64,
+    /// By how much the speed is higher, as a share.
+    pub speed: f64,
+    /// By how much the force is larger that presses the follower on, as a share.
+    pub load: f64,
 }
 
 /// Largest error that counts as one, m: what is left out goes with its square.
@@ -85,6 +89,14 @@ const DRAW: Field<f64> = Field::number(
     Optional("0.5"),
     within(-1e9, 1e9),
 );
+const SPEED: Field<f64> =
+    Field::share("speed", "by how much the speed is higher than that of the design", Default("0 %"), within(-0.5, 0.5));
+const LOAD: Field<f64> = Field::share(
+    "load",
+    "by how much the force is larger that presses the follower on: the pressure of the air of a press, preloads",
+    Default("0 %"),
+    within(-0.5, 0.5),
+);
 
 /// `[as_made]`.
 pub(super) const SECTION: KeySection = KeySection {
@@ -104,6 +116,8 @@ pub(super) const SECTION: KeySection = KeySection {
         WAVES_FROM.key,
         WAVES_TO.key,
         DRAW.key,
+        SPEED.key,
+        LOAD.key,
     ],
 };
 
@@ -134,6 +148,8 @@ pub(super) fn read(reader: &Reader<'_>, follower: &FollowerData, body: &str) -> 
         waviness: table.get(&WAVINESS)?,
         waves: (from, to),
         draw: table.get(&DRAW).unwrap_or_default(),
+        speed: table.get(&SPEED)?,
+        load: table.get(&LOAD)?,
     })
 }
 

@@ -14,6 +14,7 @@ mod common;
 mod analyses;
 mod architecture;
 mod arcs;
+mod as_made;
 mod bounds;
 #[cfg(feature = "brake")]
 mod brake;

@@ -274,6 +274,7 @@ impl Turn {
 
     fn add(&mut self, place: &Place<'_>, of: &AsMadeData, waves: &[Wave]) {
         let (error, moved) = place.error(of, waves);
+        let ratios = [1.0 + of.speed, 1.0 + of.load];
         self.path = self.path.with(moved);
         if moved.abs() > self.largest.0 {
             self.largest = (moved.abs(), place.at.1 + place.lobe);
@@ -281,7 +282,7 @@ impl Turn {
         self.squares += moved * moved;
         self.places += 1.0;
         self.acceleration = larger(self.acceleration, error.dds.abs());
-        if let Some(residual) = place.disc.residual_moved(place.at, moved) {
+        if let Some(residual) = place.disc.residual_as_made(place.at, (moved, ratios)) {
             self.residual = self.residual.max(residual.abs());
         }
         let made = Contact::of(place.curves().follower, place.at.1, place.contact.lift.plus(error));
@@ -289,7 +290,7 @@ impl Turn {
         if let Element::Face = place.curves().element() {
             self.on_crests |= place.contact.curve.speed > 0.0 && made.curve.speed <= 0.0;
         }
-        let Some(force) = place.disc.normal_force_moved(place.at, &made, moved) else { return };
+        let Some(force) = place.disc.normal_force_as_made(place.at, &made, (moved, ratios)) else { return };
         self.force = self.force.with(force);
         let pressed = place.pressure(&made, force, of.roller_radius);
         self.stress = pressed.map_or(f64::NAN, |pressure| larger(self.stress, pressure));
@@ -307,7 +308,8 @@ impl Disc {
         let of = self.machine.as_made.as_ref()?;
         let turn = Turn::on(self, of);
         let (path, largest) = (turn.path.found()?, turn.largest);
-        let acceleration = self.speed.map(|speed| turn.acceleration * speed * speed).filter(|value| value.is_finite());
+        let speed = self.speed.map(|speed| speed * (1.0 + of.speed));
+        let acceleration = speed.map(|speed| turn.acceleration * speed * speed).filter(|value| value.is_finite());
         let swings = self.motion.quantity() == Quantity::Angle;
         let force = turn.force.found().filter(|_| !turn.on_crests);
         let acceleration = acceleration.filter(|_| !turn.on_crests);

@@ -177,21 +177,28 @@ impl Disc {
         Some(self.borne(self.signed_normal_force(at, contact)?))
     }
 
-    /// [`Self::normal_force`] with the follower `moved` (m) along its path from where the motion puts it, on this contact.
-    pub(super) fn normal_force_moved(
+    /// [`Self::normal_force`] with the follower `moved` (m) along its path from where the motion puts it, on this contact, at so many times the
+    /// speed and under so many times the load.
+    pub(super) fn normal_force_as_made(
         &self,
         (piece, angle): (usize, f64),
         contact: &Contact,
-        moved: f64,
+        (moved, [speed, load]): (f64, [f64; 2]),
     ) -> Option<f64> {
-        let load = self.load.as_ref().map_or(0.0, |load| load.pressing_when(piece, angle, moved));
-        let acting = with_load(&self.pressing()?, load, || contact.lift);
+        let pressing = self.pressing()?;
+        let pressing = Pressing { constant: load * pressing.constant, ..pressing }.at_speed(speed * pressing.speed);
+        let of_load = self.load.as_ref().map_or(0.0, |of| load * of.pressing_when(piece, angle, moved));
+        let acting = with_load(&pressing, of_load, || contact.lift);
         Some(self.borne(self.along_normal(acting, (piece, angle), contact)))
     }
 
-    /// The residual force of the balance with the follower `moved` (m) along its path, N; `None` of a disc that balances nothing.
-    pub(super) fn residual_moved(&self, (piece, angle): (usize, f64), moved: f64) -> Option<f64> {
-        self.load.as_ref().map(|load| load.residual(piece, angle, moved))
+    /// The residual force of the balance there, N; `None` of a disc that balances nothing.
+    pub(super) fn residual_as_made(
+        &self,
+        (piece, angle): (usize, f64),
+        (moved, [speed, load]): (f64, [f64; 2]),
+    ) -> Option<f64> {
+        self.load.as_ref().map(|of| of.residual_as_made(piece, angle, moved, [speed * speed, load]))
     }
 
     /// What flanks bear of a force along the normal.

@@ -149,6 +149,8 @@ const OTHERS: &[(&str, &str)] = &[
     ("as_made.waves_from", "20"),
     ("as_made.waves_to", "60"),
     ("as_made.draw", "0.7"),
+    ("as_made.speed", "1 %"),
+    ("as_made.load", "-2 %"),
     ("cam.cam_turns_per_crank_turn", "0.5"),
     ("cam.lever", "2"),
     ("cam.base_radius", "90 mm"),

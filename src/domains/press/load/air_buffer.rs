@@ -63,8 +63,18 @@ impl AirBuffer {
 }
 
 /// Inertia less air of a bed that decelerates by so much (m) against air at a pressure ratio, N.
-fn residual_of(cylinder: &Cylinder, law: &CrankLaw, [deceleration, ratio]: [f64; 2]) -> f64 {
-    let left = law.loading() * deceleration - (ratio - 1.0);
+fn residual_of(cylinder: &Cylinder, law: &CrankLaw, air: [f64; 2]) -> f64 {
+    residual_off(cylinder, law, air, [1.0, 1.0])
+}
+
+/// The same at a speed whose square is so many times that of the design, in air of so many times its pressure.
+fn residual_off(
+    cylinder: &Cylinder,
+    law: &CrankLaw,
+    [deceleration, ratio]: [f64; 2],
+    [square, pressure]: [f64; 2],
+) -> f64 {
+    let left = law.loading() * deceleration * square - (ratio - 1.0) * pressure;
     // A bottom that is beyond the piston leaves no air.
     if left.is_nan() { f64::NEG_INFINITY } else { cylinder.unit_force() * left }
 }
@@ -171,6 +181,12 @@ impl Load for AirBuffer {
     fn residual(&self, piece: usize, at: f64, moved: f64) -> f64 {
         let off = moved / self.reversal.law().lever;
         self.reversal.air(piece, at, off).map_or(0.0, |air| residual_of(&self.cylinder, self.bottom_law(), air))
+    }
+
+    fn residual_as_made(&self, piece: usize, at: f64, moved: f64, square_and_load: [f64; 2]) -> f64 {
+        let off = moved / self.reversal.law().lever;
+        let air = self.reversal.air(piece, at, off);
+        air.map_or(0.0, |air| residual_off(&self.cylinder, self.bottom_law(), air, square_and_load))
     }
 
     fn largest(&self) -> f64 {
