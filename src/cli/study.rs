@@ -40,7 +40,8 @@ pub(super) fn run(args: &StudyArgs) -> Result<Outcome, Failure> {
         print(&format!("{json:#}\n"))?;
     } else if !args.quiet {
         print(&text(&study, needs, &summary))?;
-        let names: Vec<String> = written.iter().map(|path| format!("  {}\n", camgen::report::listed_path(path))).collect();
+        let names: Vec<String> =
+            written.iter().map(|path| format!("  {}\n", camgen::report::listed_path(path))).collect();
         print(&format!("files\n{}", names.concat()))?;
     }
     if !args.quiet && study.count() > first {
