@@ -17,7 +17,7 @@ use camgen::body::Cut;
 use camgen::document::file::text_of;
 #[cfg(feature = "linkage")]
 use camgen::domains::linkage::analysis::{self as linkage, DragLinkGoal};
-use camgen::domains::press::analysis::{drive, regimes, spring};
+use camgen::domains::press::analysis::{drive, plain, regimes, spring};
 use camgen::domains::press::buffer::regime::Reset;
 use camgen::domains::press::machine::{DriveMachine, PressCams};
 use camgen::domains::press::scatter::analysis as scatter_analysis;
@@ -56,12 +56,18 @@ pub(crate) fn regimes_of(args: &RegimesArgs, loaded: (Machine, String)) -> Resul
         given => given.to_vec(),
     };
     let reset = args.reset.or(of_file.reset).unwrap_or(Reset::End);
+    if args.without_cam {
+        return Ok((plain::analysis(&machine, &speeds, reset).map_err(Failure::new)?, name));
+    }
     let analysis = regimes::analysis(&machine, args.cut_for.unwrap_or(design), &speeds, reset).map_err(Failure::new)?;
     Ok((analysis, name))
 }
 
 pub(super) fn spring(args: &SpringArgs) -> Result<Outcome, Failure> {
-    judge_and_write(spring_of(args, args.analysis.machine(&args.machine)?)?, &args.analysis)
+    let standard = args.design.then(|| "spring_buffer.body.wire=standard".to_owned());
+    let overrides: Vec<String> = args.analysis.set.iter().cloned().chain(standard).collect();
+    let loaded = Machine::load(&args.machine, &overrides).map_err(Failure::new)?;
+    judge_and_write(spring_of(args, loaded)?, &args.analysis)
 }
 
 /// The springs of a loaded machine.

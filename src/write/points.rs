@@ -142,7 +142,7 @@ fn motion_lines(body: &dyn Body, table: &PointTable) -> Vec<(Cow<'static, str>, 
     let errors = match table.errors {
         PointErrors::Known(errors) => errors,
         PointErrors::Unknown(why) => {
-            head.push(("felt".into(), format!("velocity and acceleration are not told: {why}")));
+            head.push(("felt".into(), format!("velocity and acceleration are not known: {why}")));
             [f64::INFINITY; 2]
         }
     };

@@ -467,7 +467,7 @@ fn a_jump_of_the_velocity_is_said() {
         let why = cam.draw(asked).expect_err("no acceleration").to_string();
         assert!(why.contains("velocity of the motion jumps"), "{why}");
         let text = table(&cam.draw(Request { strict: [false; 2], ..asked }).expect("drawn").prove().expect("proved"));
-        assert!(told(&text, "felt").contains("not told") && told_keeps(&text) == "distance", "{text}");
+        assert!(told(&text, "felt").contains("not known") && told_keeps(&text) == "distance", "{text}");
     }
 }
 

@@ -133,3 +133,63 @@ fn what_cannot_be_is_refused_with_its_cause() {
     let linkage = run(2, &["scatter", "dpi-six-bar"]);
     assert!(linkage.err.contains("for a yoke only"), "{}", linkage.err);
 }
+
+/// A cam that levels a loop of the air is cut, proven and reported as any other, in both commands; without a loop it is refused.
+#[test]
+fn a_cam_that_levels_both_ways() {
+    let level = ["--set", "buffer.balance=level", "--set", "buffer.expansion_exponent=1.40"];
+    let files = ["rotary", "--format", "dxf,step,csv", "--json"];
+    let cut = run(0, &[&files[..], &level].concat());
+    let told = report(&cut);
+    close(number(&told["law"]["column_length_mm"]), 249.749_633_6, 1e-9);
+    close(number(&told["losses"]["lead_mm"]), 2.306_349_143, 1e-9);
+    close(number(&told["losses"]["half_loop_n"]), 268.303_004_8, 1e-9);
+    close(number(&told["losses"]["residual_in_n"]), -268.303_004_8, 1e-9);
+    // As cut the outline adds little.
+    let left = number(&told["force"]["residual_max_n"]);
+    assert!((268.0..290.0).contains(&left), "{left}");
+    let dxf = cut.directory.path().join("output/dpi-rotary-35rpm.dxf");
+    let checked = run(0, &[&["check", dxf.to_str().expect("a path"), "--cam", "rotary"], &level[..]].concat());
+    assert!(checked.out.contains("pass"), "{}", checked.out);
+    // The outline of the other law is another one.
+    run(1, &["check", dxf.to_str().expect("a path"), "--cam", "rotary"]);
+    let told = report(&run(0, &[&["scatter", "--samples", "100", "--dry-run", "--json"], &level[..]].concat()));
+    close(number(&told["scatter"]["losses"]["half_loop_n"]), 268.303_004_8, 1e-9);
+    assert_eq!(finding(&told, "half_loop")["verdict"], "pass");
+    for command in ["rotary", "scatter"] {
+        for (sets, why) in [
+            (&["--set", "buffer.balance=level"][..], "no lead for this loop"),
+            (
+                &["--set", "buffer.balance=level", "--set", "buffer.expansion_exponent=1.3"],
+                "expansion exponent below the compression's",
+            ),
+            (&["--set", "buffer.balance=levl"], "level"),
+        ] {
+            let refused = run(2, &[&[command], sets].concat());
+            assert!(refused.err.contains(why), "{command} {sets:?}: {}", refused.err);
+            assert!(!refused.directory.path().join("output").exists());
+        }
+    }
+}
+
+/// Fixed bottoms without a cam, and the springs that a shop can buy.
+#[test]
+fn buffers_without_a_cam_and_standard_springs() {
+    let plain = report(&run(0, &["regimes", "--without-cam", "--rpm", "25,35", "--dry-run", "--json"]));
+    close(number(&plain["plain_buffers"]["speeds"][1]["residual_max_n"]), 3_185.745_9, 1e-7);
+    let last = plain["plain_buffers"]["end_pressures"].as_array().expect("rows").last().expect("a row").clone();
+    close(number(&last["residual_max_n"]), 7_155.125_152_58, 1e-9);
+    run(2, &["regimes", "--without-cam", "--cut-for", "30"]);
+    let linkage = run(2, &["regimes", "dpi-six-bar", "--without-cam"]);
+    assert!(linkage.err.contains("for a yoke only"), "{}", linkage.err);
+    let design = ["spring", "--design", "--set", "spring_buffer.body.stress=700MPa", "--dry-run", "--json"];
+    let told = report(&run(0, &design));
+    for spring in told["spring_bodies"]["springs"].as_array().expect("springs") {
+        close(number(&spring["wire_mm"]), 18.0, 1e-12);
+        assert!(number(&spring["stress_mpa"]) < 700.0 && number(&spring["free_length_mm"]) > 200.0, "{spring}");
+    }
+    let without = run(2, &["spring", "--design"]);
+    assert!(without.err.contains("spring_buffer.body.stress") || without.err.contains("stress"), "{}", without.err);
+    let soft = run(2, &["spring", "--stiffness", "60kgf/cm"]);
+    assert!(soft.err.contains("springs of 58.8399 N/mm") && soft.err.contains("59.1335 N/mm"), "{}", soft.err);
+}

@@ -60,6 +60,10 @@ pub(crate) struct RegimesArgs {
     #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
     pub(in crate::cli) cut_for: Option<f64>,
 
+    /// Buffers with fixed bottoms, sized alone: column, residual force and bore for each speed and for other end pressures
+    #[arg(long, conflicts_with = "cut_for")]
+    pub(in crate::cli) without_cam: bool,
+
     /// Rule for the residual force at the end of the stroke after the reset: end (zero there), half (the paper's rule: half of the
     /// largest) or level (as large there as at the worst other place, which gives the smallest maximum)
     /// [default: that of the file, else end]
@@ -92,6 +96,10 @@ pub(crate) struct SpringArgs {
     /// Speeds of the main shaft, rpm [default: the design speed]
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = rpm, allow_hyphen_values = true)]
     pub(in crate::cli) rpm: Vec<f64>,
+
+    /// Find the thinnest standard wire for each spring; needs spring_buffer.body.stress
+    #[arg(long)]
+    pub(in crate::cli) design: bool,
 
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,
@@ -289,7 +297,7 @@ pub(crate) struct CompareArgs {
     #[arg(long, value_name = "RADIUS", value_parser = cutter_radius)]
     pub(in crate::cli) ball: Option<f64>,
 
-    /// What is fitted before deviations are told: angle (about the shaft), centre (angle and centre) or none
+    /// What is fitted before deviations are measured: angle (about the shaft), centre (angle and centre) or none
     #[arg(long, value_name = "WHAT", default_value = "angle", ignore_case = true, value_parser = word::<ComparisonFit>())]
     pub(in crate::cli) fit: ComparisonFit,
 

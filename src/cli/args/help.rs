@@ -44,15 +44,15 @@ pub(super) const REGIMES: &str = "\
 Examples:
   camgen regimes --rpm 20,25,30,35
       column, added volume and residual force at four speeds, as a table and a plot
-  camgen regimes dpi-paper --rpm 25 --reset level --dry-run
-      the column that leaves as much force at the end of the stroke as at the worst place; only the report";
+  camgen regimes --without-cam --rpm 25,35 --dry-run
+      fixed bottoms without a cam: column, residual force and bore, also for other end pressures";
 
 pub(super) const SPRING: &str = "\
 Examples:
   camgen spring dpi-paper --stiffness 68kgf/cm,82.5kgf/cm,165kgf/cm
       three springs at the design speed, as a table and a plot
-  camgen spring dpi-paper --residual 50kgf --rpm 25,35 --dry-run
-      the spring that leaves 50 kgf at the design speed, and what it leaves at 25 rpm; only the report";
+  camgen spring --design --set spring_buffer.body.stress=700MPa --set spring_buffer.body.index=4 --dry-run
+      the thinnest standard wire for each spring, with its coils, stress, surge and buckling";
 
 pub(super) const SCATTER: &str = "\
 Examples:
@@ -120,7 +120,7 @@ Examples:
   camgen compare measured.csv lifter.toml --ball 3mm
       centres of a ball of radius 3 mm, turned to fit; exit code 1 where a point leaves title.profile_tolerance
   camgen compare measured.csv lifter.toml --fit centre --format csv,svg,html
-      also the centre is fitted: the eccentricity is told";
+      also the centre is fitted: the report has the eccentricity";
 
 pub(super) const SIDE_BY_SIDE: &str = "\
 Examples:

@@ -151,6 +151,7 @@ impl Builder {
         let shift = match conoid.shift {
             Shift::Linear => "linear",
             Shift::Square => "square",
+            Shift::Variable => "v",
         };
         self.length("conoid.axial_travel", conoid.axial_travel)
             .set("conoid.mode", mode)

@@ -33,6 +33,14 @@ fn under_a_linkage() -> Refusal {
     only_under_a_yoke("compensating cams are solved", why)
 }
 
+/// The refusal of air that takes work in every turn.
+fn of_a_loop() -> Refusal {
+    Refusal::new(
+        "no compensating cam fits air with a loop: it gives back less work than it takes up, and a spring gives back exactly what it takes up",
+    )
+    .remedy("set buffer.balance = \"braking\", or leave out [compensator]")
+}
+
 /// A jump of the velocity of less than this share of the lift a radian is rounding.
 const ROUNDING: f64 = 1e-9;
 /// Places of a piece at which the torque left by the law is looked at: it is rounding, or the smooth torque of inertia.
@@ -135,7 +143,8 @@ impl RotaryCam {
         }
         let (cylinder, reversal) = (*self.buffer.cylinder(), Arc::clone(self.buffer.reversal()));
         let work = ShaftWork::new(cylinder, reversal, follower.preload.unwrap_or(0.0), mass, speed);
-        let work = Arc::new(work.ok_or_else(under_a_linkage)?);
+        let levels = self.buffer.reversal().law().bottom_law.half_loop().is_some();
+        let work = Arc::new(work.ok_or_else(|| if levels { of_a_loop() } else { under_a_linkage() })?);
         CounterMotion::new(work, data.spring_rate, data.preload).map_err(|error| {
             error.context("no compensating cam").remedy("see compensator.spring_rate and compensator.preload")
         })
@@ -198,10 +207,8 @@ impl RotaryCam {
             .flat_map(|piece| within(piece, TURN))
             .map(|angle| CamAngleState::of(self, second, angle))
             .collect();
-        let at = |sevenths: f64| {
-            let rpm = own * sevenths / 7.0;
-            let (column, slower) =
-                (regime::reset(&design, &cylinder, rpm, Reset::End).column, sevenths * sevenths / 49.0);
+        let at = |(rpm, slower): (f64, f64)| {
+            let column = regime::reset(&design, &cylinder, rpm, Reset::End).column;
             // What does not depend on the preload of the second disc, with and without that disc, and the slope the preload works on.
             let torques: Vec<(f64, f64, f64)> = places
                 .iter()
@@ -220,12 +227,17 @@ impl RotaryCam {
                 let of_piece = |left: &[f64]| left.windows(3).map(top).fold(0.0, f64::max);
                 left.chunks(TURN + 1).map(of_piece).fold(0.0, f64::max)
             };
-            let range = (0.0, 2.0 * own_preload);
+            let range = (0.0, 2.0 * own_preload * slower.max(1.0));
             let best = extremum::largest_without_slope(|preload| -largest(preload, 1.0), range, CELLS, SECTIONS);
             let (before, unchanged) = (largest(0.0, 0.0), largest(own_preload, 1.0));
             TorqueAtSpeed { rpm, preload: best.at, before, unchanged, after: -best.value }
         };
-        SEVENTHS.into_iter().map(at).collect()
+        // Speed, and the square of its share of the cam's own.
+        let speeds: Vec<(f64, f64)> = match PressCams::of(machine).compensator_speeds.as_slice() {
+            [] => SEVENTHS.map(|sevenths| (own * sevenths / 7.0, sevenths * sevenths / 49.0)).to_vec(),
+            given => given.iter().map(|rpm| (*rpm, (rpm / own) * (rpm / own))).collect(),
+        };
+        speeds.into_iter().map(at).collect()
     }
 }
 

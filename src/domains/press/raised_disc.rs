@@ -13,8 +13,8 @@
 use super::machine::{Press, only_under_a_yoke};
 use super::motion::RaiseSeries;
 use super::scatter::error::ScatterError;
-use crate::body::ShaftCompliance;
 use crate::body::disc::Disc;
+use crate::body::{Body, ShaftCompliance};
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::numeric::chebyshev_series::ChebyshevSeries;
@@ -116,14 +116,36 @@ pub(super) fn train_section(press: &Press, rpm: f64, lever: f64) -> Option<Secti
     )
 }
 
+/// What the twist of the shaft leaves because its angle is finite, m: the lift at the twisted angle less that on the tangent.
+fn left_by_twist(disc: &Disc) -> f64 {
+    let Some(CutForShaft(Ok(shaft))) = disc.machine().part() else { return 0.0 };
+    let motion = disc.curves().motion;
+    let left = |piece: usize, angle: f64| {
+        let lift = motion.jet(piece, angle);
+        let twisted = shaft.twist * disc.path_force(piece, angle).unwrap_or(0.0) * lift.ds;
+        let (there, inside) = motion.locate(angle - twisted);
+        (motion.jet(there, inside).s - (lift.s - twisted * lift.ds)).abs()
+    };
+    disc.largest_force(left).value
+}
+
 /// The section of the report on how much higher than its law a disc is cut.
 pub(super) fn section(disc: &Disc) -> Section {
     let highest = disc.largest_force(|piece, angle| disc.added_lift(piece, angle));
     let mm = MILLIMETRES * highest.value;
-    let value = json!({"raised_max_mm": mm, "raised_cam_deg": highest.at.to_degrees()});
+    let left = MILLIMETRES * left_by_twist(disc);
+    let value = json!({"raised_max_mm": mm, "raised_cam_deg": highest.at.to_degrees(), "left_by_twist_mm": left});
+    let finite = if left > 0.0 {
+        format!(
+            "; bending and twist are those of small angles, and the finite angle of the twist leaves {:.2} µm",
+            1e3 * left
+        )
+    } else {
+        String::new()
+    };
     let words = format!(
         "cut up to {mm:.4} mm higher, at {:.3}°, for the shaft of the file (shaft.compensate): its follower keeps the law under load \
-         at this speed, and would be that much too high on a rigid shaft; forces are those under load",
+         at this speed, and would be that much too high on a rigid shaft; forces are those under load{finite}",
         highest.at.to_degrees()
     );
     let figure = format!("cut up to {mm:.4} mm higher for its shaft");

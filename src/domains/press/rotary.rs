@@ -1,6 +1,7 @@
 //! The disc cam of a press, for one speed.
 
 use super::balance::{allowed_error, fitting_speed, reversal_of_bed};
+use super::buffer::crank_law::CrankLaw;
 use super::checks::balanced::of_balance;
 use super::checks::contact_life;
 use super::load::{AirBuffer, AsCut, Balance, ForceBalanced, RunUp};
@@ -10,7 +11,7 @@ use super::picture::{BufferPicture, PressPicture, not_modelled_of, press_poses};
 use super::raised_disc::CutForShaft;
 use super::report::ForceMeasures;
 use super::smoother::smoother;
-use super::{cams, raised_disc, scatter};
+use super::{cams, loop_of_air, raised_disc, roller_life, scatter};
 use crate::body::disc::{Disc, Duty, Purpose};
 use crate::body::picture::DrivenMechanism;
 use crate::body::{Body, Figures, Kind};
@@ -84,7 +85,7 @@ pub(super) fn of_reversal(machine: &Machine, rpm: f64, raise: Option<Arc<RaiseSe
     }
     let cut_for_shaft = machine.part::<CutForShaft>().is_some();
     let law = ReversalLaw {
-        bottom_law: press.bottom_law(rpm),
+        bottom_law: press.rotary_law(rpm)?,
         lever: cams.lever,
         lobes: cams.lobes,
         transition: cams.transition,
@@ -132,7 +133,7 @@ impl ForceBalanced for BalancedDisc<'_> {
     fn as_cut(&self, tolerance: f64) -> Option<AsCut> {
         let (press, machine) = (&self.duty.press, self.disc.machine());
         let cylinder = press.cylinder();
-        let allowed = |rpm: f64| allowed_error(&cylinder, &press.bottom_law(rpm));
+        let allowed = |rpm: f64| press.rotary_law(rpm).map_or(0.0, |law| allowed_error(&cylinder, &law));
         // Along the path an error is larger than along the normal.
         let lean = self.disc.pressure_angle().value;
         let lean = machine.limits.pressure_angle.map_or(lean, |limit| lean.max(limit)).min(STEEPEST);
@@ -149,11 +150,17 @@ impl ForceBalanced for BalancedDisc<'_> {
     }
 
     fn columns(&self) -> Vec<(f64, f64)> {
-        vec![(self.duty.press.bottom_law(self.duty.rpm).column(), self.duty.rpm)]
+        vec![(self.duty.law().column(), self.duty.rpm)]
     }
 
     fn run_up(&self) -> Option<RunUp> {
         self.duty.buffer.run_up()
+    }
+}
+
+impl BedBalanceDuty {
+    fn law(&self) -> &CrankLaw {
+        &self.buffer.reversal().law().bottom_law
     }
 }
 
@@ -164,9 +171,11 @@ impl Duty for BedBalanceDuty {
 
     fn sections(&self, disc: &Disc) -> Vec<Section> {
         let mut sections = vec![self.buffer.section()];
+        sections.extend(loop_of_air::section(disc.machine(), self.buffer.cylinder(), self.law()));
         sections.extend(reversal_of_bed(disc.machine()));
         sections.extend(raised_disc::train_section(&self.press, self.rpm, self.lever));
         sections.extend(self.cut_for_shaft.then(|| raised_disc::section(disc)));
+        sections.extend(roller_life::of_disc(disc).map(|life| life.section()));
         sections.extend(scatter::section::of_cam(disc.machine(), self.rpm));
         sections
     }
@@ -193,13 +202,13 @@ impl Duty for BedBalanceDuty {
     }
 
     fn smoother(&self, machine: &Machine) -> Option<String> {
-        smoother(machine, |press| vec![press.bottom_law(self.rpm)])
+        smoother(machine, |press| press.rotary_law(self.rpm).into_iter().collect())
     }
 
     fn driven_mechanism(&self, disc: &Disc, samples: u32) -> Option<Box<dyn DrivenMechanism>> {
         let reversal = self.buffer.reversal();
         Some(Box::new(PressPicture {
-            buffer: BufferPicture::new(&self.press.cylinder(), &self.press.bottom_law(self.rpm)),
+            buffer: BufferPicture::new(&self.press.cylinder(), self.law()),
             poses: press_poses(reversal, &reversal.law().bottom_law, disc.curves().motion.lobes(), samples),
             lever: self.lever,
             under_a_linkage: self.press.stroke_end.is_some(),
@@ -216,7 +225,7 @@ impl Duty for BedBalanceDuty {
 
     fn permitted_path_error(&self, _disc: &Disc) -> Option<(f64, &'static str)> {
         self.buffer.least_air()?;
-        let permitted = allowed_error(&self.press.cylinder(), &self.press.bottom_law(self.rpm));
+        let permitted = allowed_error(&self.press.cylinder(), self.law());
         Some((self.lever * permitted, "residual force"))
     }
 

@@ -7,7 +7,7 @@ use crate::document::Input;
 use crate::domains::press::buffer::spring::{self, SpringBuffer};
 use crate::domains::press::buffer::spring_body::SpringBody;
 use crate::domains::press::cams;
-use crate::domains::press::checks::{spring_stress, surge};
+use crate::domains::press::checks::{buckling, spring_stress, surge};
 use crate::domains::press::machine::{Press, PressCams, only_under_a_yoke};
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
@@ -170,6 +170,8 @@ struct SpringBodyRow {
     surge_hz: f64,
     crank_hz: f64,
     solid_length_mm: f64,
+    free_length_mm: f64,
+    buckling: f64,
 }
 
 const BODIES: &[ListedColumn<SpringBodyRow>] = &[
@@ -182,6 +184,8 @@ const BODIES: &[ListedColumn<SpringBodyRow>] = &[
     ("surge_hz", |row| row.surge_hz),
     ("crank_hz", |row| row.crank_hz),
     ("solid_length_mm", |row| row.solid_length_mm),
+    ("free_length_mm", |row| row.free_length_mm),
+    ("buckling", |row| row.buckling),
 ];
 
 /// The springs of each stiffness, with the allowable stress, Pa; `None` where the file does not describe them.
@@ -203,6 +207,8 @@ fn bodies_of(machine: &Machine, sets: &[(f64, SpringBuffer)]) -> Option<(Vec<Spr
             surge_hz: body.surge,
             crank_hz,
             solid_length_mm: MILLIMETRES * body.solid_length,
+            free_length_mm: MILLIMETRES * body.free_length,
+            buckling: body.buckling,
         })
     };
     let rows = sets.chunk_by(|(_, a), (_, b)| a.stiffness == b.stiffness).filter_map(of).collect();
@@ -211,12 +217,12 @@ fn bodies_of(machine: &Machine, sets: &[(f64, SpringBuffer)]) -> Option<(Vec<Spr
 
 fn section_of_bodies(rows: &[SpringBodyRow]) -> Section {
     let mut words = vec![format!(
-        "{:>10} {:>10} {:>9} {:>9} {:>8} {:>10} {:>9} {:>9}",
-        "N/mm each", "force/N", "wire/mm", "coil/mm", "coils", "stress/MPa", "surge/Hz", "solid/mm"
+        "{:>10} {:>10} {:>9} {:>9} {:>8} {:>10} {:>9} {:>9} {:>9}",
+        "N/mm each", "force/N", "wire/mm", "coil/mm", "coils", "stress/MPa", "surge/Hz", "solid/mm", "free/mm"
     )];
     words.extend(rows.iter().map(|row| {
         format!(
-            "{:>10.3} {:>10.1} {:>9.3} {:>9.2} {:>8.2} {:>10.1} {:>9.2} {:>9.1}",
+            "{:>10.3} {:>10.1} {:>9.3} {:>9.2} {:>8.2} {:>10.1} {:>9.2} {:>9.1} {:>9.1}",
             row.stiffness_n_per_mm,
             row.force_max_n,
             row.wire_mm,
@@ -224,7 +230,8 @@ fn section_of_bodies(rows: &[SpringBodyRow]) -> Section {
             row.coils,
             row.stress_mpa,
             row.surge_hz,
-            row.solid_length_mm
+            row.solid_length_mm,
+            row.free_length_mm
         )
     }));
     Section::new("spring_bodies", &serde_json::json!({ "springs": rows })).with_words(words)
@@ -237,9 +244,11 @@ fn measures_of(rows: &[SpringBodyRow], allowable: f64) -> Vec<Measure> {
     let largest = rows.iter().map(|row| row.stress_mpa).fold(0.0, f64::max);
     let slowest = rows.iter().map(|row| row.surge_hz / row.crank_hz).fold(f64::INFINITY, f64::min);
     let limit = 1e-6 * allowable;
+    let bent = rows.iter().map(|row| row.buckling).fold(0.0, f64::max);
     vec![
         spring_stress::CHECK.measure(largest, Some(limit)).kept(largest <= limit * (1.0 + ROUNDING)),
         surge::CHECK.measure(slowest, Some(surge::LEAST)),
+        buckling::measure(bent),
     ]
 }
 

@@ -17,7 +17,9 @@
 //! number of its own: exactly 0 for the matched column, 1/g(U) − 1 for the column of (7). For the latter the law is
 //! x (g(u) − g(U))/g(U), and the difference is taken with the factor U − u = A (r − x) in front.
 
+use super::level_air::LevelAir;
 use crate::numeric::double::DoubleDouble;
+use crate::numeric::root;
 
 /// The rule for the length of the air column at the start of compression.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -168,6 +170,8 @@ pub struct BottomLaw {
     pub lead: f64,
     /// c − 1, the slope of the law at x = 0.
     pub start_slope: f64,
+    /// Air that expands on another exponent, where the law levels both ways.
+    pub level: Option<LevelAir>,
     returns: bool,
     /// The air at the end of the stroke.
     end: AirFactors,
@@ -203,7 +207,35 @@ impl BottomLaw {
         } else {
             DoubleDouble::from(0.0)
         };
-        Self { loading, exponent, stroke, column: column_length, lead, start_slope, returns, end: at_end, end_less }
+        let column = column_length;
+        Self { loading, exponent, stroke, column, lead, start_slope, level: None, returns, end: at_end, end_less }
+    }
+
+    /// The law that leaves half of a loop of the air on either way, Δx = L (1 − w) − x − e with e = L (1 − w0): the port shuts a lead e before
+    /// the reversal, in which the bottom rests. `None` where there is no loop. The column `Matched` starts it with slope 0, `Return` brings the
+    /// bottom back at the dead point.
+    #[must_use]
+    pub fn level(loading: f64, stroke: f64, column: ColumnRule, exponents: [f64; 2]) -> Option<Self> {
+        let [compression, expansion] = exponents;
+        let air = LevelAir::new(compression, expansion, loading * stroke)?;
+        let [start, first, ..] = air.derivatives(0.0);
+        let matched = -1.0 / (loading * first);
+        let (length, start_slope) = match column {
+            ColumnRule::Matched => (matched, 0.0),
+            ColumnRule::Return => {
+                let length = stroke / -air.shorter(loading * stroke);
+                (length, (length - matched) / matched)
+            }
+            ColumnRule::Length(length) => (length, (length - matched) / matched),
+        };
+        let law = Self::new(loading, compression, stroke, ColumnRule::Length(length), length * (1.0 - start));
+        Some(Self { start_slope, level: Some(air), ..law })
+    }
+
+    /// Travel over which the bottom retreats before the piston in front of the reversal, m: the lead, in which nothing may be compressed.
+    #[must_use]
+    pub fn retreat(&self) -> f64 {
+        if self.level.is_some() { 0.0 } else { self.lead }
     }
 
     /// Δx at overrun x in [0, r], m.
@@ -219,7 +251,10 @@ impl BottomLaw {
     /// Δx at overrun x, with y = r − x from the caller, who may know it more accurately than the subtraction gives it.
     #[must_use]
     pub fn displacement_between(&self, x: f64, y: f64) -> f64 {
-        self.displacement_with(x, y, || self.air(x))
+        match &self.level {
+            Some(air) => -self.column * air.shorter(self.loading * x) - x,
+            None => self.displacement_with(x, y, || self.air(x)),
+        }
     }
 
     /// The air at overrun x.
@@ -285,6 +320,18 @@ impl BottomLaw {
     pub fn bottom(&self, x: f64, y: f64) -> Bottom {
         let (p, a, u) = (1.0 / self.exponent, self.loading, self.loading * x);
         let c = 1.0 + self.start_slope;
+        if let Some(air) = &self.level {
+            let [_, first, second, third, fourth] = air.derivatives(u);
+            let [_, start, ..] = air.derivatives(0.0);
+            let scale = -self.column * a;
+            return Bottom {
+                value: self.displacement_between(x, y),
+                slope: self.start_slope + c * ((first - start) / start),
+                second: scale * a * second,
+                third: scale * a * a * third,
+                fourth: scale * a * a * a * fourth,
+            };
+        }
         let air = AirFactors::at(u, p);
         // (1+u)^(−p−1) and its distance from 1, whose two terms are of one sign.
         let (power, fall) = (air.shrunk / (1.0 + u), (air.shrinks - u) / (1.0 + u));
@@ -304,9 +351,19 @@ impl BottomLaw {
     /// Δx has one stationary point at most, where c (1+A x)^(−p−1) = 1; otherwise the end of the stroke has it.
     #[must_use]
     pub fn largest_displacement(&self) -> (f64, f64) {
+        if self.level.is_some() {
+            let slope = |x: f64| self.bottom(x, self.stroke - x).slope;
+            let top = root::bracketed(slope, 0.0, self.stroke, 0.0).unwrap_or(0.0);
+            return self.largest_of([0.0, top, self.stroke]);
+        }
         let p = 1.0 / self.exponent;
         let top = libm::expm1(libm::log1p(self.start_slope) / (p + 1.0)) / self.loading;
-        [0.0, top.clamp(0.0, self.stroke), self.stroke]
+        self.largest_of([0.0, top.clamp(0.0, self.stroke), self.stroke])
+    }
+
+    /// The Δx of largest size at some overruns.
+    fn largest_of(&self, places: [f64; 3]) -> (f64, f64) {
+        places
             .map(|x| (x, self.displacement(x)))
             .into_iter()
             .fold((0.0, 0.0), |best, next| if next.1.abs() > best.1.abs() { next } else { best })
@@ -323,7 +380,10 @@ impl BottomLaw {
     /// Length of the air where the forces balance at overrun x, m: L (1 + A x)^(−1/k).
     #[must_use]
     pub fn air_left(&self, x: f64) -> f64 {
-        self.column * self.air(x).shrunk
+        match &self.level {
+            Some(air) => self.column * air.length(self.loading * x),
+            None => self.column * self.air(x).shrunk,
+        }
     }
 }
 
@@ -379,6 +439,37 @@ mod tests {
                 let fourth = law.bottom(x, 0.18 - x).fourth;
                 assert!((fourth / quotient - 1.0).abs() < 1e-8, "{column:?} at {x}: {fourth} {quotient}");
             }
+        }
+    }
+
+    /// Each derivative of a law that levels a loop is the difference quotient of the one before; the bottom starts at 0 and, under a returning
+    /// column, ends there.
+    #[test]
+    fn derivatives_of_a_law_that_levels() {
+        for column in [ColumnRule::Matched, ColumnRule::Return, ColumnRule::Length(0.3)] {
+            let law = BottomLaw::level(1.0 / 0.18, 0.18, column, [1.35, 1.40]).expect("a loop");
+            let at = |x: f64| {
+                let Bottom { value, slope, second, third, fourth } = law.bottom(x, 0.18 - x);
+                [value, slope, second, third, fourth]
+            };
+            let h = 1e-4;
+            for x in [0.001, 0.09, 0.179] {
+                for order in 1..5 {
+                    let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|steps| at(x + steps * h)[order - 1]);
+                    let (quotient, exact) = ((a - d + 8.0 * (c - b)) / (12.0 * h), at(x)[order]);
+                    assert!(
+                        (quotient - exact).abs() < 1e-8 * exact.abs().max(1.0),
+                        "{column:?} {order} {x}: {quotient} {exact}"
+                    );
+                }
+            }
+            assert_eq!((law.displacement(0.0), law.retreat()), (0.0, 0.0));
+            assert_eq!(at(0.0)[1], law.start_slope);
+            let end = law.displacement(0.18);
+            assert!(column != ColumnRule::Return || end.abs() < 1e-16, "{end}");
+            let (_, largest) = law.largest_displacement();
+            let scanned = (0..=1800).map(|i| law.displacement(1e-4 * f64::from(i)).abs()).fold(0.0, f64::max);
+            assert!((largest.abs() - scanned).abs() < 1e-7, "{column:?}: {largest} {scanned}");
         }
     }
 

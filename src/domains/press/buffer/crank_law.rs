@@ -28,7 +28,6 @@ const CELLS: u32 = 96;
 
 /// The law at one speed with one column.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "a law is made once for a cam; 300 bytes are copied a handful of times")]
 pub enum CrankLaw {
     /// The law for a bed that is moved by a yoke, x = r sin φ.
     Yoke(BottomLaw),
@@ -204,6 +203,28 @@ impl CrankLaw {
         }
     }
 
+    /// Whether the bottom retreats before the piston in front of the reversal: over the lead, unless the port shuts in it.
+    #[must_use]
+    pub fn retreats(&self) -> bool {
+        match self {
+            Self::Yoke(law) => law.retreat() > 0.0,
+            Self::Linkage(law) => law.lead > 0.0,
+        }
+    }
+
+    /// The largest residual force that a law leaves by itself on either way, over 2 p0 F, at its overrun, m: half of a loop of the air where it
+    /// levels both ways; `None` where it leaves nothing on the way in.
+    #[must_use]
+    pub fn half_loop(&self) -> Option<Extremum> {
+        let law = self.of_yoke()?;
+        let air = law.level.as_ref()?;
+        let half = |x: f64| {
+            let [on_way_in, back] = air.pressures(air.length(law.loading * x));
+            0.5 * (on_way_in - back)
+        };
+        Some(extremum::largest_without_slope(half, (0.0, law.stroke), CELLS, extremum::TO_ROUNDING))
+    }
+
     /// Crank angle that the reversal takes, rad.
     #[must_use]
     pub fn angle(&self) -> f64 {
@@ -307,13 +328,19 @@ impl CrankLaw {
     #[must_use]
     pub fn pressure_ratio(&self, angle: f64, displacement: f64) -> f64 {
         let [_, deceleration] = self.bed(angle);
-        self.pressure_ratio_off(deceleration, displacement - self.displacement(angle))
+        self.pressure_ratio_off(angle, deceleration, displacement - self.displacement(angle))
     }
 
-    /// Pressure ratio where the bed decelerates by this much (m) and the bottom is this far (m, towards the piston) from where the forces
-    /// balance. There the ratio is 1 + A a, so that an exact bottom has an exact force.
+    /// Pressure ratio at a crank angle where the bed decelerates by this much (m) and the bottom is this far (m, towards the piston) from where
+    /// the forces balance. There the ratio is 1 + A a, so that an exact bottom has an exact force; of a law that levels both ways it is that of
+    /// the way, the dead point taken where the law has it.
     #[must_use]
-    pub fn pressure_ratio_off(&self, deceleration: f64, off: f64) -> f64 {
+    pub fn pressure_ratio_off(&self, angle: f64, deceleration: f64, off: f64) -> f64 {
+        if let Self::Yoke(BottomLaw { level: Some(air), column, loading, .. }) = self {
+            let length = air.length(loading * deceleration);
+            let [on_way_in, back] = air.pressures(length - off / column);
+            return if angle > FRAC_PI_2 { back } else { on_way_in };
+        }
         let balanced = 1.0 + self.loading() * deceleration;
         if off == 0.0 {
             return balanced;

@@ -8,6 +8,7 @@ pub mod camshaft;
 pub mod crank_law;
 pub mod drive;
 pub mod energy;
+pub mod level_air;
 pub mod place_law;
 pub mod regime;
 pub mod spring;

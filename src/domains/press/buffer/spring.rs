@@ -16,6 +16,7 @@ use super::bottom_law::{SERIES_LIMIT, column_for, g_divided_difference, g_minus_
 use super::{Bed, Cylinder};
 use crate::numeric::extremum::Extremum;
 use crate::refusal::Refusal;
+use crate::report::shown;
 
 /// Newton's steps at most: from the left it doubles 1/y^p' until the last few, which double the digits.
 const MAX_STEPS: u32 = 200;
@@ -83,10 +84,20 @@ pub fn plain_residual(bed: &Bed, cylinder: &Cylinder, rpm: f64) -> Extremum {
 pub fn stiffness_for(residual: f64, bed: &Bed, cylinder: &Cylinder, rpm: f64) -> Result<f64, Refusal> {
     let plain = plain_residual(bed, cylinder, rpm).value;
     if !(residual > 0.0 && residual < plain) {
-        return Err(Refusal::new(format!("no spring leaves a residual of {residual} N"))
-            .remedy(format!("ask for one above 0 and below the {plain} N of a fixed bottom")));
+        return Err(Refusal::new(format!("no spring leaves a residual of {} N", shown(residual)))
+            .remedy(format!("ask for one above 0 and below the {} N of a fixed bottom", rounded_down(plain))));
     }
     Ok(least_stiffness(bed, rpm) * plain / (plain - residual))
+}
+
+/// To four decimals, so that the value that is printed is enough.
+fn rounded_up(value: f64) -> f64 {
+    (1e4 * value).ceil() / 1e4
+}
+
+/// To three decimals, so that the value that is printed is below.
+fn rounded_down(value: f64) -> f64 {
+    (1e3 * value).floor() / 1e3
 }
 
 /// The buffer with springs of the given stiffness, set for `rpm` > 0.
@@ -96,9 +107,11 @@ pub fn stiffness_for(residual: f64, bed: &Bed, cylinder: &Cylinder, rpm: f64) ->
 pub fn set_for(bed: &Bed, cylinder: &Cylinder, stiffness: f64, rpm: f64) -> Result<SpringBuffer, Refusal> {
     let least = least_stiffness(bed, rpm);
     if !(stiffness > least) {
-        let what =
-            format!("springs of {} N/mm are too soft, and the spring alone takes the whole stroke", stiffness * 1e-3);
-        let remedy = format!("give more than {} N/mm each, or a lower speed", least * 1e-3);
+        let what = format!(
+            "springs of {} N/mm are too soft, and the spring alone takes the whole stroke",
+            shown(stiffness * 1e-3)
+        );
+        let remedy = format!("give more than {} N/mm each, or a lower speed", rounded_up(least * 1e-3));
         return Err(Refusal::new(what).remedy(remedy));
     }
     let (k, r) = (cylinder.exponent, bed.crank_radius);
@@ -243,7 +256,7 @@ mod tests {
         let least = least_stiffness(&bed, 35.0);
         for stiffness in [least, 0.5 * least, 0.0, -1.0, f64::NAN] {
             let error = set_for(&bed, &cylinder, stiffness, 35.0).expect_err("too soft");
-            let remedy = format!("give more than {} N/mm each, or a lower speed", least * 1e-3);
+            let remedy = format!("give more than {} N/mm each, or a lower speed", rounded_up(least * 1e-3));
             assert!(remedy.contains("59.13") && error.remedy == Some(remedy), "{error}");
         }
         let soft = set_for(&bed, &cylinder, 0.9 * least, 25.0).expect("stiff enough for 25 rpm");
@@ -251,7 +264,7 @@ mod tests {
         let plain = plain_residual(&bed, &cylinder, 35.0).value;
         for residual in [0.0, -1.0, plain, 2.0 * plain, f64::NAN] {
             let error = stiffness_for(residual, &bed, &cylinder, 35.0).expect_err("not possible");
-            let remedy = format!("ask for one above 0 and below the {plain} N of a fixed bottom");
+            let remedy = format!("ask for one above 0 and below the {} N of a fixed bottom", rounded_down(plain));
             assert_eq!(error.remedy, Some(remedy));
         }
     }

@@ -3,6 +3,7 @@
 pub mod added_volume;
 pub mod air;
 pub(super) mod balanced;
+pub mod buckling;
 pub mod closing;
 pub mod column;
 pub mod compensator;
@@ -40,6 +41,7 @@ pub(super) const CHECKS: &[Added<&Check>] = &[
             &setting::CHECK,
             &spring_stress::CHECK,
             &surge::CHECK,
+            &buckling::CHECK,
         ],
     },
 ];

@@ -7,6 +7,7 @@ use crate::body::picture::RIGID;
 use crate::body::{Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Layer, Request, Surface, mirrored};
 use crate::check::Measures;
 use crate::domains::press::checks::balanced::of_balance;
+use crate::domains::press::checks::contact_life;
 use crate::domains::press::columns::{self, BalanceRow};
 use crate::domains::press::motion::{Reversal, ReversalState};
 use crate::domains::press::picture::not_modelled_of;
@@ -239,6 +240,7 @@ impl Body for Conoid {
             of.add(&cylinder_contact::CHECK, |written| cylinder_contact::measure(self, written.tolerance_mm, subject));
             of.add(&between_sections::CHECK, |_| between_sections::measure(self));
             of_balance(self, of, subject);
+            of.add(&contact_life::CHECK, |_| contact_life::measure(self.contact_stress(), self.touching(), subject));
         });
     }
 

@@ -159,7 +159,7 @@ impl Conoid {
     fn by_speed(&self, share: f64) -> Option<Weights> {
         let square = |rpm: &f64| match self.data.shift {
             Shift::Linear => *rpm,
-            Shift::Square => rpm * rpm,
+            Shift::Square | Shift::Variable => rpm * rpm,
         };
         let (first, last) = (self.speeds.first().map(square)?, self.speeds.last().map(square)?);
         let scale = share * last;

@@ -30,6 +30,7 @@ mod sheet;
 pub mod shift;
 mod strips;
 mod surface;
+mod wheel;
 mod worst;
 
 pub use missed::FollowerOnSection;
@@ -550,11 +551,11 @@ fn positions(data: &ConoidData, speeds: &[f64]) -> Result<Vec<f64>, Refusal> {
     Ok(positions)
 }
 
-/// z(n) between the slowest and the fastest speed.
+/// z(n) between the slowest and the fastest speed; v is that of the mass and the ambient pressure of the file.
 fn position(data: &ConoidData, (first, last): (f64, f64), rpm: f64) -> f64 {
     let share = match data.shift {
         Shift::Linear => (rpm - first) / (last - first),
-        Shift::Square => (rpm - first) * (rpm + first) / ((last - first) * (last + first)),
+        Shift::Square | Shift::Variable => (rpm - first) * (rpm + first) / ((last - first) * (last + first)),
     };
     data.axial_travel * share
 }

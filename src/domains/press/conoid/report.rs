@@ -1,11 +1,13 @@
 //! What a conoid contributes to its report.
 
-use super::Conoid;
 use super::between::Residual;
+use super::{Conoid, wheel};
 use crate::body::part::{Part, bore};
 use crate::body::{DrawingEvidence, flank_of};
 use crate::domains::press::balance::reversal_of_bed;
+use crate::domains::press::machine::{PressCams, Shift};
 use crate::domains::press::motion::Reversal;
+use crate::domains::press::scatter::other_cams;
 use crate::geometry::MILLIMETRES;
 use crate::numeric::parallel;
 use crate::report::sheet::rounded;
@@ -53,6 +55,9 @@ struct ConoidMeasures {
 #[derive(Debug, Serialize)]
 struct SectionMeasures {
     rpm: f64,
+    /// v of the section, where the shift follows it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    v: Option<f64>,
     z_mm: f64,
     column_length_mm: f64,
     start_slope: f64,
@@ -122,6 +127,11 @@ pub(super) fn sections(conoid: &Conoid, found: &DrawingEvidence<'_>) -> Vec<Sect
         Section::new("outline", &outlines),
         Section::new("force", &Forces::new(conoid, left)),
     ]);
+    sections.extend(wheel::section(conoid));
+    let laws: Vec<_> =
+        conoid.speeds.iter().zip(&conoid.sections).map(|(rpm, of)| (*rpm, of.law().bottom_law.of_yoke())).collect();
+    let sampling = PressCams::of(&conoid.machine).scatter;
+    sections.extend(other_cams::of_conoid(&sampling, &conoid.cylinder, conoid.data.shift, &laws));
     sections
 }
 
@@ -131,6 +141,7 @@ impl SectionMeasures {
         let (dx_max_at_x, dx_max) = law.largest_displacement();
         Self {
             rpm,
+            v: (conoid.data.shift == Shift::Variable).then(|| wheel::variable(conoid, rpm)),
             z_mm: MILLIMETRES * z,
             column_length_mm: MILLIMETRES * law.column(),
             start_slope: law.start_slope(),
@@ -146,8 +157,9 @@ impl SectionMeasures {
 
     fn words(&self) -> String {
         let arcs = self.arcs.map_or(String::new(), |arcs| format!(", {arcs} arcs"));
+        let variable = self.v.map_or(String::new(), |v| format!("v {}, ", shown(v)));
         format!(
-            "{:>6} rpm  z {:.3} mm, column {:.3} mm, slope at the start {:.4}, Δx {:.3} mm at x = {:.2} mm{arcs}",
+            "{:>6} rpm  {variable}z {:.3} mm, column {:.3} mm, slope at the start {:.4}, Δx {:.3} mm at x = {:.2} mm{arcs}",
             shown(self.rpm),
             self.z_mm,
             self.column_length_mm,

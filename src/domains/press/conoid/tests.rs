@@ -231,3 +231,46 @@ fn strips_are_the_sum_of_all_sections() {
 
 /// Sizes that the lift of this press and its derivatives reach, m.
 const LARGEST: [f64; 4] = [0.1, 0.3, 0.5, 5.0];
+
+/// A heavier forme in thin air at another speed is the section of its v: by the gas law itself, with the air of that press.
+#[test]
+fn one_place_along_the_axis_for_speed_forme_and_weather() {
+    let cam = conoid(&[20.0, 25.0, 30.0, 35.0], &["conoid.shift=v"]);
+    let square = conoid(&[20.0, 25.0, 30.0, 35.0], &["conoid.shift=square"]);
+    assert_eq!(cam.positions, square.positions);
+    for (section, rpm) in cam.sections.iter().zip([20.0_f64, 25.0, 30.0, 35.0]) {
+        let law = section.law().bottom_law;
+        for (mass, ambient) in [(1.0, 1.0), (1.2, 1.0), (0.9, 0.93), (1.1, 1.05)] {
+            // The speed at which this forme in this weather has the v of the section.
+            let n = rpm * libm::sqrt(ambient / mass);
+            let p0 = ambient * cam.press.ambient_pressure;
+            let omega = cam.press.bed.crank_speed(n);
+            for degrees in [5.0_f64, 30.0, 60.0, 90.0] {
+                let x = 0.18 * libm::sin(degrees.to_radians());
+                let inertia = mass * cam.press.bed.mass * omega * omega * x;
+                let bottom = law.displacement(degrees.to_radians());
+                let air = p0 * (libm::pow(law.column() / (law.column() - x - bottom), 1.35) - 1.0);
+                let left = inertia - 2.0 * cam.cylinder.piston_area * air;
+                assert!(left.abs() < 1e-9 * inertia, "{rpm} rpm, {mass}, {ambient}: {left} of {inertia}");
+            }
+        }
+    }
+    let told = wheel::section(&cam).expect("a wheel");
+    let (first, last) = (&told.value["settings"][0], &told.value["settings"][12]);
+    assert_eq!((first["z_mm"].as_f64(), last["z_mm"].as_f64()), (Some(0.0), Some(120.0)));
+    assert!((first["v"].as_f64().expect("v") - 16.0 / 49.0).abs() < 1e-15);
+    assert!((last["mass_kg"].as_f64().expect("a mass") - 978.2).abs() < 1e-9);
+    assert!(wheel::section(&square).is_none());
+}
+
+/// A sphere touches in a point: the pressure of the default conoid would be the end of a line contact, and is a warning here.
+#[test]
+fn the_life_of_a_point_contact_is_a_warning() {
+    let sets = ["cam.hardness=600".to_owned()];
+    let machine = Machine::load("dpi", &sets).expect("valid").0;
+    let spec = crate::Spec::conoid(machine, vec![20.0, 25.0, 30.0, 35.0], None);
+    let proven = spec.solve().and_then(|cam| cam.draw(50e-6)?.prove()).expect("proven");
+    let found = proven.findings().iter().find(|found| found.check == "contact_life").expect("a check");
+    assert_eq!(found.verdict, crate::report::Verdict::Warn);
+    assert!((found.value - 4.18).abs() < 0.01, "{found:?}");
+}

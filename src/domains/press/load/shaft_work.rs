@@ -61,10 +61,10 @@ pub struct ShaftWork {
 
 impl ShaftWork {
     /// The work on a follower with this preload (N) and mass (kg) on its path, on a cam that turns at this speed (rad/s). `None` for a
-    /// bed that is not moved by a yoke: where its motion is not symmetric, work is left over at the end of the turn.
+    /// bed that is not moved by a yoke, and for air with a loop: work is left over at the end of the turn.
     #[must_use]
     pub fn new(cylinder: Cylinder, reversal: Arc<Reversal>, preload: f64, mass: f64, speed: f64) -> Option<Self> {
-        let law = *reversal.law().bottom_law.of_yoke()?;
+        let law = *reversal.law().bottom_law.of_yoke().filter(|law| law.level.is_none())?;
         let inertia = mass * speed * speed;
         let (divided, shown) = divided(&reversal);
         let idle = preload == 0.0 && inertia == 0.0;

@@ -1,6 +1,6 @@
 //! The air buffer: cylinder, column, and the speed it is sized for.
 
-use super::losses::{EXPANSION_EXPONENT, LEAK, PISTON_FRICTION};
+use super::losses::{BALANCE, EXPANSION_EXPONENT, ExpansionBalance, LEAK, PISTON_FRICTION};
 use super::press::{AirColumn, DRIVE, PRESS, Press};
 use crate::document::Presence::{Default, Required, RequiredUnless};
 use crate::document::range::{HIGHEST_PRESSURE, LARGEST_NUMBER, LEAST_RPM, LONGEST, THINNEST, TURNS_FORWARD};
@@ -62,6 +62,7 @@ pub(super) const SECTION: KeySection = KeySection {
         COLUMN.key,
         LEAD.key,
         EXPANSION_EXPONENT.key,
+        BALANCE.key,
         LEAK.key,
         PISTON_FRICTION.key,
     ],
@@ -100,16 +101,24 @@ pub(super) fn read(reader: &Reader<'_>, bed: Option<Bed>) -> Option<Press> {
         let help = format!("a lead of {lead:e} m turns the cam by less than a file can resolve; write \"0 mm\"");
         table.fail(&LEAD, message, Some(help));
     }
+    let levels = table.get(&BALANCE) == Some(ExpansionBalance::Level);
+    if levels && table.get(&LEAD).is_some_and(|lead| lead > 0.0) {
+        let message = "buffer.balance = \"level\" has a lead of its own, and `buffer.lead` is given";
+        let help = "leave out buffer.lead: the report shows how early the port shuts";
+        table.fail(&LEAD, message.into(), Some(help.into()));
+    }
+    let exponent = table.get(&POLYTROPIC_EXPONENT);
     Some(Press {
         bed: bed?,
         linkage: None,
         stroke_end: None,
-        polytropic_exponent: table.get(&POLYTROPIC_EXPONENT)?,
+        polytropic_exponent: exponent?,
         ambient_pressure: table.get(&AMBIENT_PRESSURE)?,
         end_pressure: table.get(&END_PRESSURE)?,
         column: table.get(&COLUMN)?,
         lead: table.get(&LEAD)?,
         design_rpm: reader.table(&DESIGN).get(&RPM)?,
         compensated_train: None,
+        levelled: if levels { table.get(&EXPANSION_EXPONENT).or(exponent) } else { None },
     })
 }

@@ -9,14 +9,14 @@ use super::transition;
 use super::translating::{self, TranslatingData};
 use super::{bed, buffer};
 use crate::document::Presence::{Default, Optional};
-use crate::document::range::{LARGEST_NUMBER, LONGEST};
+use crate::document::range::{LARGEST_FORCE, LARGEST_NUMBER, LONGEST};
 use crate::document::{Field, KeySection, Occurrence, Reader, TableReader, above, within};
 use crate::domains::press::cams::{CONOID, OF_A_COLUMN, OF_A_PRESS, REGIMES, ROTARY};
 use crate::domains::press::motion::Transition;
 use crate::domains::press::scatter::losses::Losses;
 use crate::domains::press::scatter::monte_carlo::{CUSTOMARY, Sampling};
 use crate::machine::Machine;
-use crate::units::Dimension::Length;
+use crate::units::Dimension::{Force, Length};
 
 /// The cams of a press.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +33,8 @@ pub struct PressCams {
     pub conoid: Option<ConoidData>,
     /// The compensating cam, when described.
     pub compensator: Option<CompensatorData>,
+    /// Speeds for which the preload of the compensating cam is reported, rpm; none where the report chooses them.
+    pub compensator_speeds: Vec<f64>,
     /// Other speeds.
     pub regimes: RegimesData,
     /// Stiffness of springs under the bottoms, N/m.
@@ -41,6 +43,8 @@ pub struct PressCams {
     pub hardness: Option<f64>,
     /// Least turns before it pits.
     pub life: Option<f64>,
+    /// Dynamic load rating C of the roller, N.
+    pub load_rating: Option<f64>,
     /// The springs themselves, when described.
     pub spring_body: Option<SpringBodyData>,
     /// What the press loses in a reversal.
@@ -61,10 +65,12 @@ static WITHOUT_PRESS: PressCams = PressCams {
     translating: None,
     conoid: None,
     compensator: None,
+    compensator_speeds: Vec::new(),
     regimes: RegimesData { speeds: Vec::new(), reset: None },
     spring_stiffness: None,
     hardness: None,
     life: None,
+    load_rating: None,
     spring_body: None,
     losses: Losses::NONE,
     scatter: CUSTOMARY,
@@ -108,14 +114,14 @@ const HARDNESS: Field<f64> = Field::number(
     Optional("600"),
     within(100.0, 1000.0),
 )
-.only(&[ROTARY]);
+.only(&[ROTARY, CONOID]);
 const LIFE: Field<f64> = Field::number(
     "life",
     "least turns of the cam before its surface pits, 1e4 to 1e10; for the check contact_life",
     Optional("1e9"),
     within(1e4, 1e10),
 )
-.only(&[ROTARY]);
+.only(&[ROTARY, CONOID]);
 
 const COLUMN: Field<f64> = Field::quantity(
     "column",
@@ -133,6 +139,24 @@ pub(super) const CAM: KeySection = KeySection {
     occurs: Occurrence::Once,
     cams: &[],
     keys: &[TURNS.key, LEVER.key, TRAIN_STIFFNESS.key, losses::COMPENSATE_TRAIN.key, PLAY.key, HARDNESS.key],
+};
+
+const LOAD_RATING: Field<f64> = Field::quantity(
+    "load_rating",
+    "dynamic load rating C of the roller, of its catalogue: for its life (ISO 281)",
+    Optional("100 kN"),
+    Force,
+    above(0.0, LARGEST_FORCE),
+)
+.only(&[ROTARY]);
+
+/// The key that is added to `[follower.roller]`.
+pub(super) const ROLLER: KeySection = KeySection {
+    path: "follower.roller",
+    about: "",
+    occurs: Occurrence::Optional,
+    cams: &[],
+    keys: &[LOAD_RATING.key],
 };
 
 /// The keys that are added to `[limits]`.
@@ -157,10 +181,12 @@ pub(super) fn read(reader: &Reader<'_>, roller_radius: Option<f64>) -> Option<Pr
         translating,
         conoid,
         compensator: compensator::read(reader),
+        compensator_speeds: compensator::speeds(reader),
         regimes,
         spring_stiffness,
         hardness: table.get(&HARDNESS),
         life: reader.table(&LIMITS).get(&LIFE),
+        load_rating: reader.find(&ROLLER).and_then(|table| table.get(&LOAD_RATING)),
         spring_body: settings::read_body(reader),
         losses: read_losses(reader),
         scatter: scatter?,

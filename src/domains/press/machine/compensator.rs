@@ -1,7 +1,7 @@
 //! The compensating cam: a second disc on the camshaft whose spring takes the torque of the first.
 
 use crate::document::Presence::{Default, Optional, Required};
-use crate::document::range::{HEAVIEST, LARGEST_FORCE, LONGEST, STIFFEST};
+use crate::document::range::{HEAVIEST, LARGEST_FORCE, LARGEST_NUMBER, LEAST_RPM, LONGEST, STIFFEST};
 use crate::document::{Field, Key, KeySection, Occurrence, Reader, above, within};
 use crate::domains::press::cams::ROTARY;
 use crate::follower::{Crown, RollerData, TranslatingRoller};
@@ -64,6 +64,18 @@ const MASS: Field<f64> = Field::quantity(
     above(0.0, HEAVIEST),
 );
 
+const SPEEDS: Field<Vec<f64>> = Field::numbers(
+    "rpm",
+    "speeds of the main shaft for which the report has the preload; 4/7, 5/7 and 6/7 of that of the cam when absent",
+    Optional("[20, 25, 30]"),
+    within(LEAST_RPM, LARGEST_NUMBER),
+);
+
+/// The speeds for which preloads are reported, rpm.
+pub(super) fn speeds(reader: &Reader<'_>) -> Vec<f64> {
+    reader.find(&SECTION).and_then(|table| table.get(&SPEEDS)).unwrap_or_default()
+}
+
 /// `[compensator]`.
 pub(super) const SECTION: KeySection = KeySection {
     path: "compensator",
@@ -79,6 +91,7 @@ pub(super) const SECTION: KeySection = KeySection {
         BASE_DIAMETER,
         ANGLE.key,
         MASS.key,
+        SPEEDS.key,
     ],
 };
 

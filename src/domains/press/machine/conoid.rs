@@ -22,6 +22,8 @@ pub enum Shift {
     Linear,
     /// z linear in n².
     Square,
+    /// z linear in v = (n/n_c)² (m/m_c)/(p0/p0_c): a hand wheel for speed, forme and weather.
+    Variable,
 }
 
 /// The cam for many speeds.
@@ -53,10 +55,10 @@ const MODE: Field<ConoidMode> = Field::words(
 );
 const SHIFT: Field<Shift> = Field::words(
     "shift",
-    "axial shift in n (\"linear\") or n² (\"square\")",
+    "axial shift in n (\"linear\"), n² (\"square\"), or v = (n/n_c)² (m/m_c)/(p0/p0_c) (\"v\"): a hand wheel for speed, forme and weather",
     Default("linear"),
-    &["linear", "square"],
-    &[Shift::Linear, Shift::Square],
+    &["linear", "square", "v"],
+    &[Shift::Linear, Shift::Square, Shift::Variable],
 );
 const OVERHANG: Field<Option<f64>> = Field::words_or_quantity(
     "overhang",

@@ -52,6 +52,7 @@ pub(super) const SECTIONS: &[Added<&KeySection>] = &[
         ],
     },
     Added { after: "limits", entries: &[&cams::LIMITS] },
+    Added { after: "follower.roller", entries: &[&cams::ROLLER] },
 ];
 
 /// Where the forces of the plate of a machine balance: as its file says, else while the bed is braked.

@@ -4,6 +4,7 @@ use crate::domains::press::bed_motion::{End, Linkage, StrokeEnd};
 use crate::domains::press::buffer::bottom_law::{BottomLaw, ColumnRule};
 use crate::domains::press::buffer::crank_law::{self, CrankLaw, LinkageLaw};
 use crate::domains::press::buffer::{Bed, Cylinder, camshaft};
+use crate::domains::press::scatter::error::ScatterError;
 use crate::refusal::Refusal;
 
 /// The tables that describe a press together.
@@ -70,6 +71,8 @@ pub struct Press {
     pub design_rpm: f64,
     /// Stiffness of the train that the cam is cut for, N/m.
     pub compensated_train: Option<f64>,
+    /// Exponent of the air on its way back, where the rotary cam is to level both ways.
+    pub levelled: Option<f64>,
 }
 
 /// That what there is for a yoke only, with its verb, cannot be had under a linkage, with the reason.
@@ -112,7 +115,35 @@ impl Press {
     /// The law of the bottom at a speed of the main shaft, rpm.
     #[must_use]
     pub fn bottom_law(&self, rpm: f64) -> CrankLaw {
-        let column = match (self.column, &self.stroke_end) {
+        self.with_column(rpm, self.column_rule(rpm))
+    }
+
+    /// The law of the rotary cam at a speed of the main shaft, rpm: that of the bottom, or the one that levels both ways of a loop of the air.
+    ///
+    /// # Errors
+    /// [`Refusal`] where both ways are to be levelled and there is no loop, or a linkage moves the bed.
+    pub fn rotary_law(&self, rpm: f64) -> Result<CrankLaw, Refusal> {
+        let Some(expansion) = self.levelled else { return Ok(self.bottom_law(rpm)) };
+        if self.stroke_end.is_some() {
+            let why = "the bed comes to one place with two forces, and its two ways have no common bottom";
+            return Err(only_under_a_yoke("buffer.balance = \"level\" is solved", why));
+        }
+        if self.compensated_train.is_some() {
+            let what = "a cam is cut for its train (cam.compensate_train) where both directions of the bed have one force, and with \
+                        buffer.balance = \"level\" each has its own";
+            return Err(Refusal::new(what).remedy("leave one of the two out"));
+        }
+        let (compression, loading) = (self.polytropic_exponent, self.cylinder().loading(rpm));
+        if expansion < compression {
+            return Err(ScatterError::ExpansionBelowCompression { expansion, compression }.into());
+        }
+        let law = BottomLaw::level(loading, self.bed.crank_radius, self.column_rule(rpm), [compression, expansion]);
+        Ok(law.ok_or(ScatterError::NoLead { compression, expansion })?.into())
+    }
+
+    /// The rule for the column, one of the least torque as a length.
+    fn column_rule(&self, rpm: f64) -> ColumnRule {
+        match (self.column, &self.stroke_end) {
             (AirColumn::Of(ColumnRule::Matched), None) if self.compensated_train.is_some() => {
                 // The bottom gives way by a x, so that the law as cut starts with slope 0 at L = (1 − a) k/A.
                 let matched = self.polytropic_exponent / self.cylinder().loading(rpm);
@@ -126,8 +157,7 @@ impl Press {
                     Some(end) => crank_law::least_torque_column(loading, k, end),
                 })
             }
-        };
-        self.with_column(rpm, column)
+        }
     }
 
     /// The law with another air column.

@@ -2,7 +2,7 @@
 
 use crate::document::Presence::Default;
 use crate::document::{Bounds, Field, KeySection, Occurrence, Reader, TableReader, within};
-use crate::domains::press::cams::{ROTARY, SCATTER};
+use crate::domains::press::cams::{CONOID, ROTARY, SCATTER, TRANSLATING};
 use crate::domains::press::scatter::monte_carlo::{CUSTOMARY, Distribution, Sampling};
 use crate::domains::press::scatter::reset::ScrewRule;
 use crate::units::Dimension::{Angle, Length};
@@ -82,7 +82,7 @@ pub(super) const SECTION: KeySection = KeySection {
     path: "scatter",
     about: "how far presses differ from the one the cam is cut for: half widths",
     occurs: Occurrence::Optional,
-    cams: &[ROTARY, SCATTER],
+    cams: &[ROTARY, TRANSLATING, CONOID, SCATTER],
     keys: &[
         EXPONENT.key,
         AMBIENT.key,

@@ -70,12 +70,12 @@ const STRESS: Field<f64> = Field::quantity(
     Pressure,
     above(0.0, HIGHEST_STRESS),
 );
-const WIRE: Field<f64> = Field::quantity(
+const WIRE: Field<Option<f64>> = Field::words_or_quantity(
     "wire",
-    "diameter of the wire, with coil in the place of index",
+    "diameter of the wire, with coil in the place of index; or \"standard\", the thinnest standard wire that keeps the stress",
     Optional("18 mm"),
-    Length,
-    above(0.0, LONGEST),
+    (&["standard"], &[None]),
+    (Length, above(0.0, LONGEST), Some),
 );
 const COIL: Field<f64> =
     Field::quantity("coil", "mean diameter of the coils", Optional("108 mm"), Length, above(0.0, LONGEST));
@@ -104,16 +104,22 @@ pub(super) fn read_body(reader: &Reader<'_>) -> Option<SpringBodyData> {
     let (wire, coil) = (table.get(&WIRE), table.get(&COIL));
     let shape = match (wire, coil) {
         (None, None) => SpringShape::Index(table.get(&INDEX)?),
-        (Some(wire), Some(coil)) if coil >= 2.0 * wire => SpringShape::Wire { wire, coil },
+        (Some(None), None) => SpringShape::Standard(table.get(&INDEX)?),
+        (Some(None), Some(coil)) => SpringShape::StandardFor(coil),
+        (Some(Some(wire)), Some(coil)) if coil >= 2.0 * wire => SpringShape::Wire { wire, coil },
         (Some(_), Some(_)) => {
             let message = "the coils must be at least twice as wide as the wire is thick".to_owned();
             table.fail(&COIL, message, Some("give the mean diameter, 4 to 12 times that of the wire".into()));
             return None;
         }
         (wire, _) => {
-            let (given, lacks) = if wire.is_some() { (&WIRE, "coil") } else { (&COIL, "wire") };
-            let message = format!("`spring_buffer.body.{}` is given without `{lacks}`", given.key.name);
-            table.fail(given, message, Some("give both, or neither: then the index finds the wire".into()));
+            let help = Some("give both, or neither: then the index finds the wire".into());
+            let without = |given: &str, lacks: &str| format!("`spring_buffer.body.{given}` is given without `{lacks}`");
+            if wire.is_some() {
+                table.fail(&WIRE, without("wire", "coil"), help);
+            } else {
+                table.fail(&COIL, without("coil", "wire"), help);
+            }
             return None;
         }
     };

@@ -286,7 +286,7 @@ impl Reversal {
         }
         let own = if part.shape == LobeShape::Reversal { 0.0 } else { displacement() - law.displacement(crank) };
         let [overrun, deceleration] = law.bed(crank);
-        Some((overrun, [deceleration, law.pressure_ratio_off(deceleration, own + off)]))
+        Some((overrun, [deceleration, law.pressure_ratio_off(crank, deceleration, own + off)]))
     }
 
     /// The crank angle of the braking or returning half at an angle of a piece, rad; below 0 before the reversal.
@@ -348,7 +348,7 @@ impl Reversal {
     #[must_use]
     pub fn ends_of_run_ups(&self) -> Vec<[f64; 2]> {
         match &self.law.bottom_law {
-            CrankLaw::Yoke(law) if law.lead > 0.0 => vec![[-law.stroke, 0.0]],
+            CrankLaw::Yoke(law) if law.retreat() > 0.0 => vec![[-law.stroke, 0.0]],
             CrankLaw::Yoke(law) => {
                 let start = law.bottom(0.0, law.stroke);
                 vec![[start.slope * law.stroke, start.second * law.stroke * law.stroke]]
@@ -378,7 +378,7 @@ impl Reversal {
     #[must_use]
     pub fn velocity_jump(&self) -> (f64, bool) {
         let law = &self.law.bottom_law;
-        let leads = law.lead() > 0.0;
+        let leads = law.retreats();
         if !leads && self.law.transition != Transition::None {
             return (0.0, false);
         }

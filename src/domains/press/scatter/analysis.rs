@@ -31,7 +31,7 @@ pub const KIND: Kind = Kind { command: "scatter", noun: "scatter of a press", ke
 /// A press with the cam that is cut for a speed.
 pub(super) fn cam_of(machine: &Machine, rpm: f64) -> Result<(FrozenBuffer, Cylinder), Refusal> {
     let press = machine.press()?;
-    let (law, cylinder) = (press.bottom_law(rpm), press.cylinder());
+    let (law, cylinder) = (press.rotary_law(rpm)?, press.cylinder());
     let law = law.of_yoke().ok_or_else(|| {
         only_under_a_yoke(
             "the scatter is found",
@@ -106,7 +106,7 @@ fn fault_of(cam: &FrozenBuffer, typed: &TypedFault, cylinder: &Cylinder) -> Resu
 }
 
 /// What a reversal with losses leaves.
-fn lost_in(reversal: &LossyReversal) -> LossReport {
+pub(in crate::domains::press) fn lost_in(reversal: &LossyReversal) -> LossReport {
     let ([on_way_in, back], half_loop) =
         ([BedWay::In, BedWay::Back].map(|way| reversal.worst(way)), reversal.largest_half_loop());
     LossReport {

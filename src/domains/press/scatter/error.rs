@@ -33,6 +33,17 @@ pub enum ScatterError {
         /// κ1.
         compression: f64,
     },
+    /// The loop of the air has no width: the length of the air at the start of the reversal is not below that where the port shuts.
+    #[error(
+        "no lead for this loop: the air expands on the exponent {expansion} and is compressed on {compression}, and buffer.balance = \"level\" has \
+         nothing to halve"
+    )]
+    NoLead {
+        /// κ1.
+        compression: f64,
+        /// κ2.
+        expansion: f64,
+    },
     /// The train gives way faster than the bed comes: c_t ≤ m ω².
     #[error("train too soft: its {stiffness} N/m do not exceed the {needed:.0} N/m of the bed, m ω²")]
     TrainTooSoft {
@@ -51,6 +62,11 @@ impl From<ScatterError> for Refusal {
             }
             ScatterError::ExpansionBelowCompression { compression, .. } => {
                 return Self::of(why).remedy(format!("give a buffer.expansion_exponent of {compression} or more"));
+            }
+            ScatterError::NoLead { compression, .. } => {
+                return Self::of(why).remedy(format!(
+                    "give a buffer.expansion_exponent above {compression}, or buffer.balance = \"braking\": against friction and leak alone that law leaves least already"
+                ));
             }
             ScatterError::TrainTooSoft { .. } => {
                 "give a stiffer cam.train_stiffness: that at the bottoms of both cylinders"

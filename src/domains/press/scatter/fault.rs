@@ -12,6 +12,7 @@
 use super::error::ScatterError;
 use crate::domains::press::buffer::Cylinder;
 use crate::domains::press::buffer::bottom_law::{BottomLaw, column_for};
+use crate::domains::press::buffer::level_air::LevelAir;
 use crate::numeric::extremum::{self, Extremum};
 use crate::numeric::root;
 use std::f64::consts::FRAC_PI_2;
@@ -73,6 +74,8 @@ pub struct FrozenBuffer {
     pub loading: f64,
     /// r, m.
     pub stroke: f64,
+    /// Air with a loop that the cam levels. Forces are then the mean of both ways: the half of their difference no screw can change.
+    pub level: Option<LevelAir>,
 }
 
 impl FrozenBuffer {
@@ -85,13 +88,14 @@ impl FrozenBuffer {
             column: law.column,
             loading: law.loading,
             stroke: law.stroke,
+            level: law.level,
         }
     }
 
     /// The same cylinder with a fixed bottom, its column by (7).
     #[must_use]
     pub fn with_fixed_bottom(&self) -> Self {
-        Self { column: column_for(self.stroke, self.end_load(), self.exponent), ..*self }
+        Self { column: column_for(self.stroke, self.end_load(), self.exponent), level: None, ..*self }
     }
 
     /// `u_r` = A r.
@@ -103,13 +107,39 @@ impl FrozenBuffer {
     /// w of a cam at a load u.
     #[must_use]
     pub fn length(&self, load: f64) -> f64 {
-        libm::exp(-libm::log1p(load) / self.exponent)
+        match &self.level {
+            Some(air) => air.length(load),
+            None => libm::exp(-libm::log1p(load) / self.exponent),
+        }
+    }
+
+    /// −dw/du of a cam at a load u.
+    #[must_use]
+    pub fn fall(&self, load: f64) -> f64 {
+        match &self.level {
+            Some(air) => -air.derivatives(load)[1],
+            None => self.length(load) / (self.exponent * (1.0 + load)),
+        }
     }
 
     /// `w_r`, of a cam and of the fixed bottom.
     #[must_use]
     pub fn end_length(&self) -> f64 {
-        self.length(self.end_load())
+        libm::exp(-libm::log1p(self.end_load()) / self.exponent)
+    }
+
+    /// Exponent of the air on its way back in a machine that differs, where the cam levels a loop: never below that of the way in.
+    fn expansion(air: &LevelAir, fault: &Fault) -> f64 {
+        air.expansion.max(fault.exponent)
+    }
+
+    /// Pressures in and back over the ambient one, each with its slope by the length w, where the air has the length L (w + t).
+    fn ways(&self, air: &LevelAir, fault: &Fault, length: f64) -> [[f64; 2]; 2] {
+        let ([s, t], kappa, expansion) = (self.air(fault), fault.exponent, Self::expansion(air, fault));
+        let at = |length: f64| fault.closing * libm::exp(kappa * libm::log(s / (length + t)));
+        let (end, length) = (self.end_length() + t, length + t);
+        let (on_way_in, back) = (at(length - t), at(end - t) * libm::exp(expansion * libm::log(end / length)));
+        [[on_way_in, -kappa * on_way_in / length], [back, -expansion * back / length]]
     }
 
     /// u of a cam where the air has the length L w.
@@ -127,7 +157,13 @@ impl FrozenBuffer {
     #[must_use]
     pub fn residual(&self, fault: &Fault, load: f64, length: f64) -> f64 {
         let [s, t] = self.air(fault);
-        let pressure = fault.closing * libm::exp(fault.exponent * libm::log(s / (length + t)));
+        let pressure = match &self.level {
+            Some(air) => {
+                let [[on_way_in, _], [back, _]] = self.ways(air, fault, length);
+                0.5 * (on_way_in + back)
+            }
+            None => fault.closing * libm::exp(fault.exponent * libm::log(s / (length + t))),
+        };
         self.unit_force * (fault.square * load - fault.ambient * (pressure - 1.0))
     }
 
@@ -135,6 +171,11 @@ impl FrozenBuffer {
     /// of the bed (N) both ways.
     #[must_use]
     pub fn largest_at(&self, fault: &Fault, at: &[Station], friction: f64) -> f64 {
+        if self.level.is_some() {
+            let phase = |station: &Station| (self.unit_force * fault.phase * station.phase - friction).abs();
+            let size = |at: &Station| self.residual(fault, at.load, at.length).abs() + phase(at);
+            return at.iter().map(size).fold(0.0, f64::max);
+        }
         let friction = friction / self.unit_force;
         let [s, t] = self.air(fault);
         let (log_s, weight) = (libm::log(s), fault.ambient * fault.closing);
@@ -165,6 +206,9 @@ impl FrozenBuffer {
     /// When the column is used up.
     pub fn extremes(&self, fault: &Fault) -> Result<[Extremum; 2], ScatterError> {
         self.fits(fault)?;
+        if self.level.is_some() {
+            return Ok(self.extremes_of_mean(fault));
+        }
         let ([s, t], k, kappa) = (self.air(fault), self.exponent, fault.exponent);
         let scale = fault.ambient * fault.closing * kappa / (k * fault.square);
         let level = libm::log(scale) + kappa * libm::log(s);
@@ -189,6 +233,18 @@ impl FrozenBuffer {
             [least, .., largest] => Ok([least, largest]),
             _ => Err(ScatterError::ColumnUsedUp { short_mm: 0.0 }),
         }
+    }
+
+    /// Least and largest mean of both ways, by a search over the crank.
+    fn extremes_of_mean(&self, fault: &Fault) -> [Extremum; 2] {
+        let of = |sign: f64| {
+            let load = |at: f64| if at == FRAC_PI_2 { self.end_load() } else { self.end_load() * libm::sin(at) };
+            let value = |at: f64| sign * self.residual(fault, load(at), self.length(load(at)));
+            let slope = |at: f64| sign * self.slope(fault, load(at)) * self.end_load() * libm::cos(at);
+            let found = extremum::largest(value, slope, (0.0, FRAC_PI_2), CELLS);
+            Extremum { at: self.stroke * libm::sin(found.at), value: sign * found.value }
+        };
+        [of(-1.0), of(1.0)]
     }
 
     /// The residual force of a cam of largest size, N, signed, with the overrun x, m, and the phase error in the worse direction.
@@ -220,8 +276,12 @@ impl FrozenBuffer {
     /// dr/du, N.
     fn slope(&self, fault: &Fault, load: f64) -> f64 {
         let ([s, t], w) = (self.air(fault), self.length(load));
+        if let Some(air) = &self.level {
+            let [[_, on_way_in], [_, back]] = self.ways(air, fault, w);
+            return self.unit_force * (fault.square + 0.5 * fault.ambient * (on_way_in + back) * self.fall(load));
+        }
         let pressure = fault.closing * libm::exp(fault.exponent * libm::log(s / (w + t)));
-        let fall = w / (self.exponent * (1.0 + load));
+        let fall = self.fall(load);
         self.unit_force * (fault.square - fault.ambient * pressure * fault.exponent * fall / (w + t))
     }
 
@@ -232,6 +292,13 @@ impl FrozenBuffer {
         let (k, (sin, cos)) = (self.exponent, (libm::sin(angle), libm::cos(angle)));
         let power = 1.0 + 1.0 / k;
         let load = self.end_load() * sin;
+        if let Some(air) = &self.level {
+            // The mean of both ways: −dP/dw = 2 (1 + u)'/w', which is −1/w' of the mean.
+            let [_, first, second, ..] = air.derivatives(load);
+            let (grown, growth) = (-1.0 / first - self.column * self.loading, second / (first * first));
+            let scale = self.unit_force * self.stroke / self.column;
+            return [scale * cos * grown, scale * (cos * cos * growth * self.end_load() - sin * grown)];
+        }
         let grown = libm::exp(power * libm::log1p(load)) - self.column * self.loading / k;
         let scale = self.unit_force * k * self.stroke / self.column;
         let growth = power * libm::exp((power - 1.0) * libm::log1p(load)) * self.end_load() * cos;

@@ -277,7 +277,7 @@ impl LossyReversal {
         let cam = &self.cam;
         let power = |way: BedWay, angle: f64| {
             let load = self.load(angle);
-            let fall = cam.length(load) / (cam.exponent * (1.0 + load)) * cam.end_load() * libm::cos(angle);
+            let fall = cam.fall(load) * cam.end_load() * libm::cos(angle);
             (self.pressure(way, angle) - 1.0) * fall
         };
         let step = FRAC_PI_2 / f64::from(STEPS);

@@ -7,6 +7,7 @@ pub mod fault;
 pub mod losses;
 pub mod monte_carlo;
 pub mod normal;
+pub mod other_cams;
 pub mod parameter;
 mod plot;
 pub mod propagation;

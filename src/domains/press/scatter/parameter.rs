@@ -1,6 +1,7 @@
 //! What differs from machine to machine: ten parameters, their customary half widths, and their effect on the residual force.
 
 use super::fault::{Fault, FrozenBuffer, Station};
+use crate::domains::press::buffer::level_air::LevelAir;
 use crate::geometry::MILLIMETRES;
 use std::f64::consts::PI;
 
@@ -133,6 +134,9 @@ impl Parameter {
     /// The change of the residual force of any buffer, N, for one of it in SI, to first order, at a place of the way in.
     #[must_use]
     pub fn effect(self, buffer: &FrozenBuffer, at: &Station) -> f64 {
+        if let Some(air) = &buffer.level {
+            return self.effect_on_mean(buffer, air, at);
+        }
         let (u, k, log) = (buffer.unit_force, buffer.exponent, libm::log(at.length));
         let pressure = libm::exp(-k * log);
         match self {
@@ -144,6 +148,26 @@ impl Parameter {
             Self::Lead => -u * k * pressure / (at.length * buffer.column),
             Self::AirLost => u * k * pressure,
             Self::Closing => -u * pressure,
+            Self::Phase => u * at.phase,
+        }
+    }
+
+    /// The change of the mean of both ways under a cam that levels them: ln P̂ of the way back is κ1 ln(s/(w_r + t)) + κ2 ln((w_r + t)/(w + t)).
+    fn effect_on_mean(self, buffer: &FrozenBuffer, air: &LevelAir, at: &Station) -> f64 {
+        let (u, [on_way_in, back], end) = (buffer.unit_force, air.pressures(at.length), buffer.end_length());
+        let (k, back_k) = (air.compression, air.expansion);
+        // −d ln P̂/dt of both ways.
+        let shorter = [k / at.length, (k - back_k) / end + back_k / at.length];
+        let mean = |of_in: f64, of_back: f64| 0.5 * u * (on_way_in * of_in + back * of_back);
+        match self {
+            Self::Exponent => mean(libm::log(at.length), libm::log(end)),
+            Self::Ambient => -u * (0.5 * (on_way_in + back) - 1.0),
+            Self::Mass => u * at.load,
+            Self::Speed => 2.0 * u * at.load,
+            Self::Column | Self::Screw => mean(shorter[0] - k, shorter[1] - k) / buffer.column,
+            Self::Lead => -mean(shorter[0], shorter[1]) / buffer.column,
+            Self::AirLost => k * mean(1.0, 1.0),
+            Self::Closing => -mean(1.0, 1.0),
             Self::Phase => u * at.phase,
         }
     }

@@ -193,8 +193,8 @@ pub struct Estimate {
 }
 
 /// Standard deviations from the mean that 95 % of a normal quantity stay within on both sides, and below on one.
-const BOTH_SIDES: f64 = 1.96;
-const ONE_SIDE: f64 = 1.645;
+pub(super) const BOTH_SIDES: f64 = 1.96;
+pub(super) const ONE_SIDE: f64 = 1.645;
 
 /// Steps of the braking half at which the estimate looks.
 const COARSE: u32 = 20;

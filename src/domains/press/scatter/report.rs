@@ -51,7 +51,9 @@ pub struct LossReport {
 }
 
 impl LossReport {
-    fn words(&self) -> Vec<String> {
+    /// The values in words.
+    #[must_use]
+    pub fn words(&self) -> Vec<String> {
         vec![
             format!(
                 "with its losses {} N at x = {} mm on the way in, {} N at x = {} mm back",

@@ -21,6 +21,8 @@ impl NamedChoice for ScrewRule {
     const ALL: &'static [(&'static str, Self)] = &[("none", Self::None), ("end", Self::End), ("level", Self::Level)];
 }
 
+/// Share of the column by which the port of a levelled cam is moved at most.
+const PORT: f64 = 0.25;
 /// Doublings of the air at the end of the stroke in which the level setting is bracketed.
 const DOUBLINGS: u32 = 60;
 
@@ -57,7 +59,7 @@ impl FrozenBuffer {
         let [least, largest] = self.extremes(&fault.with_column(end))?;
         let start = if least.value.abs() > largest.value.abs() { least.at } else { largest.at };
         let sum = least.value + largest.value;
-        if sum == 0.0 || (start == 0.0 && fault.lead == 0.0) {
+        if sum == 0.0 || (start == 0.0 && fault.lead == 0.0 && self.level.is_none()) {
             return Ok(end);
         }
         // The air at the end of the stroke is multiplied, so that it never is used up.
@@ -94,6 +96,9 @@ impl FrozenBuffer {
     /// # Errors
     /// When no column balances the end.
     pub fn reset_of_column_and_port(&self, fault: &Fault) -> Result<[f64; 2], ScatterError> {
+        if self.level.is_some() {
+            return self.reset_of_levelled(fault);
+        }
         let power = |ratio: f64| libm::exp(libm::log(ratio) / fault.exponent);
         let rise = power(1.0 + fault.variable() * self.end_load());
         if !(rise > 1.0) {
@@ -102,5 +107,18 @@ impl FrozenBuffer {
         let share = rise * (1.0 - self.end_length()) / (rise - 1.0);
         let longer = self.column * (share / (fault.air * power(fault.closing)) - 1.0);
         Ok([longer, longer - self.column * (share - 1.0)])
+    }
+
+    /// Those of a cam that levels both ways, whose port shuts before the reversal: the end setting for each place of the port, and that place
+    /// by the force at the start.
+    fn reset_of_levelled(&self, fault: &Fault) -> Result<[f64; 2], ScatterError> {
+        let column = |lead: f64| self.end_reset(&Fault { lead, ..*fault });
+        let start = |lead: f64| {
+            let set = column(lead).map(|column| Fault { column, lead, ..*fault });
+            set.map_or(f64::NAN, |set| self.residual(&set, 0.0, self.length(0.0)))
+        };
+        let reach = PORT * self.column;
+        let lead = root::bracketed(start, -reach, reach, 0.0).unwrap_or(fault.lead);
+        Ok([column(lead)?, lead])
     }
 }

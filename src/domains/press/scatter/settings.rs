@@ -22,13 +22,18 @@ pub struct Setting {
 
 /// Least and largest residual force of a fixed bottom of a column (m) at a variable v, N, over its stroke: 0 at the start, one stationary
 /// place x = L − (k L^k/(v A))^(1/(k+1)), and the end.
-fn extremes_of_fixed(cam: &FrozenBuffer, column: f64, variable: f64) -> [f64; 2] {
+#[must_use]
+pub fn extremes_of_fixed(cam: &FrozenBuffer, column: f64, variable: f64) -> [Extremum; 2] {
     let (k, load) = (cam.exponent, variable * cam.loading);
     let residual = |x: f64| load * x - libm::expm1(-k * libm::log1p(-x / column));
     let still = libm::exp((libm::log(k / load) + k * libm::log(column)) / (k + 1.0));
     let place = (column - still).clamp(0.0, cam.stroke);
-    let values = [0.0, residual(place), residual(cam.stroke)].map(|value| cam.unit_force * value);
-    [values.into_iter().fold(0.0, f64::min), values.into_iter().fold(0.0, f64::max)]
+    let still = Extremum { at: 0.0, value: 0.0 };
+    let found = [place, cam.stroke].map(|at| Extremum { at, value: cam.unit_force * residual(at) });
+    let pick = |beyond: fn(f64, f64) -> bool| {
+        found.into_iter().fold(still, |best, next| if beyond(next.value, best.value) { next } else { best })
+    };
+    [pick(|next, best| next < best), pick(|next, best| next > best)]
 }
 
 /// Halvings of the air at the end of the stroke, and doublings of the column, in which a fixed bottom is bracketed.
@@ -40,14 +45,14 @@ pub fn level_of_fixed(cam: &FrozenBuffer, variable: f64) -> (f64, f64) {
     let beyond = |octave: f64| cam.stroke * (1.0 + libm::exp2(octave));
     let sum = |octave: f64| {
         let [least, largest] = extremes_of_fixed(cam, beyond(octave), variable);
-        least + largest
+        least.value + largest.value
     };
     // A short column stops the bed early, a long one hardly brakes it.
     let low = (1..REACH).map(|octave| f64::from(-octave)).find(|octave| sum(*octave) < 0.0).unwrap_or(-1.0);
     let high = (1..REACH).map(f64::from).find(|octave| sum(*octave) > 0.0).unwrap_or(1.0);
     let column = beyond(root::bracketed(sum, low, high, 0.0).unwrap_or(0.0));
     let [least, largest] = extremes_of_fixed(cam, column, variable);
-    (column, largest.max(-least))
+    (column, largest.value.max(-least.value))
 }
 
 fn at_variable(cam: &FrozenBuffer, variable: f64) -> Fault {

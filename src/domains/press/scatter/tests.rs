@@ -10,7 +10,9 @@ use super::settings;
 use crate::body::disc::Disc;
 use crate::domains::press::machine::PressCams;
 use crate::domains::press::rotary::rotary;
+use crate::load::Load;
 use crate::machine::Machine;
+use crate::pipeline::Spec;
 
 fn cam(name: &str) -> FrozenBuffer {
     let machine = Machine::load(name, &[]).expect("valid").0;
@@ -233,6 +235,117 @@ fn air_that_does_not_come_back_as_it_went() {
     let both = reversal("dpi", &Losses { leak: 0.01, ..expands });
     near(both.worst(BedWay::Back).value, 1_141.129_188, "leak and expansion");
     near(both.work_lost(), 97.600_365_46, "leak and expansion");
+}
+
+/// A cam of the matched column that levels the loop of 1.35 and 1.40.
+fn levelled(name: &str) -> Machine {
+    let sets = ["buffer.balance=level", "buffer.expansion_exponent=1.40", "buffer.column=matched"].map(str::to_owned);
+    Machine::load(name, &sets).expect("valid").0
+}
+
+#[test]
+fn a_cam_that_levels_both_ways_leaves_half_of_the_loop() {
+    for (name, column, lead, half) in [
+        ("dpi", 249.749_633_6, 2.306_349_143, 268.303_004_8),
+        ("dpi-paper", 63.177_515_76, 1.335_435_437, 177.997_035_7),
+    ] {
+        let machine = levelled(name);
+        let (cam, _) = super::analysis::cam_of(&machine, 35.0).expect("a cam");
+        let law = machine.press().expect("a press").rotary_law(35.0).expect("a law");
+        near(1e3 * law.column(), column, "the column");
+        near(1e3 * law.lead(), lead, "the lead");
+        near(cam.unit_force * law.half_loop().expect("a loop").value, half, "half of the loop");
+        let reversal =
+            LossyReversal::new(&cam, &Fault::none(1.35), &PressCams::of(&machine).losses).expect("a reversal");
+        near(reversal.worst(BedWay::In).value, -half, "in");
+        near(reversal.worst(BedWay::Back).value, half, "back");
+        near(reversal.largest_half_loop().value, half, "half of the loop");
+        for degrees in [0.0_f64, 3.0, 30.0, 77.0, 90.0] {
+            let [mean, _] = reversal.mean_and_half_loop(degrees.to_radians());
+            assert!(mean.abs() < 1e-9, "{name}: {mean} at {degrees}");
+        }
+        // The disc, its residual force by the pressure of each direction, as it is cut and read back.
+        let cut = rotary(&machine, 35.0).expect("a disc");
+        near(cut.disc.residual_max().value, half, "the motion");
+        assert!((cut.buffer.residual(0, 0.0, 0.0).abs()) < half);
+        let proven = Spec::rotary(machine, 35.0).solve().and_then(|cam| cam.draw(5e-6)?.prove()).expect("proven");
+        let failed = |found: &&crate::report::Finding| found.verdict == crate::report::Verdict::Fail;
+        let failed: Vec<&str> = proven.findings().iter().filter(failed).map(|found| &*found.check).collect();
+        assert!(name != "dpi" || failed.is_empty(), "{failed:?}");
+    }
+}
+
+/// The mean of both ways in presses that differ: its extremes against a scan, each effect against a difference of presses.
+#[test]
+fn presses_that_differ_under_a_cam_that_levels() {
+    let (cam, _) = super::analysis::cam_of(&levelled("dpi"), 35.0).expect("a cam");
+    let differs = fault(&[(Parameter::Mass, 0.04), (Parameter::Exponent, 0.02), (Parameter::Lead, 3e-4)]);
+    let [least, largest] = cam.extremes(&differs).expect("it fits");
+    let at = |fault: &Fault, degrees: f64| {
+        let load = cam.end_load() * degrees.to_radians().sin();
+        cam.residual(fault, load, cam.length(load))
+    };
+    let scanned: Vec<f64> = (0..=9000).map(|step| at(&differs, f64::from(step) / 100.0)).collect();
+    let (low, high) = scanned.iter().fold((f64::MAX, f64::MIN), |(low, high), at| (low.min(*at), high.max(*at)));
+    assert!(
+        (least.value - low).abs() < 1e-3 && (largest.value - high).abs() < 1e-3,
+        "{least:?} {low} {largest:?} {high}"
+    );
+    for parameter in Parameter::ALL {
+        if matches!(parameter, Parameter::Phase | Parameter::Screw) {
+            continue;
+        }
+        for degrees in [0.0, 20.0, 60.0, 90.0] {
+            let h = 1e-6;
+            let of = |by: f64| at(&parameter.changed(Fault::none(1.35), by), degrees);
+            let (quotient, effect) = ((of(h) - of(-h)) / (2.0 * h), parameter.first_order(&cam, degrees.to_radians()));
+            // Air gets lost only, and the press of a lower exponent has the wider loop: quotients of both sides are rounded at 1e-10/h.
+            assert!(
+                (quotient - effect).abs() < 1e-6 * effect.abs() + 1e-3,
+                "{parameter:?} at {degrees}: {quotient} {effect}"
+            );
+        }
+    }
+    for rule in [ScrewRule::End, ScrewRule::Level] {
+        let left = cam.worst(&differs.with_column(cam.setting(&differs, rule).expect("a column"))).expect("it fits");
+        assert!(left.value.abs() < cam.worst(&differs).expect("it fits").value.abs());
+    }
+    let [column, lead] = cam.reset_of_column_and_port(&differs).expect("a column");
+    let set = Fault { column, lead, ..differs };
+    assert!(at(&set, 0.0).abs() < 1e-6 && at(&set, 90.0).abs() < 1e-6);
+}
+
+#[test]
+fn what_cannot_be_levelled_is_refused() {
+    let of = |sets: &[&str]| {
+        let sets: Vec<String> =
+            sets.iter().map(|&set| set.to_owned()).chain(["buffer.balance=level".to_owned()]).collect();
+        match Machine::load("dpi", &sets) {
+            Err(error) => error.to_string(),
+            Ok((machine, _)) => {
+                let cam = rotary(&machine, 35.0).and_then(|cam| cam.compensating_disc());
+                cam.err().map(|why| why.to_string()).expect("refused")
+            }
+        }
+    };
+    for (sets, why) in [
+        (&[][..], "no lead for this loop"),
+        (&["buffer.expansion_exponent=1.35"], "no lead for this loop"),
+        (&["buffer.expansion_exponent=1.30"], "expansion exponent below the compression's"),
+        (&["buffer.expansion_exponent=1.4", "buffer.lead=1 mm"], "has a lead of its own"),
+        (&["buffer.expansion_exponent=1.4", "transition.kind=blend"], "a blend closes the air"),
+        (
+            &["buffer.expansion_exponent=1.4", "cam.train_stiffness=1e8 N/m", "cam.compensate_train=true"],
+            "cut for its train",
+        ),
+        (
+            &["buffer.expansion_exponent=1.4", "compensator.spring_rate=100 N/mm", "compensator.preload=10 kN"],
+            "air with a loop",
+        ),
+    ] {
+        let said = of(sets);
+        assert!(said.contains(why), "{sets:?}: {said}");
+    }
 }
 
 #[test]

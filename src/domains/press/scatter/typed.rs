@@ -32,7 +32,7 @@ impl TypedFault {
     /// # Errors
     /// [`Refusal`] for a key that there is not, one that is given twice, and a value that is out of range.
     pub fn read(typed: &[String], press: &Press, rpm: f64) -> Result<Self, Refusal> {
-        let column = press.bottom_law(rpm).column();
+        let column = press.rotary_law(rpm)?.column();
         let mut all = Self { fault: Fault::none(press.polytropic_exponent), screw: 0.0, inputs: Vec::new() };
         let mut given: Vec<Parameter> = Vec::new();
         for one in typed {

@@ -3,9 +3,14 @@
 use super::Wedge;
 use crate::body::ROUNDING_OF_BALANCE;
 use crate::domains::press::load::RunUp;
+use crate::domains::press::machine::PressCams;
 use crate::domains::press::motion::equation_18::{BedDirection, ExactOn, Mechanism};
 use crate::domains::press::motion::{Transition, WedgeMotion};
+use crate::domains::press::scatter::fault::{STEPS, Station};
+use crate::domains::press::scatter::other_cams::{PlateStation, of_plate};
 use crate::profile::{Worst, extremes};
+use crate::report::Section;
+use std::f64::consts::FRAC_PI_2;
 
 /// Steps in which friction angle (rad), efficiency and roller arm (m) are reported.
 const ANGLE_STEP: f64 = 0.1;
@@ -45,6 +50,25 @@ impl Wedge {
             let way = -bed.overrun(-width);
             (0.4 * slope * way - second * way * way / 20.0).abs()
         }))
+    }
+
+    /// The section on presses that differ; `None` under a linkage.
+    pub(super) fn scatter(&self) -> Option<Section> {
+        let law = self.mechanism().bottom_law.by_crank().of_yoke()?;
+        let motion = self.motion.motion();
+        let station = |step: u32| {
+            let angle = FRAC_PI_2 * f64::from(step) / f64::from(STEPS);
+            let x = if step == STEPS { law.stroke } else { law.stroke * libm::sin(angle) };
+            let [bottom, slope, ..] = motion.at(x, false);
+            let (load, length) = (law.loading * x, (law.column - x - bottom) / law.column);
+            let air = libm::expm1(-law.exponent * libm::log(length));
+            let factors = [BedDirection::Braking, BedDirection::Return]
+                .map(|way| (load - self.mechanism().residual(x, bottom, slope, way)) / air);
+            PlateStation { at: Station { angle, load, length, phase: 0.0 }, factors }
+        };
+        // At the very start there is no force, and its share of friction has no value.
+        let stations: Vec<PlateStation> = (1..=STEPS).map(station).collect();
+        of_plate(&PressCams::of(&self.machine).scatter, &self.cylinder, law, &stations)
     }
 
     /// Friction angle, efficiency and roller arm, each of which alone brings the residual force in the direction in which the forces

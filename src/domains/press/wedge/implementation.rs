@@ -333,6 +333,7 @@ impl Body for Wedge {
         let outline = part.map(|part| part.measures(found.tolerance_mm, corner).section());
         let mut sections = vec![cam.section(), self.law().section()];
         sections.extend(reversal_of_bed(&self.machine));
+        sections.extend(self.scatter());
         sections.extend([
             outline.unwrap_or_else(|| Section::new("outline", &())),
             Section::new("rolling", &found.rolled.first()),

@@ -108,3 +108,30 @@ fn a_plate_on_either_side_of_a_wide_band_has_its_ends_and_no_kinks() {
         assert!(outline.deviation <= 1e3 * tolerance, "{name}: {}", outline.deviation);
     }
 }
+
+/// By 34-digit arithmetic, outside of the project: with friction the plate that levels both directions leaves half of what one that is exact while braking leaves on
+/// the return; a longer column helps more.
+#[test]
+fn a_plate_that_levels_both_directions() {
+    let solved = |sets: &[&str]| {
+        let overrides: Vec<String> = sets.iter().map(|&text| text.to_owned()).collect();
+        let machine = Machine::load("dpi", &overrides).expect("valid").0;
+        let exact_on = crate::domains::press::machine::exact_on(&machine);
+        Wedge::solve(&machine, 35.0, Solver::Ode { tolerance: LAW_TOLERANCE }, exact_on).expect("a plate")
+    };
+    let left =
+        |plate: &Wedge| [BedDirection::Braking, BedDirection::Return].map(|way| plate.residual_max(way).value.abs());
+    let level = solved(&["translating.balance=level"]);
+    for force in left(&level) {
+        assert!((force / 3_389.722_094 - 1.0).abs() < 1e-9, "{force}");
+    }
+    let (x, displacement) = level.largest_displacement();
+    assert!(x == 0.18 && (1e3 * displacement + 46.161_929).abs() < 1e-6, "{displacement} at {x}");
+    for (column, braking, levelled) in [("matched", 6_260.7, 3_389.7), ("364.5 mm", 3_999.9, 2_062.7)] {
+        let column = format!("buffer.column={column}");
+        let [on_way_in, back] = left(&solved(&[&column]));
+        assert!(on_way_in < 1e-3 && (back - braking).abs() < 0.06, "{column}: {on_way_in} {back}");
+        let [on_way_in, back] = left(&solved(&[&column, "translating.balance=level"]));
+        assert!((on_way_in - levelled).abs() < 0.06 && (back - levelled).abs() < 0.06, "{column}: {on_way_in} {back}");
+    }
+}

@@ -87,7 +87,7 @@ fn side_of_yoke(
     raise: Option<&RaiseSeries>,
     whole: Option<f64>,
 ) -> ReversalSide {
-    let retreat = bottom_law.lead / bottom_law.stroke;
+    let retreat = bottom_law.retreat() / bottom_law.stroke;
     let at = |angle: f64| with_raise(bottom_law_at(bottom_law, angle), raise, angle, whole);
     let end = if retreat > 0.0 { [0.0, -bottom_law.stroke, 0.0, 0.0] } else { at(0.0) };
     let level = if retreat > 0.0 || raise.is_none() { 0.0 } else { end[0] };
@@ -143,11 +143,15 @@ pub(super) fn sides_of_linkage(
 
 /// The parts of one lobe by the crank angle: one turn of it, the dwell last.
 pub(super) fn parts(law: &ReversalLaw, raise: Option<&RaiseSeries>) -> Result<Vec<LobePart>, Refusal> {
-    let (whole, lead) = (law.bottom_law.angle(), law.bottom_law.lead());
-    let (most, retreats) = (law.bottom_law.widest_blend(), lead > 0.0);
+    let (whole, levels) = (law.bottom_law.angle(), law.bottom_law.half_loop().is_some());
+    let (most, retreats) = (law.bottom_law.widest_blend(), law.bottom_law.retreats());
     match law.transition {
         Transition::Blend { .. } if retreats => {
             let what = "a lead needs the bottom to retreat before the reversal, which a blend would round off";
+            return Err(Refusal::new(what).remedy("use transition.kind = \"run-up\" or \"none\""));
+        }
+        Transition::Blend { .. } if levels => {
+            let what = "a blend closes the air where it begins, and buffer.balance = \"level\" has its port shut a lead before the reversal";
             return Err(Refusal::new(what).remedy("use transition.kind = \"run-up\" or \"none\""));
         }
         Transition::Blend { width } if width > most => {
