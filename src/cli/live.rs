@@ -57,11 +57,6 @@ pub(super) fn design(
     };
     let changes: Vec<TextChange> = source.overrides.iter().map(set).collect();
     let toml = engine::changed_text(text.text(), &changes).map_err(Failure::new)?;
-    if let [key, ..] = engine::keys_with_files(&toml).as_slice() {
-        return Err(Failure(format!(
-            "--live cannot read the file that `{key}` names: a page has no files; leave out --live"
-        )));
-    }
     let rpm = |speed: &Speed| match speed {
         Speed::One(rpm) => Ok(*rpm),
         Speed::Range(..) => Err(Failure("--live needs the speeds themselves, --rpm 20,25,30, not a range".into())),
@@ -69,9 +64,11 @@ pub(super) fn design(
     Ok(LiveDesign {
         name: stem.to_owned(),
         toml,
+        files: text.named_texts(&source.overrides),
         command: cam.body().kind().command.to_owned(),
         commands: engine::commands(cam.body().machine()).into_iter().map(str::to_owned).collect(),
         rpm: common.rpm.iter().map(rpm).collect::<Result<_, _>>()?,
         tolerance,
+        file: None,
     })
 }

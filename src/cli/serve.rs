@@ -99,7 +99,7 @@ fn answer(request: &HttpRequest, port: u16, served: &Served) -> Answer {
     match (request.method.as_str(), path) {
         ("GET", "/") => served.page(),
         ("POST", "/engine") => served.engine(&request.body),
-        ("POST", "/file") => served.file(),
+        ("POST", "/files") => served.files(),
         ("POST", "/save") => served.save(&request.body),
         ("POST", "/write") => served.write(&request.body),
         _ => Answer::refused(404, "there is no such page"),

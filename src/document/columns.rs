@@ -1,12 +1,10 @@
 //! A file with columns of numbers, which another file names.
 
 use super::fault::{Excerpt, LONGEST_LINE, Misfit};
-use super::file;
 use super::heading::HeadingUnit;
 use super::input::exact;
-use super::named;
+use super::named::NamedFiles;
 use crate::units;
-use std::path::Path;
 
 /// Largest file, bytes.
 const LARGEST: u64 = 1 << 20;
@@ -118,18 +116,15 @@ impl Columns {
         headings.iter().cloned().chain(rows).collect::<Vec<_>>().join(", ")
     }
 
-    /// Reads a file by its path from a folder; `key` names the key in messages. A path that the user gave leads to any folder.
-    pub(super) fn read(folder: Option<&Path>, name: &str, key: &str, by_user: bool) -> Result<Self, ColumnsFault> {
-        let Some(folder) = folder else {
-            let help = "save this machine as a file in the folder of the table";
-            return refused(format!("`{key}`: only a machine file in a folder can name another file"), help, None);
-        };
-        let path = named::path_of(folder, name, key, by_user).map_err(|misfit| (misfit, None))?;
-        let text = file::text_of(&path, LARGEST).or_else(|why| {
-            let help = "give its path relative to the folder of the machine file";
-            refused(format!("`{key}`: cannot read `{name}`: {why}"), help, None)
-        })?;
+    /// Reads a file by its name; `key` names the key in messages. A path that the user gave leads to any folder.
+    pub(super) fn read(files: &NamedFiles, name: &str, key: &str, by_user: bool) -> Result<Self, ColumnsFault> {
+        let text = files.text(name, key, (LARGEST, by_user)).map_err(|misfit| (misfit, None))?;
         Self::parse(name, &text)
+    }
+
+    /// The text of the file that was read, where it is still there.
+    pub(super) fn text(&self, files: &NamedFiles, by_user: bool) -> Option<String> {
+        files.text(&self.name, "", (LARGEST, by_user)).ok()
     }
 
     fn parse(name: &str, text: &str) -> Result<Self, ColumnsFault> {

@@ -30,6 +30,7 @@ pub use fault::{Excerpt, FileFault, similar};
 pub use heading::{HeadingUnit, is_of_crank};
 pub use input::Input;
 pub use key::{Field, Key, KeyForm, KeySection, LengthAngleOrShare, LengthOrAngle, Occurrence, PointList, Presence};
+pub use named::NamedFiles;
 pub use plain::{is_plain, plain, shown};
 pub(crate) use reader::KnownValues;
 pub use reader::{Reader, TableReader};

@@ -5,8 +5,9 @@
 //! the process, as the files are.
 
 use super::fault::Misfit;
+use super::file;
 use crate::refusal::Refusal;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError, RwLock};
@@ -35,8 +36,52 @@ pub fn read() -> Vec<PathBuf> {
     READ.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()
 }
 
+/// Where the files are that a machine file names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NamedFiles {
+    /// Nowhere: the text is not in a folder.
+    Nowhere,
+    /// In the folder of the machine file.
+    Folder(PathBuf),
+    /// Texts that are there by the names that the machine file uses: a page has no folder.
+    Texts(BTreeMap<String, String>),
+}
+
+impl NamedFiles {
+    /// The text of a file of at most so many bytes that is named under a key. A path that the user gave leads to any folder.
+    pub(super) fn text(&self, name: &str, key: &str, (largest, by_user): (u64, bool)) -> Result<String, Misfit> {
+        let refused = |message: String, help: &str| Err(Misfit { message, help: Some(help.to_owned()) });
+        let folder = match self {
+            NamedFiles::Nowhere => {
+                let help = "save this machine as a file in the folder of the table";
+                return refused(format!("`{key}`: only a machine file in a folder can name another file"), help);
+            }
+            NamedFiles::Texts(texts) => {
+                let found = texts.get(name).filter(|text| text.len() as u64 <= largest);
+                return found.cloned().map_or_else(
+                    || {
+                        let has: Vec<&str> = texts.keys().map(String::as_str).collect();
+                        let has = if has.is_empty() { "no file".to_owned() } else { has.join(", ") };
+                        refused(
+                            format!("`{key}`: there is no file `{name}` here, but {has}"),
+                            "choose the file in the page",
+                        )
+                    },
+                    Ok,
+                );
+            }
+            NamedFiles::Folder(folder) => folder,
+        };
+        let path = path_of(folder, name, key, by_user)?;
+        file::text_of(&path, largest).or_else(|why| {
+            let help = "give its path relative to the folder of the machine file";
+            refused(format!("`{key}`: cannot read `{name}`: {why}"), help)
+        })
+    }
+}
+
 /// The path of a file that a machine file in a folder names under a key. The user may name any.
-pub(super) fn path_of(folder: &Path, name: &str, key: &str, by_user: bool) -> Result<PathBuf, Misfit> {
+fn path_of(folder: &Path, name: &str, key: &str, by_user: bool) -> Result<PathBuf, Misfit> {
     let path = folder.join(name);
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     READ.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone());

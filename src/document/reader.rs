@@ -8,20 +8,20 @@ use super::columns::Columns;
 use super::fault::{FileFault, KnownKey, Misfit, nearest, similar};
 use super::input::Input;
 use super::key::{Field, Key, KeyForm, KeySection, KeyValue, Occurrence, Presence, join, key_at};
+use super::named::NamedFiles;
 use super::text::{Document, FlatText, MOST_FAULTS, PendingFault, TextPlace, TomlEntry};
 use super::value::{self, Scalar};
 use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 use std::sync::Arc;
 
 /// A file read against its sections.
 #[derive(Debug)]
 pub struct Reader<'a> {
     document: Document<'a>,
-    /// The folder of the files that the file names.
-    folder: Option<&'a Path>,
+    /// Where the files are that the file names.
+    files: &'a NamedFiles,
     sections: &'a [&'a KeySection],
     /// Every value without a fault, defaults too, by its path.
     values: BTreeMap<String, KeyValue>,
@@ -54,20 +54,20 @@ impl<'a> Reader<'a> {
     /// Reads a TOML text named `source`, then the overrides, each `key=value`, against the sections.
     #[must_use]
     pub fn new(source: &'a str, text: &'a str, overrides: &[String], sections: &'a [&'a KeySection]) -> Self {
-        Self::of_flat((None, source), FlatText::new(text, sections), overrides, sections)
+        Self::of_flat((&NamedFiles::Nowhere, source), FlatText::new(text, sections), overrides, sections)
     }
 
-    /// Reads a text that is flattened, of a folder and a name; other files that it names are read from that folder.
+    /// Reads a text that is flattened, with its name and where the files are that it names.
     #[must_use]
     pub(crate) fn of_flat(
-        (folder, source): (Option<&'a Path>, &'a str),
+        (files, source): (&'a NamedFiles, &'a str),
         flat: FlatText,
         overrides: &[String],
         sections: &'a [&'a KeySection],
     ) -> Self {
         let mut document = Document::new(source, flat, overrides);
         let faults = std::mem::take(&mut document.faults);
-        let mut reader = Self { faults: RefCell::new(faults), ..Self::unread(document, folder, sections) };
+        let mut reader = Self { faults: RefCell::new(faults), ..Self::unread(document, files, sections) };
         if !reader.document.broken {
             for section in sections {
                 reader.section(section, source);
@@ -95,7 +95,7 @@ impl<'a> Reader<'a> {
     /// As [`Reader::of_flat`], from what is known of the text without overrides: only what they set is read. `None` where they may change
     /// more than the values that they set, or have a fault; then everything is to be read.
     pub(crate) fn of_known(
-        (folder, source): (Option<&'a Path>, &'a str),
+        (files, source): (&'a NamedFiles, &'a str),
         flat: &FlatText,
         overrides: &[String],
         sections: &'a [&'a KeySection],
@@ -121,15 +121,15 @@ impl<'a> Reader<'a> {
             inputs.insert(path.to_owned(), Input::new(path, value.canonical(key.form), entry.value.shown()));
             values.insert(path.to_owned(), value);
         }
-        let unread = Self::unread(document, folder, sections);
+        let unread = Self::unread(document, files, sections);
         Some(Self { values, inputs, known: Some(known), ..unread })
     }
 
     /// Of a document of which nothing is read.
-    fn unread(document: Document<'a>, folder: Option<&'a Path>, sections: &'a [&'a KeySection]) -> Self {
+    fn unread(document: Document<'a>, files: &'a NamedFiles, sections: &'a [&'a KeySection]) -> Self {
         Self {
             document,
-            folder,
+            files,
             sections,
             values: BTreeMap::new(),
             inputs: BTreeMap::new(),
@@ -308,9 +308,19 @@ impl<'a> Reader<'a> {
         let (KeyForm::Columns, KeyValue::Text(name)) = (key.form, &value) else { return Ok(value) };
         let at = || self.document.entries.get(path).map(|entry| entry.at.clone());
         let by_user = self.document.entries.get(path).is_some_and(TomlEntry::by_override);
-        let columns = Columns::read(self.folder, name, path, by_user)
+        let columns = Columns::read(self.files, name, path, by_user)
             .map_err(|(misfit, place)| (misfit, place.map_or_else(at, |place| Some(TextPlace::OtherFile(place)))))?;
         Ok(KeyValue::Columns(Arc::new(columns)))
+    }
+
+    /// The texts of the files that it names, by these names.
+    pub(crate) fn named_texts(&self) -> BTreeMap<String, String> {
+        let text = |(path, value): (&String, &KeyValue)| {
+            let KeyValue::Columns(columns) = value else { return None };
+            let by_user = self.document.entries.get(path).is_some_and(TomlEntry::by_override);
+            Some((columns.name().to_owned(), columns.text(self.files, by_user)?))
+        };
+        self.values.iter().filter_map(text).collect()
     }
 
     /// The place of a table or array of tables with a path.

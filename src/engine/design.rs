@@ -28,7 +28,7 @@ pub(super) fn proven(
     answer: &mut EngineAnswer,
 ) -> Result<(ProvenAssembly, Writing), Error> {
     let name = if request.name.is_empty() { "design" } else { &request.name };
-    let source = MachineSource::from_toml(&format!("{name}.toml"), toml);
+    let source = MachineSource::from_toml(&format!("{name}.toml"), toml).with_texts(request.files.clone());
     let machine = Machine::of_source(&source, &[])?;
     let assembly = spec(request, machine)?.assemble()?;
     let body = assembly.first().body();

@@ -1,7 +1,6 @@
 //! The designs in the binary of which cams can be made.
 
 use crate::catalogue::catalogue;
-use crate::document::KeyForm;
 use crate::machine::{Embedded, Machine};
 use crate::study::DesignCommand;
 use serde_json::{Value, json};
@@ -32,11 +31,4 @@ pub fn commands(machine: &Machine) -> Vec<&'static str> {
         all.insert(after + 1, crate::domains::press::cams::CONOID);
     }
     all
-}
-
-/// The keys of a text that name other files, which an engine without files cannot read.
-#[must_use]
-pub fn keys_with_files(toml: &str) -> Vec<String> {
-    let names_file = |path: &String| super::text::form_of(path) == Some(KeyForm::Columns);
-    super::text::given(toml).into_iter().filter(names_file).collect()
 }

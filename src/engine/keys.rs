@@ -2,7 +2,7 @@
 
 use crate::catalogue::catalogue;
 use crate::document::{Bounds, Key, KeyForm, KeySection, Occurrence, Presence};
-use crate::motion::laws::{LAWS, Law, LawTask};
+use crate::motion::laws::{LAWS, Law, LawCurve, LawTask};
 use crate::units::{self, Dimension};
 use serde_json::{Map, Value, json};
 
@@ -81,12 +81,28 @@ fn units_of(dimension: Dimension) -> Value {
     Value::Object(sizes.collect())
 }
 
-/// The laws from rest to rest: the name, the largest velocity, acceleration and jerk for a travel of 1 over a width of 1 (`null` where it jumps).
+/// Places of the picture of a law.
+const PICTURED: u32 = 24;
+
+/// The laws from rest to rest: the name, the largest velocity, acceleration and jerk for a travel of 1 over a width of 1 (`null` where it jumps), and
+/// its lift, velocity and acceleration at even places.
 fn laws() -> Vec<Value> {
     let of = |law: &Law| {
-        let peaks = law.solve(&LawTask::default()).ok()?.peaks();
+        let curve = law.solve(&LawTask::default()).ok()?;
+        let peaks = curve.peaks();
         let values = [peaks.velocity.value, peaks.acceleration.value, peaks.jerk.value];
-        Some(json!({"name": law.name, "peaks": values.map(|value| value.is_finite().then_some(value))}))
+        let peaks = values.map(|value| value.is_finite().then_some(value));
+        let shapes = [0, 1, 2].map(|order| shape(&curve, order));
+        Some(json!({"name": law.name, "peaks": peaks, "shapes": shapes}))
     };
     LAWS.iter().filter(|law| law.serves_rests()).filter_map(of).collect()
+}
+
+/// A derivative of a law at even places, rounded for a picture.
+fn shape(curve: &LawCurve, order: u32) -> Vec<f64> {
+    let at = |place: u32| {
+        let x = f64::from(place) / f64::from(PICTURED);
+        (1e3 * curve.derivative(curve.part_of(x), x, order)).round() / 1e3
+    };
+    (0..=PICTURED).map(at).collect()
 }

@@ -11,7 +11,7 @@ mod keys;
 mod remedies;
 mod text;
 
-pub use designs::{commands, keys_with_files};
+pub use designs::commands;
 pub use text::TextChange;
 
 use crate::machine::{FileFault, MachineError};
@@ -19,6 +19,7 @@ use crate::pipeline::{Error, FileSet, Writing};
 use crate::refusal::Refusal;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Largest request, bytes: a machine file has at most a megabyte.
@@ -49,6 +50,8 @@ pub struct EngineRequest {
     pub name: String,
     /// The text of the machine file.
     pub toml: String,
+    /// The texts of the files that it names, by these names.
+    pub files: BTreeMap<String, String>,
     /// Changes of the text, one after the other.
     pub changes: Vec<TextChange>,
     /// The command that makes the cam: `make`, `rotary`, `translating`, `compensator`, `conoid`; empty for the usual one of the file.

@@ -179,7 +179,7 @@ fn key_of(path: &str) -> Option<(&'static Key, impl Iterator<Item = &'static Key
 }
 
 /// What a value of the key at a path may be.
-pub(super) fn form_of(path: &str) -> Option<KeyForm> {
+fn form_of(path: &str) -> Option<KeyForm> {
     key_of(path).map(|(key, _)| key.form)
 }
 

@@ -4,8 +4,9 @@ use super::embedded::Embedded;
 use super::other_files::instead_of_machine;
 use super::{CamData, FollowerData, MachineError, MachineParts, stem};
 use crate::document::file;
-use crate::document::{FileFault, FlatText, KnownValues, Reader, Tables, similar};
+use crate::document::{FileFault, FlatText, KnownValues, NamedFiles, Reader, Tables, similar};
 use crate::motion::program::{self, FollowerMovement, Program, ProgramSpan};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -60,8 +61,8 @@ pub struct MachineSource {
     motion: Arc<OnceLock<ReadMotion>>,
     /// The user wrote it.
     pub(super) by_user: bool,
-    /// The folder of its file.
-    folder: Option<PathBuf>,
+    /// Where the files are that it names.
+    files: NamedFiles,
 }
 
 impl MachineSource {
@@ -69,7 +70,7 @@ impl MachineSource {
     pub(crate) fn of_user(catalogue: &'static Catalogue, name: &str, text: &str) -> Self {
         let (stem, text) = (stem::fitting(name), FlatText::new(text, &catalogue.keys.sections));
         let (known, motion) = (Arc::default(), Arc::default());
-        Self { catalogue, name: name.to_owned(), stem, text, known, motion, by_user: true, folder: None }
+        Self { catalogue, name: name.to_owned(), stem, text, known, motion, by_user: true, files: NamedFiles::Nowhere }
     }
 
     /// The text.
@@ -86,18 +87,30 @@ impl MachineSource {
 
     /// The text as of a file in the working folder: other files that its overrides name are found from there.
     pub(crate) fn in_working_folder(self) -> Self {
-        Self { folder: Some(PathBuf::new()), ..self }
+        Self { files: NamedFiles::Folder(PathBuf::new()), ..self }
+    }
+
+    /// With the texts of the files that it names, by these names: in the place of a folder.
+    #[must_use]
+    pub fn with_texts(self, texts: BTreeMap<String, String>) -> Self {
+        Self { files: NamedFiles::Texts(texts), ..self }
+    }
+
+    /// The texts of the files that it and its overrides name, by these names; one that has a fault is missing.
+    #[must_use]
+    pub fn named_texts(&self, overrides: &[String]) -> BTreeMap<String, String> {
+        self.reader(overrides).named_texts()
     }
 
     /// Reads everything.
     fn reader(&self, overrides: &[String]) -> Reader<'_> {
-        let place = (self.folder.as_deref(), self.name.as_str());
+        let place = (&self.files, self.name.as_str());
         Reader::of_flat(place, self.text.clone(), overrides, &self.catalogue.keys.sections)
     }
 
     /// Reads what overrides set.
     fn reader_of_known<'s>(&'s self, overrides: &[String], known: &'s KnownValues) -> Option<Reader<'s>> {
-        let place = (self.folder.as_deref(), self.name.as_str());
+        let place = (&self.files, self.name.as_str());
         Reader::of_known(place, &self.text, overrides, &self.catalogue.keys.sections, known)
     }
 
@@ -176,8 +189,8 @@ impl Catalogue {
             return Err(MachineError { faults: vec![FileFault { key: None, message, help: Some(help), place: None }] });
         }
         let stem = stem::fitting(&path.file_stem().unwrap_or_default().to_string_lossy());
-        let folder = path.parent().map(Path::to_owned);
-        Ok(MachineSource { stem, folder, ..MachineSource::of_user(self, name_or_path, &text) })
+        let files = NamedFiles::Folder(path.parent().map(Path::to_owned).unwrap_or_default());
+        Ok(MachineSource { stem, files, ..MachineSource::of_user(self, name_or_path, &text) })
     }
 
     /// The names of the machine files in the binary.

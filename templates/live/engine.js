@@ -60,6 +60,9 @@ function workerMain() {
   };
 }
 
+/** The memory of the engine, bytes. */
+let engineMemory = 0;
+
 /** The engine in this page. */
 function ownEngine() {
   const source = URL.createObjectURL(new Blob([`"use strict";(${workerMain})();`], { type: "text/javascript" }));
@@ -72,7 +75,7 @@ function ownEngine() {
     if (data.ready) return started();
     const { resolve, reject } = waiting.get(data.id);
     waiting.delete(data.id);
-    if (data.memory) document.documentElement.dataset.engineMemory = data.memory;
+    if (data.memory && data.memory !== engineMemory) document.documentElement.dataset.engineMemory = engineMemory = data.memory;
     if (data.error) reject(new Error(data.error));
     else resolve(answerOf(data.bytes));
   };
@@ -89,9 +92,9 @@ function ownEngine() {
 
 /** A request to the program that serves this page. */
 async function served(path, body) {
-  const answer = await fetch(path, { method: "POST", headers: { "X-Camgen-Token": live.served.token, "Content-Type": "application/json" }, body: JSON.stringify(body) });
+  const answer = await fetch(path, { method: "POST", headers: { "X-Camgen-Token": live.token, "Content-Type": "application/json" }, body: JSON.stringify(body) });
   if (!answer.ok) throw new Error(`${answer.status} ${await answer.text()}`);
   return new Uint8Array(await answer.arrayBuffer());
 }
 
-const engine = live.served ? async (request) => answerOf(await served("/engine", request)) : ownEngine();
+const engine = live.token ? async (request) => answerOf(await served("/engine", request)) : ownEngine();

@@ -58,11 +58,13 @@ function fieldOf(path, key, answer) {
   const id = `key-${path}`;
   const box = make("div", { className: isGiven ? "field" : "field absent" });
   const label = make("label", { htmlFor: id, title: key.about }, key.name.replace(/_/g, " "));
-  const why = make("div", { className: "why" }, key.about);
+  const why = make("div", { className: "why", lang: "en" }, key.about);
   const one = { path, key, box, typed, slider: null, range: null };
   if (key.words && !key.ranges) {
     one.input = make("select", { id }, ...(isGiven || key.presence === "default" ? [] : [make("option", { value: "" }, "–")]), ...key.words.map((word) => make("option", { value: word }, word)));
     one.input.addEventListener("change", () => commit([{ set: { key: path, to: one.input.value } }]));
+  } else if (key.file) {
+    one.input = fileField(id, path, typed);
   } else {
     one.input = make("input", { id, type: "text", autocomplete: "off", placeholder: isGiven ? "" : key.example });
     if (key.words) {
@@ -81,6 +83,7 @@ function fieldOf(path, key, answer) {
   if (key.ranges) {
     one.range = make("input", { type: "range", "aria-label": key.about, tabIndex: 0 });
     one.range.addEventListener("input", () => {
+      one.filled = null;
       one.input.value = typedOf(one.range.value, one.slider);
       draft([{ set: { key: path, to: one.input.value } }]);
     });
@@ -92,14 +95,39 @@ function fieldOf(path, key, answer) {
   return box;
 }
 
+/** The file that a key names: one that is in the page, or one of this computer, which is read into the page. */
+const CHOOSE = "\u0000choose";
+function fileField(id, path) {
+  const names = Object.keys(doc.files);
+  const list = make("select", { id }, make("option", { value: "" }, "–"), ...names.map((name) => make("option", { value: name }, name)), make("option", { value: CHOOSE }, text("chooseFile")));
+  list.addEventListener("change", () => {
+    if (list.value !== CHOOSE) return commit([list.value ? { set: { key: path, to: list.value } } : { remove: path }]);
+    list.value = doc.last?.values?.[path] ?? "";
+    pickFile(".csv,.txt,.tsv,.dat", async (file) => {
+      doc.files = { ...doc.files, [file.name]: await file.text() };
+      formOf = "";
+      commit([{ set: { key: path, to: file.name } }]);
+    });
+  });
+  return list;
+}
+
+/** Lets the person choose a file of this computer. */
+function pickFile(accept, take) {
+  const input = make("input", { type: "file", accept });
+  input.addEventListener("change", () => input.files.length && take(input.files[0]));
+  input.click();
+}
+
 /** What a field shows: the value as typed; of "auto" the slider starts from what was found. */
 function fillField(one, answer) {
   const typed = ((answer.values ?? {})[one.path] ?? "").replace(/^Ø/, "");
   one.typed = typed;
-  if (document.activeElement !== one.input || one.input.tagName === "SELECT") one.input.value = typed;
-  one.box.classList.toggle("changed", typed !== (sent.values?.[one.path] ?? "").replace(/^Ø/, ""));
-  one.box.classList.remove("wrong");
+  if (one.input.value !== typed && (document.activeElement !== one.input || one.input.tagName === "SELECT")) one.input.value = typed;
+  one.box.classList.toggle("changed", typed !== (doc.sent.values?.[one.path] ?? "").replace(/^Ø/, ""));
   if (!one.range) return;
+  if (one.filled === typed && typed !== "auto") return;
+  one.filled = typed;
   const found = quantityOf(typed) ? typed : chosenValue(one.path);
   const fits = one.slider && quantityOf(found) && one.slider.unit === quantityOf(found).unit && quantityOf(found).number > one.slider.low && quantityOf(found).number < one.slider.high;
   if (!fits) one.slider = sliderOf(one.key, found);
@@ -120,14 +148,15 @@ function chosenValue(path) {
 
 /** The form of a design: its tables, the keys that are given first, the others behind a line. */
 function form(answer) {
-  const shape = JSON.stringify([answer.kind, answer.given, language]);
+  byId("english").hidden = language === "en";
+  const shape = JSON.stringify([doc.name, answer.kind, answer.given, language]);
   if (shape !== formOf) {
     formOf = shape;
     const open = new Set([...byId("fields").querySelectorAll("details[open]")].map((box) => box.dataset.path));
     const isFirst = fields.size === 0;
     fields = new Map();
     const tablesOf = (section) => pathsOf(section, answer).flatMap((path) => {
-      const has = section.keys.filter((key) => (!key.cams.length || key.cams.includes(answer.kind)) && !key.file);
+      const has = section.keys.filter((key) => !key.cams.length || key.cams.includes(answer.kind));
       const of = (key) => (path ? `${path}.${key.name}` : key.name);
       const [given, absent] = [true, false].map((wanted) => has.filter((key) => answer.given.includes(of(key)) === wanted));
       if (!given.length) return absent.length && !section.repeated ? [[path, section, [], absent, of]] : [];

@@ -1,35 +1,40 @@
-// The design as it changes: a text and what it is made with, its history, and everything on the page that follows.
+// Designs as they change: a text and what it is made with, its history, and everything on the page that follows.
 
 /** Steps of a turn while a slider moves, and at rest; tolerance while it moves, m. */
-const STEPS = { draft: 180, rest: 720 };
+const STEPS = { draft: 180, rest: 360 };
 const DRAFT = 50e-6;
+/** Time between two texts of figures while a slider moves, ms: nobody reads faster. */
+const READING = 120;
 
-/** The design as it was sent, and as it is now. */
-let sent = { values: {} };
-let now = { toml: live.toml, command: live.command, rpm: live.rpm };
-let last = null;
-let sentCam = structuredClone(cams[0]);
-const past = [];
-const future = [];
+/** Most steps back. */
+const MOST_PAST = 1000;
+
+/** A design that is open: as it was sent, as it is now, its history and its last cam. */
+function opened({ name, toml, files, command, commands, rpm, tolerance, file }, index = null) {
+  const now = { toml, command, rpm: rpm ?? [] };
+  return { name, files: files ?? {}, commands, tolerance: tolerance ?? 5e-6, file: file ?? null, index, first: now, now, onDisk: toml, past: [], future: [], sent: { values: {} }, sentCam: null, last: null, lastCam: null, chosen: 0, measured: null };
+}
+const docs = live.designs.map(opened);
+/** The design that is shown. */
+let doc = docs[0];
+/** Whether a slider or a node is being moved. */
+let isDragging = false;
 
 /** Requests in their order, each made when its turn comes; of drafts only the newest is kept. */
 const queue = [];
 let running = false;
 function ask(make, done, isDraft = false) {
   for (let at = queue.length - 1; at >= 0; at -= 1) if (queue[at].isDraft) queue.splice(at, 1);
-  queue.push({ make, done, isDraft });
+  queue.push({ make, done, isDraft, since: performance.now() });
   if (!running) pump();
 }
 
 async function pump() {
   running = true;
   while (queue.length) {
-    const { make: request, done } = queue.shift();
+    const { make: request, done, since } = queue.shift();
     try {
-      const asked = request();
-      const started = performance.now();
-      const answer = await engine(asked);
-      done(answer, performance.now() - started);
+      done(await engine(request()), since);
     } catch (error) {
       complain([{ message: error.message }]);
       settle();
@@ -38,50 +43,77 @@ async function pump() {
   running = false;
 }
 
-const requestOf = (more) => ({ name: live.name, toml: now.toml, command: now.command, rpm: now.rpm, ...more });
-const whole = (more) => requestOf({ page: STEPS.rest, tolerance: live.tolerance, formats: ["svg"], ...more });
+const requestOf = (more) => ({ name: doc.name, toml: doc.now.toml, files: doc.files, command: doc.now.command, rpm: doc.now.rpm, ...more });
+const whole = (more) => requestOf({ page: STEPS.rest, tolerance: doc.tolerance, ...more });
+const say = (name, values) => {
+  const words = text(name, values);
+  if (byId("state").textContent !== words) byId("state").textContent = words;
+};
 
 /** What comes of changes that are not made yet: while a slider moves. */
 function draft(changes) {
-  byId("state").textContent = text("draft");
-  ask(() => requestOf({ changes, page: STEPS.draft, tolerance: Math.max(DRAFT, live.tolerance) }), (answer) => show_(answer, true), true);
+  isDragging = true;
+  say("draft");
+  const of = doc;
+  ask(() => requestOf({ changes, page: STEPS.draft, tolerance: Math.max(DRAFT, doc.tolerance) }), (answer) => of === doc && inFrame(answer), true);
 }
 
 /** Makes changes: full tolerance, and a step of the history. */
 function commit(changes, more = {}, why = null) {
-  byId("state").textContent = text("working");
-  ask(() => whole({ changes, ...more }), (answer, ms) => {
-    const after = { ...now, ...more, toml: answer.toml ?? now.toml };
-    if (JSON.stringify(after) !== JSON.stringify(now)) {
-      past.push(now);
-      future.length = 0;
+  isDragging = false;
+  say("working");
+  const of = doc;
+  ask(() => (of === doc ? whole({ changes, ...more }) : { task: "text" }), (answer, since) => {
+    if (of !== doc) return settle();
+    const after = { ...doc.now, ...more, toml: answer.toml ?? doc.now.toml };
+    if (JSON.stringify(after) !== JSON.stringify(doc.now)) {
+      doc.past.push(doc.now);
+      if (doc.past.length > MOST_PAST) doc.past.shift();
+      doc.future.length = 0;
     }
-    now = after;
-    show_(answer, false, ms);
-    if (why) byId("state").textContent = text(why);
+    doc.now = after;
+    proved(answer, since, why);
   });
 }
 
 /** Goes back or forth in the history. */
 function travel(from, to) {
-  byId("state").textContent = text("working");
+  say("working");
   ask(() => {
-    if (from.length) {
-      to.push(now);
-      now = from.pop();
+    if (doc[from].length) {
+      doc[to].push(doc.now);
+      doc.now = doc[from].pop();
     }
     return whole({});
-  }, (answer, ms) => show_(answer, false, ms));
+  }, proved);
+}
+
+/** Shows another design of those that are open, or the same one anew. */
+function turnTo(other) {
+  doc = other;
+  formOf = "";
+  isDragging = false;
+  byId("command").replaceChildren(...doc.commands.map((command) => make("option", { value: command }, command)));
+  say("working");
+  ask(() => whole({}), (answer, since) => {
+    if (doc === other && !doc.sentCam && answer.cam?.views) asSent(answer);
+    if (doc === other) proved(answer, since);
+    else settle();
+  });
 }
 
 /** What is wrong, with what would be right; the cam stays as it was, in grey. */
+let complaint = "[]";
 function complain(faults) {
+  const said = JSON.stringify([faults, language]);
+  if (said === complaint) return;
+  complaint = said;
   const line = ({ key, message, help, remedies, line: at }) => make("p", {}, key ? make("strong", {}, `${key}: `) : null, message, at ? ` (${text("line", { line: at })})` : null, help ? make("span", { className: "muted" }, ` ${help}`) : null, ...remedyButtons(remedies ?? []));
   byId("faults").replaceChildren(...faults.map(line), faults.length ? make("p", { className: "muted" }, text("lastGood")) : "");
   byId("faults").hidden = !faults.length;
   byId("shown").classList.toggle("stale", faults.length > 0);
+  for (const { box } of fields.values()) box.classList.remove("wrong");
   for (const { key } of faults) fields.get(key)?.box.classList.add("wrong");
-  if (faults.length) byId("state").textContent = text("refused");
 }
 
 /** Buttons that make the changes with which something would pass. */
@@ -94,90 +126,167 @@ function remedyButtons(remedies) {
   });
 }
 
-/** Everything on the page after an answer. */
-function show_(answer, isDraft, ms) {
+/** The newest answer to a draft that is not shown yet: it is shown with the next frame. */
+let newest = null;
+function inFrame(answer) {
   document.documentElement.dataset.answers = Number(document.documentElement.dataset.answers ?? 0) + 1;
-  if (!isDraft && answer.toml !== undefined) byId("toml").value = answer.toml;
+  if (!newest) requestAnimationFrame(() => {
+    const shownNow = newest;
+    newest = null;
+    if (shownNow && isDragging) drafted(shownNow);
+  });
+  newest = answer;
+}
+
+/** A draft: the outline in each frame, figures as fast as they can be read. */
+let read = 0;
+function drafted(answer) {
+  if (answer.faults?.length) return refused(answer.faults);
+  complain(answer.noOutline ? [{ message: answer.noOutline, remedies: Object.values(answer.remedies).flat() }] : []);
+  if (!answer.cam.views) return;
+  takeCam(answer.cam);
+  const reads = performance.now() - read > READING;
+  if (reads) read = performance.now();
+  movers[0].draw(true);
+  plotsAnew(true);
+  if (diagram && !diagram.isSeen) diagram.waiting = answer;
+  else motionCurves(answer);
+  if (!reads) return;
+  verdict(answer);
+  for (const one of readouts) one.draw();
+}
+
+function refused(faults) {
+  complain(faults);
+  say("refused");
+}
+
+/** Everything on the page after an answer at rest: the proof first, and the rest of the page piece by piece. */
+function proved(answer, since, why = null) {
+  newest = null;
+  document.documentElement.dataset.answers = Number(document.documentElement.dataset.answers ?? 0) + 1;
+  const written = () => answer.toml !== undefined && (byId("toml").value = answer.toml);
   if (answer.faults?.length) {
-    complain(answer.faults);
-    if (!isDraft) settle();
+    refused(answer.faults);
+    later([written, ...(doc.last ? [] : [textAlone]), settle]);
     return;
   }
   const without = answer.noOutline ? [{ message: answer.noOutline, remedies: Object.values(answer.remedies).flat() }] : [];
   complain(without);
-  last = answer;
-  if (answer.cam.views) takeCam(answer.cam, isDraft);
+  doc.last = answer;
+  if (answer.cam.views) takeCam(answer.cam);
   else Object.assign(cams[0], { checks: answer.cam.checks, passed: false });
   verdict(answer);
-  if (isDraft) {
-    showPlots(true);
-    show();
-    return;
-  }
-  form(answer);
-  motionEditor(answer);
-  tables();
-  showPlots(false);
-  show();
-  differences();
-  sheet(answer);
-  downloads(answer);
+  movers[0].draw(true);
+  const ms = Math.round(performance.now() - since);
+  if (without.length) say("refused");
+  else if (why) say(why);
+  else say(answer.passed ? "proved" : "failed", { ms });
+  // When it can be seen: after the next frame.
+  requestAnimationFrame(() => setTimeout(() => (document.documentElement.dataset.proof = Math.round(performance.now() - since)), 0));
+  later([written, () => form(answer), movers[0].rest, () => plotsAnew(false), show, () => motionEditor(answer), solidAnew, tables, differences, () => sheetAnew(), () => downloads(answer), titles, settle]);
+}
+
+/** Of a design that never was a cam only its text can be changed: the fields are those of another one. */
+function textAlone() {
+  fields = new Map();
+  formOf = "";
+  byId("fields").replaceChildren();
+  byId("motion").hidden = byId("compare").hidden = byId("sheet").hidden = true;
+  diagram = null;
+  byId("file").open = true;
+  byId("title").textContent = doc.name;
+  for (const button of byId("formats").children) button.disabled = true;
+  tabs();
+}
+
+/** Pieces of work one after the other, with the browser between them; those of an older answer end where a newer one comes. */
+let works = [];
+let turn = 0;
+function later(pieces) {
+  turn += 1;
+  works = pieces;
+  const own = turn;
+  requestAnimationFrame(() => channel.port2.postMessage(own));
+}
+/** A message comes sooner than a timer. */
+const channel = new MessageChannel();
+channel.port1.onmessage = ({ data }) => {
+  if (data !== turn) return;
+  works.shift()();
+  if (works.length) channel.port2.postMessage(data);
+};
+
+function titles() {
+  doc.lastCam = cams[0].views ? structuredClone(cams[0]) : null;
   byId("title").textContent = cams[0].title;
   document.title = cams[0].title;
-  if (ms !== undefined && !without.length) byId("state").textContent = text(answer.passed ? "proved" : "failed", { ms: Math.round(ms) });
-  document.documentElement.dataset.proof = Math.round(ms ?? 0);
-  settle();
+  tabs();
 }
 
 /** Buttons and texts that follow the history. */
 function settle() {
-  byId("undo").disabled = !past.length;
-  byId("redo").disabled = !future.length;
-  byId("command").value = last?.command ?? now.command;
-  byId("rpm").value = now.rpm.length ? now.rpm.join(", ") : cams[0].speeds.replace(/[^\d., ]/g, "").trim();
-  translated(byId("main"));
+  byId("undo").disabled = !doc.past.length;
+  byId("redo").disabled = !doc.future.length;
+  byId("command").value = doc.last?.command ?? doc.now.command;
+  byId("rpm").value = doc.now.rpm.length ? doc.now.rpm.join(", ") : cams[0].speeds.replace(/[^\d., ]/g, "").trim();
   document.documentElement.dataset.settled = Number(document.documentElement.dataset.settled ?? 0) + 1;
 }
 
-/** The outline of the design as sent, in the picture of the present one. */
-function withGhost(view) {
-  const before = sentCam.views[Math.min(sentCam.views.length - 1, state.section)];
-  const part = before?.parts.find((one) => one.role === "cam");
-  const own = view.parts.find((one) => one.role === "cam");
-  if (!part || !own || part.path === own.path || before.turn.at(-1) !== view.turn.at(-1)) return;
-  const at = (track) => (Array.isArray(track) ? view.turn.map((turn) => between(track, locate(before.turn, turn))) : track);
-  const ghost = { ...part, role: "sent", name: null, x: at(part.x), y: at(part.y), turn: at(part.turn), stretch: at(part.stretch) };
-  view.parts.splice(view.parts.indexOf(own) + 1, 0, ghost);
-}
-
 /** Another cam in the place of the one that is shown. */
-function takeCam(cam, isDraft) {
-  const shown = cams[0];
+function takeCam(cam) {
+  const shownCam = cams[0];
   for (const view of cam.views) view.columns = closed(view);
-  for (const name of Object.keys(shown)) delete shown[name];
-  Object.assign(shown, cam);
+  for (const name of Object.keys(shownCam)) delete shownCam[name];
+  Object.assign(shownCam, cam);
   state.section = Math.min(state.section, cam.views.length - 1);
   cam.views.forEach(withGhost);
-  byId("scrub").max = cycleOf(first());
+  const length = String(cycleOf(first()));
+  if (byId("scrub").max !== length) byId("scrub").max = length;
   state.cycle = Math.min(state.cycle, cycleOf(first()));
-  if (isDraft) return;
-  const names = cam.views.map((view) => view.name ?? "");
-  byId("section").replaceChildren(...names.map((name, index) => make("option", { value: String(index) }, name)));
-  byId("section").value = String(state.section);
-  byId("section-choice").hidden = cam.views.length < 2;
-  for (const solid of solids.splice(0)) solid.figure.remove();
-  if (cam.solid) {
-    solids.push(solidView(shown, 0));
-    byId("solid").append(solids[0].figure);
-  }
-  byId("solid").hidden = !cam.solid;
 }
 
-/** The checks, each with what would let it pass. */
+/** Sections and the solid of the cam that is shown. */
+function solidAnew() {
+  const { views, solid } = cams[0];
+  const names = views.map((view) => view.name ?? "");
+  byId("section").replaceChildren(...names.map((name, index) => make("option", { value: String(index) }, name)));
+  byId("section").value = String(state.section);
+  byId("section-choice").hidden = views.length < 2;
+  for (const one of solids.splice(0)) one.figure.remove();
+  if (solid && cams.length === 1) {
+    solids.push(solidView(cams[0], 0));
+    byId("solid").append(solids[0].figure);
+  }
+  byId("solid").hidden = !solids.length;
+}
+
+/** The checks, each with what would let it pass; where only figures differ, only these are written. */
+let verdictOf = "";
 function verdict(answer) {
+  const judged = JSON.stringify([cams.map(({ title, passed, checks }) => [cams.length > 1 ? title : "", passed, checks.map(({ check, verdict: of, place }) => [check, of, Boolean(place)])]), answer.passed, answer.remedies, language]);
+  if (judged === verdictOf && cams.length === 1) {
+    const rows = byId("verdict").querySelectorAll("tbody tr");
+    const checks = [true, false].flatMap((wanted) => cams[0].checks.filter((check) => isBad(check) === wanted));
+    checks.forEach((check, index) => {
+      const [, , value, limit, place, note] = rows[index].children;
+      const write = (cell, words) => {
+        // Behind the text of a note are its buttons.
+        if (cell.firstChild && cell.firstChild.data !== words) cell.firstChild.data = words;
+      };
+      write(value, withUnit(check.value, check.unit));
+      write(limit, limitOf(check));
+      write(place, check.place || "");
+      write(note, check.note || "");
+    });
+    return;
+  }
+  verdictOf = judged;
   const wasOpen = byId("verdict").querySelector("details")?.open;
   byId("verdict").replaceChildren(verdicts());
   if (wasOpen) byId("verdict").querySelector("details").open = true;
+  // The checks that are shown are those of the first of two cams on one shaft.
+  if (!answer.passed && cams[0].passed) byId("verdict").querySelector(".banner").append(make("strong", { className: "broken", role: "alert" }, text("otherFails")));
   for (const row of byId("verdict").querySelectorAll("tbody tr")) {
     const name = row.firstElementChild.textContent.replace(/ /g, "_");
     const buttons = remedyButtons(answer.remedies?.[name] ?? []);
@@ -185,45 +294,37 @@ function verdict(answer) {
   }
 }
 
-/** The diagrams: while a slider moves only those that can be seen, and ten times a second. */
-let drawn = 0;
-function showPlots(isDraft) {
-  if (isDraft && performance.now() - drawn < 100) return;
-  drawn = performance.now();
-  if (!isDraft || plots.length !== panelsOf().length) {
-    drawPlots();
-    return;
+/** The diagrams with other values: those on the screen now, while a slider moves one in each frame, the others when they are seen. */
+let nextPlot = 0;
+function plotsAnew(isDraft) {
+  const panels = panelsOf();
+  const fits = plots.length === panels.length && plots.every((one) => one.update);
+  if (!fits) return drawPlots();
+  const onScreen = plots.filter(({ isSeen }) => isSeen);
+  nextPlot = (nextPlot + 1) % Math.max(1, onScreen.length);
+  for (const [index, one] of plots.entries()) {
+    if (!one.isSeen) one.waiting = panels[index];
+    else if (isDraft && one !== onScreen[nextPlot]) continue;
+    else if (one.update(panels[index])) one.draw();
+    else return drawPlots();
   }
-  panelsOf().forEach((panel, index) => {
-    const { box, plot } = plots[index];
-    const { top, bottom } = box.getBoundingClientRect();
-    if (bottom < 0 || top > window.innerHeight) return;
-    const made = plotOf(panel, plot.width, plot.height);
-    plot.destroy();
-    box.replaceWith(made.box);
-    plots[index] = made;
-  });
 }
 
-/** What differs from the design as sent: figures and checks. */
-function differences() {
-  const both = [sentCam, cams[0]];
-  const table_ = sectionsBeside(both);
-  for (const row of table_.querySelectorAll("tbody tr:not(.differs)")) row.remove();
-  for (const box of table_.querySelectorAll(".columns > div")) if (!box.querySelector("tbody tr")) box.remove();
-  const any = table_.querySelector("tbody tr");
-  byId("differences").replaceChildren(any ? table_ : make("p", {}, text("same")));
-  byId("compare").hidden = !past.length && !any;
-}
-
+/** The sheet is made when it is looked at. */
 let picture = null;
-function sheet(answer) {
-  const file = answer.files.find(({ name }) => name.endsWith(".svg"));
-  byId("sheet").hidden = !file;
-  if (picture) URL.revokeObjectURL(picture);
-  picture = file ? URL.createObjectURL(new Blob([file.bytes], { type: "image/svg+xml" })) : null;
-  if (picture) byId("sheet-picture").src = picture;
-  else byId("sheet-picture").removeAttribute("src");
+let sheetOf = null;
+function sheetAnew() {
+  byId("sheet").hidden = !doc.last?.passed;
+  const wanted = JSON.stringify([doc.name, doc.now]);
+  if (byId("sheet").hidden || !byId("sheet-box").open || sheetOf === wanted) return;
+  ask(() => requestOf({ tolerance: doc.tolerance, formats: ["svg"] }), (answer) => {
+    const file = (answer.files ?? []).find(({ name }) => name.endsWith(".svg"));
+    if (picture) URL.revokeObjectURL(picture);
+    picture = file ? URL.createObjectURL(new Blob([file.bytes], { type: "image/svg+xml" })) : null;
+    sheetOf = wanted;
+    if (picture) byId("sheet-picture").src = picture;
+    else byId("sheet-picture").removeAttribute("src");
+  });
 }
 
 /** Hands bytes to the person as a file. */
@@ -236,15 +337,17 @@ function save(name, bytes, type = "application/octet-stream") {
   setTimeout(() => URL.revokeObjectURL(address), 10000);
 }
 
-const FORMATS = ["dxf", "svg", "step", "csv", "json"];
-function downloads(answer) {
-  byId("formats").replaceChildren(...FORMATS.map((format) => {
-    const button = make("button", { type: "button", disabled: !answer.passed, "data-format": format }, format.toUpperCase());
-    button.addEventListener("click", () => ask(() => requestOf({ tolerance: live.tolerance, formats: [format] }), (made) => {
+/** The program that serves the page also makes PDF. */
+const FORMATS = ["dxf", "svg", "step", "csv", "json", ...(live.token ? ["pdf"] : [])];
+function downloads({ passed }) {
+  if (!byId("formats").children.length) byId("formats").append(...FORMATS.map((format) => {
+    const button = make("button", { type: "button", "data-format": format }, format.toUpperCase());
+    button.addEventListener("click", () => ask(() => requestOf({ tolerance: doc.tolerance, formats: [format] }), (made) => {
       if (made.faults) complain(made.faults);
-      if (made.files.length === 1) save(made.files[0].name, made.files[0].bytes);
+      const files = made.files.filter(({ name }) => name.endsWith(`.${format}`));
+      if (files.length === 1) save(files[0].name, files[0].bytes);
       // Of several a browser lets a page hand out one at a click.
-      else byId("files-list").replaceChildren(...made.files.map((file) => {
+      else byId("files-list").replaceChildren(...files.map((file) => {
         const one = make("button", { type: "button", "data-file": file.name }, file.name);
         one.addEventListener("click", () => save(file.name, file.bytes));
         return one;
@@ -252,84 +355,83 @@ function downloads(answer) {
     }));
     return button;
   }));
+  for (const button of byId("formats").children) button.disabled = !passed;
   byId("files-list").replaceChildren();
-  byId("files-note").textContent = text(answer.passed ? "provenNote" : "onlyProven");
-}
-
-/** Another design in the place of all: its history begins with it. */
-function openDesign(design) {
-  live.name = design.name;
-  byId("command").replaceChildren(...design.commands.map((command) => make("option", { value: command }, command)));
-  now = { toml: design.toml, command: design.command, rpm: design.rpm ?? [] };
-  past.length = 0;
-  future.length = 0;
-  formOf = "";
-  sent = { values: {} };
-  sentCam = { ...cams[0], views: [], sections: [] };
-  ask(() => whole({}), (answer, ms) => {
-    if (answer.cam?.views) asSent(answer);
-    show_(answer, false, ms);
-  });
+  byId("files-note").textContent = text(passed ? "provenNote" : "onlyProven");
 }
 
 /** Takes an answer as that of the design as sent. */
 function asSent(answer) {
-  sent = answer;
-  sentCam = structuredClone(answer.cam);
-  for (const view of sentCam.views) view.columns = closed(view);
+  doc.sent = answer;
+  doc.sentCam = structuredClone(answer.cam);
+  for (const view of doc.sentCam.views) view.columns = closed(view);
 }
 
 document.addEventListener("keydown", (event) => {
   if (!(event.ctrlKey || event.metaKey) || ["INPUT", "TEXTAREA"].includes(event.target.tagName) && event.target.type !== "range") return;
   const key = event.key.toLowerCase();
-  if (key === "z" && !event.shiftKey) travel(past, future);
-  else if (key === "y" || key === "z") travel(future, past);
+  if (key === "z" && !event.shiftKey) travel("past", "future");
+  else if (key === "y" || key === "z") travel("future", "past");
   else return;
   event.preventDefault();
 });
 
-async function startLive() {
-  byId("state").textContent = text("starting");
-  speak();
-  byId("undo").addEventListener("click", () => travel(past, future));
-  byId("redo").addEventListener("click", () => travel(future, past));
-  byId("find").addEventListener("input", search);
+/** What the buttons and fields of the page do. */
+function listen() {
+  const on = (id, event, act) => byId(id).addEventListener(event, act);
+  on("undo", "click", () => travel("past", "future"));
+  on("redo", "click", () => travel("future", "past"));
+  on("find", "input", search);
   // What is typed into a field is not a key for the animation.
-  byId("main").addEventListener("keydown", (event) => {
+  on("main", "keydown", (event) => {
     if (event.target.matches("input[type=text], input[type=search], textarea, select")) event.stopPropagation();
   });
-  byId("apply").addEventListener("click", () => commit([], { toml: byId("toml").value }));
-  byId("copy").addEventListener("click", async () => {
+  on("apply", "click", () => commit([], { toml: byId("toml").value }));
+  on("copy", "click", async () => {
     byId("toml").select();
     try {
       await navigator.clipboard.writeText(byId("toml").value);
     } catch {
       document.execCommand("copy");
     }
-    byId("state").textContent = text("copied");
+    say("copied");
   });
-  byId("save-toml").addEventListener("click", () => save(`${live.name}.toml`, byId("toml").value, "application/toml"));
-  byId("reset").addEventListener("click", () => commit([], { toml: live.toml, command: live.command, rpm: live.rpm }));
-  byId("rpm").addEventListener("change", () => {
+  on("save-toml", "click", () => save(`${doc.name}.toml`, byId("toml").value, "application/toml"));
+  on("reset", "click", () => commit([], doc.first));
+  on("rpm", "change", () => {
     const speeds = byId("rpm").value.split(/[,;\s]+/).map(Number).filter((rpm) => rpm > 0);
     // The speed of a motion program is a key of its file; that of a cam of a press is what the cam is cut for, --rpm on the command line.
-    if (last?.given.includes("motion.rpm") && speeds.length === 1) commit([{ set: { key: "motion.rpm", to: String(speeds[0]) } }], { rpm: [] });
+    if (doc.last?.given.includes("motion.rpm") && speeds.length === 1) commit([{ set: { key: "motion.rpm", to: String(speeds[0]) } }], { rpm: [] });
     else commit([], { rpm: speeds });
   });
-  byId("command").append(...live.commands.map((command) => make("option", { value: command }, command)));
-  byId("command").addEventListener("change", () => commit([], { command: byId("command").value }));
-  byId("language").addEventListener("change", () => {
+  on("command", "change", () => commit([], { command: byId("command").value }));
+  on("sheet-box", "toggle", sheetAnew);
+  on("look", "click", () => {
+    byId("theme").click();
+    themed();
+  });
+  on("language", "change", () => {
     language = byId("language").value;
     formOf = "";
+    verdictOf = "";
+    complaint = "";
     speak();
-    if (last) show_(last, false);
+    if (!byId("gallery").hidden) gallery();
+    if (doc.last) turnTo(doc);
   });
-  const given = { ...now };
+}
+
+async function startLive() {
+  say("starting");
+  listen();
+  speak();
   keyTable = mergedKeys((await engine({ task: "keys" })).keys);
-  ask(() => whole({}), (answer, ms) => {
-    if (JSON.stringify(given) === JSON.stringify(now) && answer.cam?.views) asSent(answer);
-    show_(answer, false, ms);
-    document.documentElement.dataset.live = "";
-  });
   startDesigns();
+  byId("command").append(...doc.commands.map((command) => make("option", { value: command }, command)));
+  const own = doc;
+  ask(() => whole({}), (answer, since) => {
+    if (own === doc && own.now === own.first && answer.cam?.views) asSent(answer);
+    proved(answer, since);
+    works.push(() => (document.documentElement.dataset.live = ""));
+  });
 }

@@ -1,8 +1,5 @@
 // The motion program as a diagram: nodes that can be dragged, moved by keys and typed; laws, dwells and returns.
 
-/** The segment that is chosen. */
-let chosen = 0;
-
 const EDITOR = { width: 720, heights: [190, 80, 80, 80], left: 56, right: 14, gap: 30, top: 24 };
 const CURVES = [["lift", /^lift_/], ["velocity", /^velocity_(?!cut)/], ["acceleration", /^acceleration_(?!cut)/], ["jerk", /^jerk_/]];
 
@@ -26,118 +23,178 @@ function nodeMoved(answer, index, at, position) {
 }
 
 /** Whether nodes of this motion can be moved: it is a program of segments. */
-const isProgram = (answer) => Boolean(answer.motion?.segments.length) && answer.given.some((path) => path.startsWith("motion.segment[")) && !answer.motion.segments.some(({ whole }) => whole);
+const isProgram = (answer) => Boolean(answer.motion?.segments.length) && answer.given.some((path) => path.startsWith("motion.segment[")) && !answer.motion.segments.some(({ whole: all }) => all);
 
 function motionEditor(answer) {
   byId("motion").hidden = !isProgram(answer);
-  if (byId("motion").hidden) return;
-  chosen = Math.min(chosen, answer.motion.segments.length - 1);
+  if (byId("motion").hidden) {
+    diagram = null;
+    return;
+  }
+  doc.chosen = Math.min(doc.chosen, answer.motion.segments.length - 1);
   motionDiagram(answer);
   motionTools(answer);
   motionRows(answer);
+  measuredShown();
+}
+
+/** The diagram that is shown: its lanes, the places of its nodes, and how places and positions become coordinates. */
+let diagram = null;
+
+/** A curve as the path of an SVG, missing values left out. */
+function pathOf(places, values, xOf, yOf) {
+  let isOpen = false;
+  let path = "";
+  for (let index = 0; index < values.length; index += 1) {
+    const value = values[index];
+    const has = value !== null && value !== undefined;
+    if (has) path += `${isOpen ? "L" : "M"}${tenths(xOf(places[index]))} ${tenths(yOf(value))}`;
+    isOpen = has;
+  }
+  return path;
+}
+const tenths = (value) => Math.round(10 * value) / 10;
+
+const ends = (...lists) => {
+  let [low, high] = [0, 0];
+  for (const list of lists) for (const value of list) if (value !== null && value !== undefined) [low, high] = [Math.min(low, value), Math.max(high, value)];
+  return [low, high];
+};
+
+/** The lanes of a view: name, column, unit. */
+function lanesOf(view) {
+  const names = Object.keys(view.columns);
+  return CURVES.map(([name, pattern]) => [name, names.find((column) => pattern.test(column))]).filter(([, column]) => column).map(([name, column]) => ({ name, column }));
 }
 
 function motionDiagram(answer) {
   const { segments, units } = answer.motion;
   const view = first();
-  const names = Object.keys(view.columns);
-  const lanes = CURVES.map(([name, pattern]) => [name, names.find((column) => pattern.test(column))]).filter(([, column]) => column);
+  const lanes = lanesOf(view);
   const height = EDITOR.top + lanes.reduce((sum, _, index) => sum + EDITOR.heights[index] + EDITOR.gap, 0);
   const svg = makeSvg("svg", { viewBox: `0 0 ${EDITOR.width} ${height}`, role: "group", "aria-label": text("motion") });
   const [begin, end] = [segments[0].at[0], segments.at(-1).at[1]];
   const wide = EDITOR.width - EDITOR.left - EDITOR.right;
-  const xOf = (at) => EDITOR.left + ((at - begin) / (end - begin || 1)) * wide;
-  const places = view.columns[view.place];
+  const least = Math.min(...segments.flatMap(({ position }) => position));
+  diagram = { isSeen: true, waiting: null, draw() {}, update: motionCurves, svg, lanes, begin, end, wide, least, height, nodes: [], xOf: (at) => EDITOR.left + ((at - begin) / (end - begin || 1)) * wide };
   let top = EDITOR.top;
-  let lift = null;
-  lanes.forEach(([name, column], lane) => {
-    const high = EDITOR.heights[lane];
-    const values = view.columns[column];
-    const numbers = values.filter((value) => value !== null);
-    const [low, most] = [Math.min(...numbers, 0), Math.max(...numbers, 0)];
-    const from = top;
-    const yOf = (value) => from + high - ((value - low) / (most - low || 1)) * high;
-    svg.append(makeSvg("line", { class: "grid", x1: EDITOR.left, x2: EDITOR.left + wide, y1: yOf(0), y2: yOf(0) }));
-    const path = values.map((value, index) => (value === null ? "" : `${index && values[index - 1] !== null ? "L" : "M"}${xOf(begin + places[index] - places[0]).toFixed(2)} ${yOf(value).toFixed(2)}`)).join("");
-    svg.append(makeSvg("path", { class: "curve", d: path }));
-    const label = makeSvg("text", { x: 0, y: top - 10 });
-    label.textContent = `${text(name)}, ${view.kinds[column][1]}: ${shown(low, 4)} … ${shown(most, 4)}`;
-    svg.append(label);
-    if (lane === 0) lift = { top, high, low, most, yOf };
-    top += high + EDITOR.gap;
+  lanes.forEach((lane, index) => {
+    Object.assign(lane, { top, high: EDITOR.heights[index], label: makeSvg("text", { x: 0, y: top - 10 }) });
+    for (const name of ["grid", "ghost", "measured", "curve"]) svg.append((lane[name] = makeSvg("path", { class: name })));
+    svg.append(lane.label);
+    top += lane.high + EDITOR.gap;
   });
   segments.forEach((segment, index) => {
-    const area = makeSvg("rect", { class: index === chosen ? "segment chosen" : "segment", x: xOf(segment.at[0]), width: Math.max(1, xOf(segment.at[1]) - xOf(segment.at[0])), y: EDITOR.top, height: height - EDITOR.top });
+    const x = diagram.xOf(segment.at[0]);
+    const area = makeSvg("rect", { class: index === doc.chosen ? "segment chosen" : "segment", x, width: Math.max(1, diagram.xOf(segment.at[1]) - x), y: EDITOR.top, height: height - EDITOR.top });
     area.addEventListener("click", () => {
-      chosen = index;
-      motionEditor(last);
+      doc.chosen = index;
+      motionEditor(doc.last);
     });
     svg.append(area);
   });
-  const least = Math.min(...segments.flatMap(({ position }) => position));
-  segments.forEach((segment, index) => {
-    const isLast = index === segments.length - 1;
-    const node = makeSvg("circle", { class: "node", r: 7, cx: xOf(segment.at[1]), cy: lift.yOf(segment.position[1] - least), tabindex: 0, role: "slider", "data-node": index,
-      "aria-label": `${text("segment")} ${index + 1}, ${segment.law}: ${text("until")}, ${text("position")}`, "aria-valuenow": segment.position[1], "aria-valuetext": `${shown(segment.at[1])} ${units[0]}, ${shown(segment.position[1])} ${units[1]}` });
-    let moving = null;
-    const placeOfPointer = (event) => {
-      const box = svg.getBoundingClientRect();
-      const [x, y] = [((event.clientX - box.left) / box.width) * EDITOR.width, ((event.clientY - box.top) / box.height) * height];
-      const at = begin + ((x - EDITOR.left) / wide) * (end - begin);
-      const up = least + lift.low + ((lift.top + lift.high - y) / lift.high) * (lift.most - lift.low);
-      const limit = isLast ? end : segments[index + 1].at[1] - 0.5;
-      return [isLast ? null : Math.round(2 * Math.min(limit, Math.max(segment.at[0] + 0.5, at))) / 2, segment.position[1] === segment.position[0] ? null : Math.round(10 * up) / 10];
-    };
-    node.addEventListener("pointerdown", (event) => {
-      node.setPointerCapture(event.pointerId);
-      chosen = index;
-      moving = { from: [event.clientX, event.clientY], changes: null };
-      event.preventDefault();
-      node.focus();
-    });
-    node.addEventListener("pointermove", (event) => {
-      if (!moving || Math.hypot(event.clientX - moving.from[0], event.clientY - moving.from[1]) < 3) return;
-      const [at, position] = placeOfPointer(event);
-      // Along the larger of the two movements alone, so that an angle changes without the position.
-      const sideways = Math.abs(event.clientX - moving.from[0]) > Math.abs(event.clientY - moving.from[1]);
-      moving.changes = nodeMoved(last, index, sideways ? at : null, sideways ? null : position);
-      node.setAttribute("cx", sideways && at !== null ? xOf(at) : xOf(segment.at[1]));
-      node.setAttribute("cy", !sideways && position !== null ? lift.yOf(position - least) : lift.yOf(segment.position[1] - least));
-      if (moving.changes.length) draft(moving.changes);
-    });
-    for (const name of ["pointerup", "pointercancel"]) node.addEventListener(name, () => {
-      if (moving?.changes?.length) commit(moving.changes);
-      moving = null;
-    });
-    node.addEventListener("keydown", (event) => {
-      const by = event.shiftKey ? 10 : 1;
-      const step = { ArrowLeft: [-by, 0], ArrowRight: [by, 0], ArrowUp: [0, by], ArrowDown: [0, -by] }[event.key];
-      if (!step) return;
-      event.preventDefault();
-      event.stopPropagation();
-      const changes = nodeMoved(last, index, step[0] && !isLast ? segment.at[1] + step[0] : null, step[1] ? segment.position[1] + step[1] : null);
-      refocus = index;
-      if (changes.length) commit(changes);
-    });
-    svg.append(node);
-  });
-  byId("motion-diagram").replaceChildren(svg, make("p", { className: "muted" }, text("nodeHelp")));
+  segments.forEach((segment, index) => svg.append(nodeOf(segment, index, segments, units)));
+  motionCurves(answer);
+  svg.camgenPlot = diagram;
+  seen.observe(svg);
+  byId("motion-diagram").replaceChildren(svg);
   if (refocus !== null) svg.querySelector(`[data-node="${refocus}"]`)?.focus();
   refocus = null;
 }
 /** The node that has the focus again after the diagram is drawn anew. */
 let refocus = null;
 
+/** The curves of the diagram, those of the design as sent and of a measured table; while a node is dragged too. */
+function motionCurves(answer) {
+  if (!diagram || !answer.motion) return false;
+  const view = first();
+  const before = cams.length === 1 && doc.past.length ? ghostOf(view) : null;
+  const place = (of) => (at) => diagram.xOf(diagram.begin + at - of.columns[of.place][0]);
+  diagram.lanes.forEach((lane, index) => {
+    const values = view.columns[lane.column];
+    if (!values) return;
+    const old = before?.columns[lane.column] ?? [];
+    const points = index === 0 && doc.measured ? doc.measured.points : [];
+    const [low, most] = ends(values, old, points.map(([, lift]) => lift));
+    const yOf = (value) => lane.top + lane.high - ((value - low) / (most - low || 1)) * lane.high;
+    Object.assign(lane, { low, most, yOf });
+    const write = (name, path) => lane[name].getAttribute("d") !== path && lane[name].setAttribute("d", path);
+    write("grid", `M${EDITOR.left} ${yOf(0).toFixed(1)}H${EDITOR.left + diagram.wide}`);
+    write("ghost", before ? pathOf(before.columns[before.place], old, place(before), yOf) : "");
+    write("measured", points.map(([at, lift]) => `M${place(view)(at).toFixed(1)} ${yOf(lift).toFixed(1)}h0`).join(""));
+    write("curve", pathOf(view.columns[view.place], values, place(view), yOf));
+    const [own, largest] = ends(values);
+    const words = `${text(lane.name)}, ${view.kinds[lane.column][1]}: ${shown(own, 4)} … ${shown(largest, 4)}`;
+    if (lane.label.textContent !== words) lane.label.textContent = words;
+  });
+  answer.motion.segments.forEach((segment, index) => {
+    const node = diagram.nodes[index];
+    if (!node || node.held) return;
+    node.element.setAttribute("cx", diagram.xOf(segment.at[1]));
+    node.element.setAttribute("cy", diagram.lanes[0].yOf(segment.position[1] - diagram.least));
+  });
+  return true;
+}
+
+/** The node at the end of a segment: it is dragged, or moved by the arrow keys. */
+function nodeOf(segment, index, segments, units) {
+  const isLast = index === segments.length - 1;
+  const rests = segment.position[0] === segment.position[1];
+  const node = makeSvg("circle", { class: "node", r: 7, tabindex: 0, role: "slider", "data-node": index, "aria-orientation": "horizontal",
+    "aria-label": `${text("segment")} ${index + 1}, ${segment.law}: ${text("until")}, ${text("position")}`, "aria-valuenow": segment.at[1], "aria-valuemin": segments[0].at[0], "aria-valuemax": segments.at(-1).at[1], "aria-valuetext": `${shown(segment.at[1])} ${units[0]}, ${shown(segment.position[1])} ${units[1]}` });
+  const one = { element: node, held: null };
+  diagram.nodes.push(one);
+  const placeOfPointer = (event) => {
+    const box = diagram.svg.getBoundingClientRect();
+    const [x, y] = [((event.clientX - box.left) / box.width) * EDITOR.width, ((event.clientY - box.top) / box.height) * diagram.height];
+    const at = diagram.begin + ((x - EDITOR.left) / diagram.wide) * (diagram.end - diagram.begin);
+    const lift = diagram.lanes[0];
+    const up = diagram.least + lift.low + ((lift.top + lift.high - y) / lift.high) * (lift.most - lift.low);
+    const limit = isLast ? diagram.end : segments[index + 1].at[1] - 0.5;
+    return [isLast ? null : Math.round(2 * Math.min(limit, Math.max(segment.at[0] + 0.5, at))) / 2, rests ? null : Math.round(10 * up) / 10];
+  };
+  node.addEventListener("pointerdown", (event) => {
+    node.setPointerCapture(event.pointerId);
+    doc.chosen = index;
+    one.held = { from: [event.clientX, event.clientY], changes: null };
+    event.preventDefault();
+    node.focus();
+  });
+  node.addEventListener("pointermove", (event) => {
+    const { held } = one;
+    if (!held || Math.hypot(event.clientX - held.from[0], event.clientY - held.from[1]) < 3) return;
+    const [at, position] = placeOfPointer(event);
+    // Along the larger of the two movements alone, so that an angle changes without the position.
+    const sideways = Math.abs(event.clientX - held.from[0]) > Math.abs(event.clientY - held.from[1]);
+    held.changes = nodeMoved(doc.last, index, sideways ? at : null, sideways ? null : position);
+    node.setAttribute("cx", diagram.xOf(sideways && at !== null ? at : segment.at[1]));
+    node.setAttribute("cy", diagram.lanes[0].yOf((!sideways && position !== null ? position : segment.position[1]) - diagram.least));
+    if (held.changes.length) draft(held.changes);
+  });
+  for (const name of ["pointerup", "pointercancel"]) node.addEventListener(name, () => {
+    const { held } = one;
+    one.held = null;
+    if (held?.changes?.length) commit(held.changes);
+    else if (held) motionEditor(doc.last);
+  });
+  node.addEventListener("keydown", (event) => {
+    const by = event.shiftKey ? 10 : 1;
+    const step = { ArrowLeft: [-by, 0], ArrowRight: [by, 0], ArrowUp: [0, by], ArrowDown: [0, -by] }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const changes = nodeMoved(doc.last, index, step[0] && !isLast ? segment.at[1] + step[0] : null, step[1] ? segment.position[1] + step[1] : null);
+    refocus = index;
+    if (changes.length) commit(changes);
+  });
+  return node;
+}
+
 /** What can be done with the chosen segment: law, insertion, removal. */
 function motionTools(answer) {
   const { segments, units } = answer.motion;
-  const segment = segments[chosen];
-  const own = `motion.segment[${chosen}]`;
-  const laws = keyTable.laws;
-  const rests = segment.position[0] === segment.position[1];
-  const law = make("select", { id: "law", disabled: rests }, ...(laws.some(({ name }) => name === segment.law) ? [] : [make("option", { value: segment.law }, segment.law)]), ...laws.map(({ name, peaks }) => make("option", { value: name }, `${name} (v ${shown(peaks[0], 3)}, a ${shown(peaks[1], 3)}, j ${peaks[2] === null ? "∞" : shown(peaks[2], 3)})`)));
-  law.value = segment.law;
-  law.addEventListener("change", () => commit([{ set: { key: `${own}.law`, to: law.value } }]));
+  const segment = segments[doc.chosen];
+  const own = `motion.segment[${doc.chosen}]`;
   const button = (name, act) => {
     const made = make("button", { type: "button", id: name }, text(name));
     made.addEventListener("click", act);
@@ -146,25 +203,26 @@ function motionTools(answer) {
   // A new segment takes half of the chosen one's angle.
   const inserted = (kind, position) => {
     const width = cleaned((segment.at[1] - segment.at[0]) / 2);
-    const at = chosen + 1;
+    const at = doc.chosen + 1;
     const path = `motion.segment[${at}]`;
     const given = (name) => answer.given.includes(`${own}.${name}`);
     const shortened = given("until") ? { set: { key: `${own}.until`, to: `${cleaned(segment.at[0] + width)} ${units[0]}` } } : { set: { key: `${own}.over`, to: `${width} ${units[0]}` } };
-    const isLast = chosen === segments.length - 1;
+    const isLast = doc.chosen === segments.length - 1;
     const over = isLast && !given("over") && !given("until") ? [] : [{ set: { key: `${path}.over`, to: `${width} ${units[0]}` } }];
     commit([shortened, { insert: path }, { set: { key: `${path}.law`, to: kind } }, ...over, ...(position === null ? [] : [{ set: { key: `${path}.to`, to: `${cleaned(position)} ${units[1]}` } }])]);
-    chosen = at;
+    doc.chosen = at;
   };
   const positions = segments.flatMap(({ position }) => position);
   const [low, high] = [Math.min(...positions), Math.max(...positions)];
   const removal = () => {
-    const follows = segments[chosen + 1];
-    const grown = follows && answer.given.includes(`motion.segment[${chosen + 1}].over`) ? [{ set: { key: `motion.segment[${chosen + 1}].over`, to: `${cleaned(follows.at[1] - segment.at[0])} ${units[0]}` } }] : [];
+    const follows = segments[doc.chosen + 1];
+    const grown = follows && answer.given.includes(`motion.segment[${doc.chosen + 1}].over`) ? [{ set: { key: `motion.segment[${doc.chosen + 1}].over`, to: `${cleaned(follows.at[1] - segment.at[0])} ${units[0]}` } }] : [];
     commit([...grown, { remove: own }]);
   };
-  byId("motion-tools").replaceChildren(make("label", {}, `${text("segment")} ${chosen + 1}: ${text("law")} `, law),
+  byId("motion-tools").replaceChildren(make("strong", {}, `${text("segment")} ${doc.chosen + 1}: ${segment.law}`),
     button("addRise", () => inserted("modified-sine", segment.position[1] < high ? high : high + (high - low || 10) / 2)), button("addDwell", () => inserted("dwell", null)), button("addReturn", () => inserted("modified-sine", low)), button("removeSegment", removal));
   byId("removeSegment").disabled = segments.length < 2;
+  lawPictures(answer);
 }
 
 /** Every node as numbers that can be typed. */
@@ -175,8 +233,8 @@ function motionRows(answer) {
     const value = which === 0 ? segment.at[1] : segment.position[1];
     const input = make("input", { type: "text", inputMode: "decimal", value: String(cleaned(value)), "data-row": `${index}-${which}`, "aria-label": `${text("segment")} ${index + 1}: ${text(which === 0 ? "until" : "position")}, ${units[which]}`, disabled: which === 0 ? index === segments.length - 1 : segment.position[0] === segment.position[1] });
     input.addEventListener("change", () => {
-      const typed = Number(input.value);
-      const changes = Number.isFinite(typed) ? nodeMoved(last, index, which === 0 ? typed : null, which === 1 ? typed : null) : [];
+      const typed = Number(input.value.replace(",", "."));
+      const changes = Number.isFinite(typed) ? nodeMoved(doc.last, index, which === 0 ? typed : null, which === 1 ? typed : null) : [];
       if (changes.length) commit(changes);
     });
     return input;

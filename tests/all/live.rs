@@ -117,7 +117,43 @@ fn a_text_names_no_file() {
     let answer = engine::answer(&EngineRequest { name: "own".into(), toml: text.clone(), ..EngineRequest::default() });
     let faults = answer.found["faults"].to_string();
     assert!(!faults.contains("[package]") && !faults.is_empty(), "{faults}");
-    assert_eq!(engine::keys_with_files(&text), ["motion.table"]);
+}
+
+/// A rise and a return of 20 mm, by 3-4-5.
+fn lift_table() -> String {
+    let rise = |x: f64| x.powi(3) * (10.0 - 15.0 * x + 6.0 * x * x);
+    let lift = |at: f64| 20.0 * if at < 150.0 { rise(at / 150.0) } else { rise((360.0 - at) / 210.0) };
+    let rows = (0..360).map(|at| format!("{at};{:.9}\n", lift(f64::from(at))));
+    std::iter::once("deg;mm\n".to_owned()).chain(rows).collect()
+}
+
+fn with_table() -> String {
+    let text = toml("feeder");
+    let (head, rest) = text.split_once("[motion]").expect("a motion");
+    let follower = rest.find("[follower").expect("a follower");
+    format!("{head}[motion]\nrpm = 120\nstart = \"0 mm\"\ntable = \"lift.csv\"\n\n{}", &rest[follower..])
+}
+
+#[test]
+fn a_request_brings_the_files_that_its_text_names() {
+    let request = EngineRequest { name: "own".into(), toml: with_table(), ..EngineRequest::default() };
+    let files = [("lift.csv".to_owned(), lift_table())].into();
+    let answer = engine::answer(&EngineRequest { files, ..request.clone() });
+    assert_eq!(answer.found["passed"], true, "{:?}", answer.found.get("faults"));
+    let without = engine::answer(&request);
+    let why = without.found["faults"][0]["message"].as_str().unwrap_or_default();
+    assert!(why.contains("`motion.table`: there is no file `lift.csv` here"), "{why}");
+}
+
+#[test]
+fn a_live_report_has_the_files_that_its_design_names() {
+    let directory = tempfile::tempdir().expect("a directory");
+    fs::write(directory.path().join("own.toml"), with_table()).expect("written");
+    fs::write(directory.path().join("lift.csv"), lift_table()).expect("written");
+    let run = camgen_in(directory, &["make", "own.toml", "--format", "html", "--live", "--name", "own", "--quiet"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let page = fs::read_to_string(run.directory.path().join("output/own.html")).expect("a page");
+    assert!(page.contains("\"files\":{\"lift.csv\":\"deg;mm\\n0;0.000000000"));
 }
 
 #[test]
@@ -162,6 +198,11 @@ fn serve_prints_its_address_and_ends() {
     let other = camgen_in(run.directory, &["serve", "own.toml", "--for", "0"]);
     let token = |text: &str| text.split("token=").nth(1).map(str::to_owned);
     assert!(token(&run.out).is_some() && token(&run.out) != token(&other.out), "a token for each run");
-    let missing = camgen_in(other.directory, &["serve", "missing.toml", "--for", "0"]);
+    let two = camgen_in(other.directory, &["serve", "own.toml", "groove", "--for", "0"]);
+    assert_eq!(two.code, 0, "{}", two.err);
+    let same = camgen_in(two.directory, &["serve", "own.toml", "./own.toml", "--for", "0"]);
+    assert_eq!(same.code, 2, "{}", same.out);
+    assert!(same.err.contains("two designs are called `own`"), "{}", same.err);
+    let missing = camgen_in(same.directory, &["serve", "missing.toml", "--for", "0"]);
     assert_eq!(missing.code, 2, "{}", missing.out);
 }

@@ -95,7 +95,7 @@ def wrong_requests(generator, token, host):
     letters = "0123456789abcdef"
     other = "".join(generator.choice(letters) for _ in range(32))
     body = json.dumps({"name": "x", "toml": "", "formats": ["dxf"]}).encode()
-    path = generator.choice(["/engine", "/file", "/save", "/write", "/"])
+    path = generator.choice(["/engine", "/files", "/save", "/write", "/"])
     climbing = generator.choice(["/../secret.txt", "/..%2f..%2fetc/passwd", "//etc/passwd", "/engine/../../secret.txt", "/%2e%2e/secret.txt", "/secret.txt", "http://evil.example/", "*"])
     return generator.choice([
         ("POST", path, body, {"X_Camgen_Token": None}),
@@ -172,7 +172,7 @@ def crowded(program):
     streams = [socket.create_connection(("127.0.0.1", program.port), timeout=LONGEST) for _ in range(200)]
     begin = time.time()
     while time.time() - begin < LONGEST:
-        status, _ = program.ask("POST", "/file", b"{}")
+        status, _ = program.ask("POST", "/files", b"{}")
         if status == 200:
             break
         time.sleep(0.1)
@@ -206,11 +206,12 @@ def works(program, binary, directory):
     changed = program.engine(task="text", toml=text, changes=[{"set": {"key": "cam.thickness", "to": "17 mm"}}])["toml"]
     assert changed == text.replace('thickness = "15 mm"', 'thickness = "17 mm"') != text
     told = lambda path, **body: json.loads(program.ask("POST", path, json.dumps(body).encode())[1])
-    assert "changed by another program" in told("/save", toml=changed, before="something else")["faults"][0]["message"]
-    assert "not TOML" in told("/save", toml="name = ", before=text)["faults"][0]["message"]
+    assert "changed by another program" in told("/save", design=0, toml=changed, before="something else")["faults"][0]["message"]
+    assert "not TOML" in told("/save", design=0, toml="name = ", before=text)["faults"][0]["message"]
     assert path.read_text() == text
-    assert "written" in told("/save", toml=changed, before=text) and path.read_text() == changed
-    assert told("/file")["toml"] == changed
+    assert "written" in told("/save", design=0, toml=changed, before=text) and path.read_text() == changed
+    assert told("/files")["designs"][0]["toml"] == changed
+    assert "no machine file" in told("/save", design=7, toml=changed, before=changed)["faults"][0]["message"]
     done = told("/write", name="own", toml=changed, formats=["dxf", "csv"])
     assert sorted(Path(name).name for name in done["written"]) == ["own.csv", "own.dxf"], done
     # An edited file is not written over, and then none is.

@@ -28,8 +28,8 @@ Examples:
 
 pub(super) const SERVE: &str = "\
 Examples:
-  camgen serve lifter.toml --for 1
-      the design in lifter.toml as a page at the address that is printed; it ends after a second, without --for at Ctrl+C
+  camgen serve lifter.toml groove --for 1
+      both designs as tabs of a page at the address that is printed; it ends after a second, without --for at Ctrl+C
   camgen serve --port 8423 --for 1
       all embedded designs, at a port of your own";
 

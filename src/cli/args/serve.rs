@@ -6,9 +6,9 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct ServeArgs {
-    /// A machine file, or the name of an embedded one [default: a page with all embedded designs]
+    /// Machine files, or names of embedded ones, each in a tab of its own [default: a page with all embedded designs]
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) file: Option<String>,
+    pub(in crate::cli) files: Vec<String>,
 
     /// Speed the cam is cut for, rpm [default: that of the file]
     #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]

@@ -3,11 +3,13 @@
 use super::super::Failure;
 use super::super::args::ServeArgs;
 use super::http::Answer;
+use camgen::catalogue::catalogue;
 use camgen::document::file;
 use camgen::engine::{self, EngineRequest, Task, TextChange};
 use camgen::machine::MachineSource;
-use camgen::write::html::live::{self, LiveDesign, LiveServer};
-use serde_json::{Map, Value, json};
+use camgen::write::html::live::{self, LiveDesign};
+use serde::Deserialize;
+use serde_json::{Value, json};
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -22,12 +24,22 @@ const STEPS: u32 = 720;
 /// Largest machine file, bytes.
 const LARGEST_FILE: u64 = 1 << 20;
 
+/// A request to write a machine file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Save {
+    /// Which of the designs.
+    design: usize,
+    toml: String,
+    /// The text that the page has seen on the disk.
+    before: String,
+}
+
 /// What is served.
 pub(super) struct Served {
-    server: LiveServer,
-    /// The machine file, where it is one of the user's.
-    file: Option<PathBuf>,
-    design: LiveDesign,
+    token: String,
+    /// The designs of the page; the first is shown.
+    designs: Vec<LiveDesign>,
     out: PathBuf,
     overwrite: bool,
     /// One request of the engine at a time, so that many of them do not take the whole computer; and one that writes.
@@ -36,49 +48,32 @@ pub(super) struct Served {
 
 impl Served {
     pub(super) fn new(args: &ServeArgs, token: String) -> Result<Self, Failure> {
-        let source = MachineSource::load(args.file.as_deref().unwrap_or(FIRST)).map_err(Failure::new)?;
-        let is_embedded =
-            |name: &str| camgen::catalogue::catalogue().names().iter().any(|own| own.eq_ignore_ascii_case(name));
-        let own = args.file.as_deref().filter(|name| !is_embedded(name) || Path::new(name).exists());
-        if let [key, ..] = engine::keys_with_files(source.text()).as_slice() {
-            return Err(Failure(format!(
-                "serve cannot follow the file that `{key}` names; write its rows as points, or use make"
-            )));
+        let names = if args.files.is_empty() { vec![FIRST.to_owned()] } else { args.files.clone() };
+        let designs = names.iter().map(|name| design(name, args)).collect::<Result<Vec<_>, _>>()?;
+        for (at, one) in designs.iter().enumerate() {
+            if designs.iter().take(at).any(|other| other.name == one.name) {
+                return Err(Failure(format!(
+                    "two designs are called `{}`: their files would have the same names",
+                    one.name
+                )));
+            }
         }
-        let design = LiveDesign {
-            name: source.stem().to_owned(),
-            toml: source.text().to_owned(),
-            command: String::new(),
-            commands: Vec::new(),
-            rpm: args.rpm.into_iter().collect(),
-            tolerance: args.tolerance.unwrap_or(TOLERANCE),
-        };
-        // The page says what is wrong with a design; what cannot be a cam at all is refused here.
-        let machine = camgen::Machine::of_source(&source, &[]);
-        let commands = machine.as_ref().map(engine::commands).unwrap_or_default();
-        let design = LiveDesign { commands: commands.into_iter().map(str::to_owned).collect(), ..design };
-        Ok(Self {
-            server: LiveServer { token, file: own.map(str::to_owned) },
-            file: own.map(PathBuf::from),
-            design,
-            out: args.out.clone(),
-            overwrite: args.overwrite,
-            turn: Mutex::new(()),
-        })
+        Ok(Self { token, designs, out: args.out.clone(), overwrite: args.overwrite, turn: Mutex::new(()) })
     }
 
     pub(super) fn token(&self) -> &str {
-        &self.server.token
+        &self.token
     }
 
-    /// The page, with the cam of the design as it is on the disk now; where it has none, with another and what is wrong.
+    /// The page, with the cam of the first design as it is on the disk now; where it has none, with another and what is wrong.
     pub(super) fn page(&self) -> Answer {
-        let toml = self.text().unwrap_or_else(|_| self.design.toml.clone());
-        let design = LiveDesign { toml, ..self.design.clone() };
-        let cam = shown(&design).or_else(|| shown(&first()?));
+        let designs: Vec<LiveDesign> =
+            self.designs.iter().map(|design| as_it_is(design).unwrap_or(design.clone())).collect();
+        let Some(first) = designs.first() else { return Answer::refused(500, "there is no design") };
+        let cam = shown(first).or_else(|| shown(&usual()?));
         let Some(cam) = cam else { return Answer::refused(500, "there is no cam to show") };
         let title = cam["title"].as_str().unwrap_or_default().to_owned();
-        match live::page((&title, cam), &design, Some(&self.server)) {
+        match live::page((&title, cam), &designs, Some(&self.token)) {
             Ok(page) => Answer::of("text/html; charset=utf-8", page),
             Err(why) => Answer::refused(500, &why.to_string()),
         }
@@ -90,35 +85,33 @@ impl Served {
         Answer::of("application/octet-stream", engine::answer_bytes(body))
     }
 
-    /// The text of the machine file as it is now.
-    fn text(&self) -> Result<String, String> {
-        let Some(path) = &self.file else { return Ok(self.design.toml.clone()) };
-        file::text_of(path, LARGEST_FILE).map_err(|why| format!("cannot read `{}`: {why}", path.display()))
+    /// The texts of the machine files as they are now, each with those of the files that it names, or why not.
+    pub(super) fn files(&self) -> Answer {
+        let of = |design: &LiveDesign| match as_it_is(design) {
+            Ok(design) => json!({"toml": design.toml, "files": design.files}),
+            Err(why) => json!({"fault": why}),
+        };
+        told(Ok(json!({"designs": self.designs.iter().map(of).collect::<Vec<Value>>()})))
     }
 
-    pub(super) fn file(&self) -> Answer {
-        told(self.text().map(|toml| json!({"toml": toml})))
-    }
-
-    /// Writes the text of the machine file.
+    /// Writes the text of a machine file.
     pub(super) fn save(&self, body: &[u8]) -> Answer {
         let _turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
         told(self.saved(body))
     }
 
     fn saved(&self, body: &[u8]) -> Result<Value, String> {
-        let asked: Map<String, Value> = serde_json::from_slice(body).map_err(|why| format!("not a request: {why}"))?;
-        let path = self.file.as_ref().ok_or("there is no machine file to write")?;
-        let text = |name: &str| asked.get(name).and_then(Value::as_str).ok_or(format!("`{name}` is missing"));
-        let (toml, before) = (text("toml")?, text("before")?);
+        let asked: Save = serde_json::from_slice(body).map_err(|why| format!("not a request: {why}"))?;
+        let design = self.designs.get(asked.design);
+        let path = design.and_then(|design| design.file.as_ref()).ok_or("there is no machine file to write")?;
         // Any change shows whether it is TOML.
         let change = TextChange::Set { key: "name".into(), to: "checked".into() };
-        engine::changed_text(toml, &[change]).map_err(|why| why.to_string())?;
-        if self.text()? != before {
+        engine::changed_text(&asked.toml, &[change]).map_err(|why| why.to_string())?;
+        if text(path)? != asked.before {
             return Err("the file was changed by another program since; it is read again now".into());
         }
-        replace(path, toml.as_bytes()).map_err(|why| format!("cannot write `{}`: {why}", path.display()))?;
-        Ok(json!({"written": [path.display().to_string()]}))
+        replace(Path::new(path), asked.toml.as_bytes()).map_err(|why| format!("cannot write `{path}`: {why}"))?;
+        Ok(json!({"written": [path]}))
     }
 
     /// Writes the files of a cam, all or none.
@@ -143,17 +136,43 @@ fn told(done: Result<Value, String>) -> Answer {
     Answer::of("application/json", value.to_string().into_bytes())
 }
 
-/// The design that is shown where there is no other.
-fn first() -> Option<LiveDesign> {
-    let source = MachineSource::load(FIRST).ok()?;
-    Some(LiveDesign {
-        name: FIRST.into(),
-        toml: source.text().to_owned(),
-        command: String::new(),
-        commands: Vec::new(),
-        rpm: Vec::new(),
-        tolerance: TOLERANCE,
+/// A design by the name of an embedded one or the path of a file.
+fn design(name: &str, args: &ServeArgs) -> Result<LiveDesign, Failure> {
+    let source = MachineSource::load(name).map_err(Failure::new)?;
+    let is_embedded = catalogue().names().iter().any(|own| own.eq_ignore_ascii_case(name));
+    // The page says what is wrong with a design.
+    let machine = camgen::Machine::of_source(&source, &[]);
+    let commands = machine.as_ref().map(engine::commands).unwrap_or_default();
+    Ok(LiveDesign {
+        commands: commands.into_iter().map(str::to_owned).collect(),
+        rpm: args.rpm.into_iter().collect(),
+        tolerance: args.tolerance.unwrap_or(TOLERANCE),
+        file: (!args.files.is_empty() && (!is_embedded || Path::new(name).exists())).then(|| name.to_owned()),
+        ..of_source(&source)
     })
+}
+
+fn of_source(source: &MachineSource) -> LiveDesign {
+    let (name, toml) = (source.stem().to_owned(), source.text().to_owned());
+    LiveDesign { name, toml, files: source.named_texts(&[]), tolerance: TOLERANCE, ..LiveDesign::default() }
+}
+
+/// A design with the text that its file has now.
+fn as_it_is(design: &LiveDesign) -> Result<LiveDesign, String> {
+    let Some(path) = &design.file else { return Ok(design.clone()) };
+    let toml = text(path)?;
+    let files = MachineSource::load(path).map(|source| source.named_texts(&[])).unwrap_or_default();
+    Ok(LiveDesign { toml, files, ..design.clone() })
+}
+
+/// The text of a machine file as it is now.
+fn text(path: &str) -> Result<String, String> {
+    file::text_of(Path::new(path), LARGEST_FILE).map_err(|why| format!("cannot read `{path}`: {why}"))
+}
+
+/// The design that is shown where there is no other.
+fn usual() -> Option<LiveDesign> {
+    Some(of_source(&MachineSource::load(FIRST).ok()?))
 }
 
 /// What a page shows of a design, where it has a cam with an outline.
@@ -162,6 +181,7 @@ fn shown(design: &LiveDesign) -> Option<Value> {
         task: Task::Cam,
         name: design.name.clone(),
         toml: design.toml.clone(),
+        files: design.files.clone(),
         command: design.command.clone(),
         rpm: design.rpm.clone(),
         tolerance: Some(design.tolerance),

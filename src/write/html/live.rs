@@ -1,9 +1,13 @@
 //! The live page: the moving report with the engine in it, or in the program that serves it. The engine is the library as WebAssembly
 //! (`live/build`), the same call as `camgen::engine` in the program.
 
-use super::{CHARTS, CHARTS_LICENCE, CHARTS_STYLE, SCRIPTS, STYLE, filled, in_script, text};
+use super::{
+    ANIMATION, CHARTS, CHARTS_LICENCE, CHARTS_STYLE, COMMON, CURVES, READOUT, SOLID, STYLE, TABLES, filled, in_script,
+    text,
+};
 use crate::refusal::Refusal;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 /// The engine, compressed.
 pub const ENGINE: &[u8] = include_bytes!("../../../templates/live/engine.wasm.gz");
@@ -15,28 +19,47 @@ pub(super) const FIRST_STEPS: u32 = 180;
 
 const PAGE: &str = include_str!("../../../templates/live/page.html");
 const OWN_STYLE: &str = include_str!("../../../templates/live/style.css");
-const OWN_SCRIPTS: [&str; 7] = [
+/// The scripts: those of the report, with a mechanism and plots that change while a slider moves.
+const SCRIPTS: [&str; 20] = [
+    COMMON,
+    include_str!("../../../templates/live/mechanism.js"),
+    READOUT,
+    SOLID,
+    TABLES,
+    CURVES,
+    include_str!("../../../templates/live/plot.js"),
+    ANIMATION,
     include_str!("../../../templates/live/texts.js"),
     include_str!("../../../templates/live/engine.js"),
     include_str!("../../../templates/live/form.js"),
     include_str!("../../../templates/live/live.js"),
+    include_str!("../../../templates/live/compare.js"),
     include_str!("../../../templates/live/motion.js"),
+    include_str!("../../../templates/live/laws.js"),
+    include_str!("../../../templates/live/measured.js"),
+    include_str!("../../../templates/live/newcam.js"),
     include_str!("../../../templates/live/designs.js"),
+    include_str!("../../../templates/live/tabs.js"),
     include_str!("../../../templates/live/start.js"),
 ];
+/// What the page may do in a browser.
+const POLICY: &str =
+    "script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; connect-src 'self'; img-src data: blob:";
 /// The texts of the page in each language.
 const TEXTS: [(&str, &str); 2] = [
     ("en", include_str!("../../../templates/live/texts.en.json")),
     ("de", include_str!("../../../templates/live/texts.de.json")),
 ];
 
-/// The design that a live page begins with.
-#[derive(Debug, Clone, PartialEq)]
+/// A design of a live page.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct LiveDesign {
     /// What the names of its files begin with.
     pub name: String,
     /// The text of its machine file.
     pub toml: String,
+    /// The texts of the files that it names, by these names.
+    pub files: BTreeMap<String, String>,
     /// The command that makes its cam.
     pub command: String,
     /// The commands that make a cam of its file.
@@ -45,32 +68,28 @@ pub struct LiveDesign {
     pub rpm: Vec<f64>,
     /// Tolerance of the outline, m.
     pub tolerance: f64,
-}
-
-/// A program that serves the page and answers its requests.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct LiveServer {
-    /// What requests must bring.
-    pub token: String,
     /// The machine file that the page may write, as it is shown.
     pub file: Option<String>,
 }
 
-/// The live page of a cam: with its own engine, or with that of a program that serves it.
+/// The live page of a cam, that of the first design: with its own engine, or with that of a program that serves it to whoever has the token.
 ///
 /// # Errors
 /// Only what `serde_json` cannot write, which a report is not.
-pub fn page((title, cam): (&str, Value), design: &LiveDesign, server: Option<&LiveServer>) -> Result<Vec<u8>, Refusal> {
-    let live = json!({
-        "name": design.name, "toml": design.toml, "command": design.command, "commands": design.commands, "rpm": design.rpm,
-        "tolerance": design.tolerance,
-        "served": server.map(|server| json!({"token": server.token, "file": server.file})),
-    });
+pub fn page((title, cam): (&str, Value), designs: &[LiveDesign], token: Option<&str>) -> Result<Vec<u8>, Refusal> {
+    let of = |design: &LiveDesign| {
+        json!({
+            "name": design.name, "toml": design.toml, "files": design.files, "command": design.command,
+            "commands": design.commands, "rpm": design.rpm, "tolerance": design.tolerance, "file": design.file,
+        })
+    };
+    let live = json!({"designs": designs.iter().map(of).collect::<Vec<Value>>(), "token": token});
     let texts: Vec<String> = TEXTS.iter().map(|(name, table)| format!("\"{name}\":{table}")).collect();
-    let engine = if server.is_some() { String::new() } else { printable(ENGINE) };
+    let engine = if token.is_some() { String::new() } else { printable(ENGINE) };
     let data = in_script(&json!({"schema": 1, "cams": [cam]}))?;
     let live = in_script(&live)?;
     let lookup = |name: &str| match name {
+        "policy" => POLICY.to_owned(),
         "title" => text(title),
         "style" => format!("{CHARTS_STYLE}\n{STYLE}\n{OWN_STYLE}"),
         "data" => data.clone(),
@@ -79,7 +98,7 @@ pub fn page((title, cam): (&str, Value), design: &LiveDesign, server: Option<&Li
         "engine" => engine.clone(),
         "licence" => text(CHARTS_LICENCE),
         "charts" => CHARTS.to_owned(),
-        "script" => [SCRIPTS.concat(), OWN_SCRIPTS.concat()].concat(),
+        "script" => SCRIPTS.concat(),
         _ => String::new(),
     };
     Ok(filled(PAGE, lookup))
@@ -132,10 +151,11 @@ mod tests {
         let tables = TEXTS.map(|(_, table)| serde_json::from_str::<Value>(table).expect("JSON"));
         let names = |table: &Value| table["page"].as_object().expect("texts").keys().cloned().collect::<Vec<_>>();
         assert_eq!(names(&tables[0]), names(&tables[1]));
-        let scripts = OWN_SCRIPTS.concat();
+        let scripts = SCRIPTS.concat();
         let asked = PAGE.split("data-text=\"").skip(1).map(|rest| rest.split('"').next().unwrap_or_default());
         let in_scripts = scripts.split("text(\"").skip(1).map(|rest| rest.split('"').next().unwrap_or_default());
-        for name in asked.chain(in_scripts) {
+        let said = scripts.split("say(\"").skip(1).map(|rest| rest.split('"').next().unwrap_or_default());
+        for name in asked.chain(in_scripts).chain(said) {
             assert!(tables[0]["page"].get(name).is_some(), "no text `{name}`");
         }
     }
@@ -147,14 +167,13 @@ mod tests {
             toml: "name = \"</script>\"".into(),
             command: "make".into(),
             commands: vec!["make".into()],
-            rpm: Vec::new(),
             tolerance: 5e-6,
+            ..LiveDesign::default()
         };
-        let own = String::from_utf8(page(("A", json!({})), &design, None).expect("a page")).expect("text");
+        let own = String::from_utf8(page(("A", json!({})), &[design.clone()], None).expect("a page")).expect("text");
         assert!(own.len() < 3_000_000, "{} bytes", own.len());
         assert!(!own.contains("name = \\\"</script>"), "a text of the user is not closed");
-        let server = LiveServer { token: "t".into(), file: None };
-        let served = page(("A", json!({})), &design, Some(&server)).expect("a page");
+        let served = page(("A", json!({})), &[design], Some("t")).expect("a page");
         assert!(served.len() < 400_000, "{} bytes", served.len());
     }
 }

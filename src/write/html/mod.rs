@@ -38,14 +38,32 @@ pub(crate) fn unit_of(path: &str) -> Option<&'static str> {
 
 const PAGE: &str = include_str!("../../../templates/report.html");
 const STYLE: &str = include_str!("../../../templates/report.css");
-const SCRIPTS: [&str; 4] = [
-    include_str!("../../../templates/report/common.js"),
-    include_str!("../../../templates/report/mechanism.js"),
-    include_str!("../../../templates/report/solid.js"),
-    include_str!("../../../templates/report/page.js"),
+/// What several pages have: their head, the moving mechanism with its controls, and their scripts.
+const PARTS: [(&str, &str); 3] = [
+    ("{{head}}", include_str!("../../../templates/parts/head.html")),
+    ("{{moving}}", include_str!("../../../templates/parts/moving.html")),
+    ("{{scripts}}", include_str!("../../../templates/parts/scripts.html")),
 ];
-/// What begins: the report by itself, the live page once its engine is there.
-const START: &str = include_str!("../../../templates/report/start.js");
+const COMMON: &str = include_str!("../../../templates/report/common.js");
+const READOUT: &str = include_str!("../../../templates/report/readout.js");
+const SOLID: &str = include_str!("../../../templates/report/solid.js");
+const TABLES: &str = include_str!("../../../templates/report/tables.js");
+const CURVES: &str = include_str!("../../../templates/report/curves.js");
+const ANIMATION: &str = include_str!("../../../templates/report/page.js");
+/// The scripts of the report. The live page has a mechanism and plots of its own, which change while a slider moves.
+const SCRIPTS: [&str; 9] = [
+    COMMON,
+    include_str!("../../../templates/report/mechanism.js"),
+    READOUT,
+    SOLID,
+    TABLES,
+    CURVES,
+    include_str!("../../../templates/report/plot.js"),
+    ANIMATION,
+    include_str!("../../../templates/report/start.js"),
+];
+/// What the report may do in a browser.
+const POLICY: &str = "script-src 'unsafe-inline'; img-src data:";
 /// The page of a study, with its own script.
 const STUDY: &str = include_str!("../../../templates/study.html");
 const STUDY_SCRIPT: &str = include_str!("../../../templates/report/study.js");
@@ -59,7 +77,7 @@ fn of_cam(cam: &Rendering<'_>) -> Result<Vec<u8>, Refusal> {
     if let Some(design) = cam.live {
         // The engine makes the rest of the rows when the page opens.
         let first = Rendering { samples: cam.samples.min(live::FIRST_STEPS), ..*cam };
-        return live::page((&cam.report.title(), data::of(&first)), design, None);
+        return live::page((&cam.report.title(), data::of(&first)), std::slice::from_ref(design), None);
     }
     page(&cam.report.title(), &[data::of(cam)])
 }
@@ -95,7 +113,7 @@ pub fn of_study(title: &str, data: &Value) -> Result<Vec<u8>, Refusal> {
 
 /// The page of cams.
 fn page(title: &str, cams: &[Value]) -> Result<Vec<u8>, Refusal> {
-    report_filled(PAGE, title, &json!({"schema": 1, "cams": cams}), &format!("{}{START}", SCRIPTS.concat()))
+    report_filled(PAGE, title, &json!({"schema": 1, "cams": cams}), &SCRIPTS.concat())
 }
 
 /// Data within a script: no tag can begin within the JSON, as `<` occurs in texts only.
@@ -107,6 +125,7 @@ fn in_script(data: &Value) -> Result<String, Refusal> {
 fn report_filled(template: &str, title: &str, data: &Value, script: &str) -> Result<Vec<u8>, Refusal> {
     let data = in_script(data)?;
     let lookup = |name: &str| match name {
+        "policy" => POLICY.to_owned(),
         "title" => text(title),
         "style" => format!("{CHARTS_STYLE}\n{STYLE}"),
         "data" => data.clone(),
@@ -118,10 +137,11 @@ fn report_filled(template: &str, title: &str, data: &Value, script: &str) -> Res
     Ok(filled(template, lookup))
 }
 
-/// Fills a template: inserted text is not searched again.
+/// Fills a template and the parts that it shares with others: other inserted text is not searched again.
 fn filled(template: &str, lookup: impl Fn(&str) -> String) -> Vec<u8> {
+    let template = PARTS.iter().fold(template.to_owned(), |page, (name, part)| page.replace(name, part));
     let mut page = String::with_capacity(template.len());
-    let mut rest = template;
+    let mut rest = template.as_str();
     while let Some((before, behind)) = rest.split_once("{{") {
         let (name, after) = behind.split_once("}}").unwrap_or((behind, ""));
         page.push_str(before);

@@ -1,0 +1,105 @@
+// A new cam by a few numbers: follower and body by pictures, a rise, a dwell and a return, and what limits it.
+
+/** Followers: the keys of their tables, what their travel is measured in, and a picture. */
+const FOLLOWERS = {
+  roller: { keys: ['radius = "12 mm"'], unit: "mm", picture: "M30 4V18M26 8H34M30 18a7 7 0 1 0 .01 0M10 40a22 14 0 0 1 40 0" },
+  "swinging-roller": { keys: ['radius = "12 mm"', 'arm = "110 mm"', 'pivot_distance = "140 mm"'], unit: "deg", picture: "M8 12L34 22M5 16L8 12L11 16ZM34 16a7 7 0 1 0 .01 0M14 42a22 14 0 0 1 40 0" },
+  flat: { keys: [], unit: "mm", picture: "M30 4V24M16 24H44V28H16ZM10 44a22 16 0 0 1 40 0" },
+  "swinging-flat": { keys: ['pivot_distance = "200 mm"'], unit: "deg", picture: "M8 18L52 24M5 22L8 18L11 22ZM12 42a22 16 0 0 1 40 0" },
+  knife: { keys: [], unit: "mm", picture: "M30 4V18M25 18H35L30 28ZM10 44a22 16 0 0 1 40 0" },
+};
+/** Bodies: the followers that they have, their keys, whether a roller runs inside so that they have no bore, and a picture. */
+const BODIES = {
+  disc: { of: ["roller", "swinging-roller", "flat", "swinging-flat", "knife"], keys: ['base_radius = "auto"', 'thickness = "15 mm"'], picture: "M30 2C46 2 54 14 50 26C46 38 38 42 30 42C18 42 12 34 12 24C12 12 18 2 30 2ZM30 20a5 5 0 1 0 .01 0" },
+  ring: { of: ["roller", "swinging-roller"], keys: ['base_radius = "auto"', 'thickness = "15 mm"'], open: true, picture: "M30 1a21 21 0 1 0 .01 0M30 8C40 8 46 14 44 24C42 34 38 36 30 36C20 36 16 30 16 22C16 14 22 8 30 8ZM30 28a4 4 0 1 0 .01 0" },
+  groove: { of: ["roller", "swinging-roller"], keys: ['base_radius = "auto"', 'thickness = "24 mm"', 'groove_depth = "14 mm"', 'clearance = "0.04 mm"'], picture: "M30 1a21 21 0 1 0 .01 0M30 5C42 5 48 14 46 24C44 34 38 39 30 39C20 39 14 32 14 22C14 12 20 5 30 5ZM30 12C36 12 41 17 39 24C37 30 36 32 30 32C24 32 21 28 21 22C21 16 24 12 30 12Z" },
+  conjugate: { of: ["roller", "swinging-roller"], keys: ['base_radius = "auto"', 'thickness = "15 mm"'], counter: true, picture: "M24 6C38 6 46 14 42 26C38 36 32 40 24 40C14 40 8 32 8 24C8 12 14 6 24 6ZM36 8C48 8 54 18 52 26C50 36 44 40 36 40" },
+  rib: { of: ["roller", "swinging-roller"], keys: ['base_radius = "auto"', 'thickness = "24 mm"', 'roller_distance = "34 mm"'], open: true, picture: "M30 4C44 4 50 14 47 25C44 36 38 40 30 40C19 40 13 32 13 23C13 12 19 4 30 4ZM30 8C41 8 46 15 43 24C41 33 36 36 30 36C22 36 17 30 17 23C17 14 22 8 30 8ZM52 10a5 5 0 1 0 .01 0M36 14a4 4 0 1 0 .01 0" },
+  barrel: { of: ["roller"], keys: ['outer_radius = "65 mm"', 'groove_depth = "12 mm"', 'roller_height = "11 mm"', 'clearance = "0.03 mm"'], picture: "M10 8H50V38H10ZM4 20H10V26H4ZM50 20H56V26H50ZM18 8C22 20 38 24 40 38M24 8C28 20 44 22 46 34" },
+};
+/** Keys of the limits that can be given at once, with an example. */
+const NEW_LIMITS = [["pressure_angle", "30 deg"], ["min_convex_radius", "5 mm"], ["size", "200 mm"], ["wall", "8 mm"], ["contact_stress", "1200 MPa"]];
+const NEW_NUMBERS = [["rise", 30], ["riseOver", 120], ["dwellOver", 60], ["returnOver", 100], ["rpm", 250]];
+
+/** The text of a machine file for a rise, a dwell and a return. */
+function textOfNew({ follower, body, law, rise, riseOver, dwellOver, returnOver, rpm, limits }) {
+  const { keys, unit } = FOLLOWERS[follower];
+  const own = BODIES[body];
+  const segment = (name, over, to) => `[[motion.segment]]\nlaw = "${name}"\n${over === null ? "" : `over = "${over} deg"\n`}${to === null ? "" : `to = "${to} ${unit}"\n`}`;
+  // An arm swings by the angle whose arc is the rise; of a flat arm that at the camshaft.
+  const arm = { "swinging-roller": 110, "swinging-flat": 200 }[follower];
+  const top = arm ? Number(((rise / arm) * (180 / Math.PI)).toFixed(3)) : rise;
+  const segments = [segment(law, riseOver, top), dwellOver > 0 ? segment("dwell", dwellOver, null) : null, segment(law, returnOver, 0), riseOver + dwellOver + returnOver < 360 ? `${segment("dwell", null, null).trimEnd()}  # the rest of the turn\n` : null];
+  const tables = [
+    `[motion]\nrpm = ${rpm}\nstart = "0 ${unit}"\n`, ...segments.filter(Boolean),
+    `[follower.${follower}]\n${keys.map((key) => `${key}\n`).join("")}`,
+    `[cam]\nbody = "${body}"\n${[...own.keys, ...(own.open ? [] : ['bore_radius = "10 mm"']), 'material = "steel"'].map((key) => `${key}\n`).join("")}`,
+    own.counter ? '[cam.counter]\nradius = "12 mm"\n' : null,
+    `[limits]\n${limits.map(([key, value]) => `${key} = "${value}"\n`).join("")}`,
+  ];
+  return `# A cam begun in the live page of camgen.\n\nname = "New cam"\n\n${tables.filter(Boolean).join("\n")}`;
+}
+
+/** Radio buttons with pictures. */
+function pictured(id, choices, chosenName) {
+  const cards = Object.entries(choices).map(([name, { picture: path }]) => {
+    const svg = makeSvg("svg", { viewBox: "0 0 60 46", "aria-hidden": "true" });
+    svg.append(makeSvg("path", { d: path }));
+    return make("label", { className: "picture" }, make("input", { type: "radio", name: `new-${id}`, id: `new-${id}-${name}`, value: name, checked: name === chosenName }), svg, make("span", {}, text(name)));
+  });
+  return make("fieldset", {}, make("legend", {}, text(id)), ...cards);
+}
+
+/** The language of the form for a new cam. */
+let formsOf = "";
+
+function newCam() {
+  formsOf = language;
+  const number = ([id, value]) => make("label", {}, `${text(id)} `, make("input", { id: `new-${id}`, type: "text", inputMode: "decimal", value: String(value), size: 6, required: true }));
+  const limit = ([key, example]) => make("label", { title: aboutOf("limits", key) }, `${text(`limit_${key}`)} `, make("input", { id: `new-limit-${key}`, type: "text", placeholder: example, size: 9 }));
+  const laws = make("select", { id: "new-law" }, ...keyTable.laws.map(({ name }) => make("option", { value: name }, name)));
+  laws.value = "modified-sine";
+  const go = make("button", { type: "submit", id: "new-make" }, text("make"));
+  const form_ = make("form", {}, make("h3", {}, text("newCam")), pictured("follower", FOLLOWERS, "roller"), pictured("body", BODIES, "disc"),
+    make("fieldset", { className: "row" }, make("legend", {}, text("motion")), ...NEW_NUMBERS.map(number), make("label", {}, `${text("law")} `, laws)),
+    make("fieldset", { className: "row" }, make("legend", {}, text("limits")), ...NEW_LIMITS.map(limit), make("p", { className: "muted" }, text("limitsHelp"))),
+    make("p", { className: "row" }, go, make("span", { id: "new-fault", role: "alert" })));
+  form_.noValidate = true;
+  form_.addEventListener("change", () => fitBodies(form_));
+  form_.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const asked = askedOf(form_);
+    byId("new-fault").textContent = asked.fault ?? "";
+    if (asked.fault) return;
+    byId("gallery").hidden = true;
+    openDesign({ name: "new-cam", toml: textOfNew(asked), command: "make", commands: ["make"] });
+  });
+  byId("new").replaceChildren(form_);
+}
+
+/** What a key of a table means. */
+const aboutOf = (path, name) => keyTable.sections.find((section) => section.path === path)?.keys.find((key) => key.name === name)?.about ?? "";
+
+/** Only bodies that the follower has can be chosen. */
+function fitBodies(form_) {
+  const follower = new FormData(form_).get("new-follower");
+  for (const [name, { of }] of Object.entries(BODIES)) {
+    const input = byId(`new-body-${name}`);
+    input.disabled = !of.includes(follower);
+    if (input.disabled && input.checked) byId("new-body-disc").checked = true;
+  }
+}
+
+/** What the form says, or what is wrong with it. */
+function askedOf(form_) {
+  const data = new FormData(form_);
+  const asked = { follower: data.get("new-follower"), body: data.get("new-body"), law: byId("new-law").value };
+  for (const [id] of NEW_NUMBERS) {
+    asked[id] = Number(byId(`new-${id}`).value.trim().replace(",", ".") || NaN);
+    if (!(asked[id] > 0 || (id === "dwellOver" && asked[id] === 0))) return { fault: text("notNumber", { name: text(id) }) };
+  }
+  const sum = asked.riseOver + asked.dwellOver + asked.returnOver;
+  if (sum > 360) return { fault: text("overTurn", { sum: shown(sum) }) };
+  asked.limits = NEW_LIMITS.map(([key]) => [key, byId(`new-limit-${key}`).value.trim().replace(/"/g, "")]).filter(([, value]) => value);
+  return asked;
+}
