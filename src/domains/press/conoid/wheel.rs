@@ -39,7 +39,9 @@ pub(super) fn section(conoid: &Conoid) -> Option<Section> {
         return None;
     }
     let (first, last) = (*conoid.speeds.first()?, *conoid.speeds.last()?);
-    let settings: Vec<WheelSetting> = (0..=SETTINGS)
+    // Of one speed every setting is the same.
+    let steps = if first < last { SETTINGS } else { 0 };
+    let settings: Vec<WheelSetting> = (0..=steps)
         .map(|step| {
             let share = f64::from(step) / f64::from(SETTINGS);
             let rpm = match step {

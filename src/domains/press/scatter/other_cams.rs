@@ -80,7 +80,9 @@ pub fn of_conoid(
             p95_fixed_bottom_n: fixed,
         })
     };
-    let speeds: Vec<SpeedScatter> = laws.iter().map(at).collect::<Option<_>>()?;
+    let mut speeds: Vec<SpeedScatter> = laws.iter().map(at).collect::<Option<_>>()?;
+    // A conoid for one speed has two sections of it.
+    speeds.dedup_by(|next, before| next.rpm == before.rpm);
     let values = ConoidScatter { followed: followed.iter().map(|parameter| parameter.name()).collect(), speeds };
     let words = values.words();
     Some(Section::new("scatter", &values).with_words(words))
