@@ -6,6 +6,7 @@ a cam angle with a lift. Nothing is to first order. Judges random discs, then a 
 
 usage: as_made.py CAMGEN_BINARY DIRECTORY [--count N] [--seed N] [--jobs N]
 """
+import copy
 import csv
 import json
 import math
@@ -171,13 +172,21 @@ def one(words, number, rng):
         near("acceleration", told["acceleration_error_max_rad_per_s2"], acceleration, 0.02 * acceleration)
     else:
         near("acceleration", told["acceleration_error_max_m_per_s2"], acceleration * 1e-3, 0.02 * acceleration * 1e-3)
-        offset = case.offset + case.side
-        height = math.sqrt((case.base + case.radius) ** 2 - case.offset**2) + lift + case.place
-        tangent = (first - offset) / height
+        # Where cam and follower sit moves the contact along the cam; forces are those of the surfaces.
+        seated = copy.copy(case)
+        seated.place = seated.side = seated.eccentricity = seated.ahead = 0.0
+        _, (lift, first, second), _ = seated.made()
+        height = math.sqrt((case.base + case.radius) ** 2 - case.offset**2) + lift
+        tangent = (first - case.offset) / height
         force = (case.preload + case.mass * second * 1e-3 * omega**2) * np.sqrt(1 + tangent**2)
-        force = np.maximum(force, 0)
         near("largest force", told["contact_force_max_n"], force.max(), 0.002 * force.max())
         near("least force", told["contact_force_min_n"], force.min(), 0.002 * force.max())
+        # A line of contact, K. L. Johnson: the curvature of the path of the centre gives that of the profile.
+        bend = (height**2 + 2 * (first - case.offset) ** 2 - (first - case.offset) * first - height * second) / (height**2 + (first - case.offset) ** 2) ** 1.5
+        relative = 1 / (case.radius + case.roller) + bend / (1 - bend * (case.radius + case.roller))
+        modulus = 210e3 / (2 * (1 - 0.3**2))
+        stress = np.sqrt(np.maximum(force, 0) * modulus * relative / (math.pi * case.width))
+        near("pressure", told["contact_stress_max_mpa"], stress.max(), 0.01 * stress.max())
     return "judged", wrong, " ".join(command)
 
 

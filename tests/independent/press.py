@@ -377,7 +377,10 @@ def spring(binary, directory, number, rng):
         wrong.append(f"too soft a spring: {got.stderr.strip()!r}")
     else:
         # That of the fastest speed, which does for all.
-        wrong.close(named[1], least(fastest) / 1000, "least stiffness named", 1e-9)
+        # It is rounded up to digits that can be typed.
+        enough = float(named[1]) / (least(fastest) / 1000)
+        if not 1 - 1e-9 <= enough <= 1 + 2e-3:
+            wrong.append(f"least stiffness named: {enough} times what is needed")
     return "spring", wrong, words
 
 

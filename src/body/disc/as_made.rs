@@ -163,11 +163,16 @@ impl Place<'_> {
         [along, along_first + turned.dot(&normal), along_second + 2.0 * turned.dot(&first) - along]
     }
 
+    /// By how much the surfaces of cam and roller are too high along the outward normal, m.
+    fn error_of_surfaces(&self, of: &AsMadeData, waves: &[Wave]) -> Rates {
+        let side = self.curves().metal_side();
+        let wave = waved(waves, self.at.1 + self.lobe);
+        sum([of.roller_radius - of.wear, 0.0, 0.0], wave).map(|rate| side * rate)
+    }
+
     /// By how much the surface is too high along its outward normal, or the follower too far in, m.
     fn error_along_normal(&self, of: &AsMadeData, waves: &[Wave], turns: Option<[f64; 3]>) -> Rates {
-        let side = self.curves().metal_side();
-        let angle = self.at.1 + self.lobe;
-        let metal = sum([of.roller_radius - of.wear, 0.0, 0.0], waved(waves, angle)).map(|rate| side * rate);
+        let metal = self.error_of_surfaces(of, waves);
         let fixed = |size: f64, direction: f64, turning: bool| {
             let (sine, cosine) = libm::sincos(direction);
             self.normal_along(Vector2::new(cosine, sine) * size, turning, turns)
@@ -195,13 +200,46 @@ impl Place<'_> {
         (Jet { s, ds, dds, ddds: 0.0 }, s * leverage)
     }
 
+    /// The contact with the lift that the surfaces of cam and roller give as they are made. Where the cam sits and where the follower is
+    /// moves the contact along the cam, and changes neither the shape that it runs over nor, to first order, the forces.
+    fn on_surfaces(&self, of: &AsMadeData, waves: &[Wave]) -> Contact {
+        let along = product(self.error_of_surfaces(of, waves), self.along_path(self.turns()));
+        let [s, ds, dds] = along.map(|rate| rate / self.curves().follower.leverage(&self.contact.lift));
+        Contact { lift: self.contact.lift.plus(Jet { s, ds, dds, ddds: 0.0 }), ..self.contact }
+    }
+
+    /// Curvature of the worn and wavy profile, 1/m, convex positive; `None` where it is too hollow for what runs on it.
+    fn curvature(&self, of: &AsMadeData, waves: &[Wave]) -> Option<f64> {
+        let (curves, curve) = (self.curves(), &self.contact.curve);
+        let [wave, slope, second] = waved(waves, self.at.1 + self.lobe);
+        let height = wave - of.wear;
+        if let Element::Face = curves.element() {
+            // Under a face the radius is p + p'', p the distance of the face from the shaft.
+            let radius = curve.speed + height + second;
+            return (curve.speed <= 0.0 || radius > 0.0).then(|| 1.0 / radius);
+        }
+        let profile = curve.offset_inward(curves.offset());
+        let speed_slope = curves.follower.speed_slopes(&self.contact.lift).map_or(0.0, |[slope, _]| slope);
+        let profile_slope = speed_slope * (1.0 - curve.curvature * curves.offset())
+            - curves.offset() * curve.curvature_slope * curve.speed * curve.speed;
+        // The second derivative of the wave by the length along the profile.
+        let along = (second - slope * profile_slope / profile.speed) / (profile.speed * profile.speed);
+        let own = curves.metal_side() * profile.curvature;
+        let curvature = own / (1.0 + own * height) - along;
+        (curvature + self.roller() > 0.0).then_some(curvature)
+    }
+
+    /// Curvature of the roller, 1/m.
+    fn roller(&self) -> f64 {
+        self.curves().roller_radius().map_or(0.0, |radius| 1.0 / radius)
+    }
+
     /// Pressure of the contact under a force along the normal, Pa; `None` where it is not known.
-    fn pressure(&self, made: &Contact, force: f64, larger_by: f64) -> Option<f64> {
-        let (machine, curves) = (&self.disc.machine, self.curves());
+    fn pressure(&self, curvature: f64, force: f64, larger_by: f64) -> Option<f64> {
+        let machine = &self.disc.machine;
         let material = machine.cam.material?.class;
-        let roller = curves.roller_radius().map_or(0.0, |radius| 1.0 / (radius + larger_by));
-        let profile = curves.metal_side() * made.curve.offset_inward(curves.offset()).curvature;
-        let curvature = (roller + profile).max(0.0);
+        let roller = self.curves().roller_radius().map_or(0.0, |radius| 1.0 / (radius + larger_by));
+        let curvature = (roller + curvature).max(0.0);
         match machine.follower.crown_radius {
             Some(crown) => Some(stress::under_crown(force, (curvature, crown), material)),
             None => Some(stress::along_line(force, (curvature, machine.cam.thickness?), material)),
@@ -239,7 +277,7 @@ struct Turn {
     residual: f64,
     force: Extremes,
     stress: f64,
-    /// Whether waves turn the profile hollow under a face, which then rides on their crests.
+    /// Whether waves turn the profile too hollow for what runs on it, which then rides on their crests.
     on_crests: bool,
 }
 
@@ -285,14 +323,12 @@ impl Turn {
         if let Some(residual) = place.disc.residual_as_made(place.at, (moved, ratios)) {
             self.residual = self.residual.max(residual.abs());
         }
-        let made = Contact::of(place.curves().follower, place.at.1, place.contact.lift.plus(error));
-        // The speed along a profile under a face is its radius of curvature.
-        if let Element::Face = place.curves().element() {
-            self.on_crests |= place.contact.curve.speed > 0.0 && made.curve.speed <= 0.0;
-        }
+        let made = place.on_surfaces(of, waves);
+        let curvature = place.curvature(of, waves);
+        self.on_crests |= curvature.is_none();
         let Some(force) = place.disc.normal_force_as_made(place.at, &made, (moved, ratios)) else { return };
         self.force = self.force.with(force);
-        let pressed = place.pressure(&made, force, of.roller_radius);
+        let pressed = place.pressure(curvature.unwrap_or(0.0), place.disc.borne(force), of.roller_radius);
         self.stress = pressed.map_or(f64::NAN, |pressure| larger(self.stress, pressure));
     }
 }
@@ -327,11 +363,11 @@ impl Disc {
             contact_force_min_n: force.map(|force| force.low).filter(|force| force.is_finite()),
             contact_stress_max_mpa: force.map(|_| 1e-6 * turn.stress).filter(|stress| stress.is_finite()),
         };
-        Some(Section::new("as_made", &found).with_words(words(&found, turn.on_crests)))
+        Some(Section::new("as_made", &found).with_words(words(&found, (turn.on_crests, self.is_closed()))))
     }
 }
 
-fn words(found: &AsMade, on_crests: bool) -> Vec<String> {
+fn words(found: &AsMade, (on_crests, is_closed): (bool, bool)) -> Vec<String> {
     let mut words = vec![format!(
         "lift error {} to {} mm along the path ({} mm root mean square), largest at {}°",
         shown(found.lift_error_low_mm),
@@ -341,16 +377,21 @@ fn words(found: &AsMade, on_crests: bool) -> Vec<String> {
     )];
     let units = [(found.acceleration_error_max_m_per_s2, "m/s²"), (found.acceleration_error_max_rad_per_s2, "rad/s²")];
     for (value, unit) in units {
-        words.extend(value.map(|value| format!("error of the acceleration up to {} {unit}", shown(value))));
+        words.extend(
+            value.map(|value| format!("error of the acceleration, by the shape, up to {} {unit}", shown(value))),
+        );
     }
     words.extend(found.residual_max_n.map(|force| format!("residual force up to {} N", shown(force))));
     if let (Some(low), Some(high)) = (found.contact_force_min_n, found.contact_force_max_n) {
         let stress =
             found.contact_stress_max_mpa.map_or(String::new(), |stress| format!(", up to {} MPa", shown(stress)));
-        words.push(format!("force of the contact {} to {} N{stress}", shown(low), shown(high)));
+        words.push(format!("force along the normal {} to {} N{stress}", shown(low), shown(high)));
+        if low <= 0.0 && !is_closed {
+            words.push("the follower leaves the cam".into());
+        }
     }
     if on_crests {
-        words.push("waves make the profile hollow under the face, which rides on their crests: no acceleration and force is given".into());
+        words.push("waves make the profile so hollow that the follower rides on their crests: no acceleration and force is given".into());
     }
     words
 }

@@ -177,7 +177,7 @@ impl Disc {
         Some(self.borne(self.signed_normal_force(at, contact)?))
     }
 
-    /// [`Self::normal_force`] with the follower `moved` (m) along its path from where the motion puts it, on this contact, at so many times the
+    /// Force along the normal, N, negative where it lifts the follower from its flank, with the follower `moved` (m) along its path from where the motion puts it, on this contact, at so many times the
     /// speed and under so many times the load.
     pub(super) fn normal_force_as_made(
         &self,
@@ -189,7 +189,7 @@ impl Disc {
         let pressing = Pressing { constant: load * pressing.constant, ..pressing }.at_speed(speed * pressing.speed);
         let of_load = self.load.as_ref().map_or(0.0, |of| load * of.pressing_when(piece, angle, moved));
         let acting = with_load(&pressing, of_load, || contact.lift);
-        Some(self.borne(self.along_normal(acting, (piece, angle), contact)))
+        Some(self.along_normal(acting, (piece, angle), contact))
     }
 
     /// The residual force of the balance there, N; `None` of a disc that balances nothing.
@@ -202,7 +202,7 @@ impl Disc {
     }
 
     /// What flanks bear of a force along the normal.
-    fn borne(&self, along_normal: f64) -> f64 {
+    pub(super) fn borne(&self, along_normal: f64) -> f64 {
         match self.hold {
             Hold::Flanks => along_normal.abs(),
             // Two equally stiff contacts share it until one of them is free.

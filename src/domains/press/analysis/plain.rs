@@ -173,7 +173,11 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
         sections: vec![Section::new("plain_buffers", &section).with_words(words)],
-        measures: column::measure(&columns, machine).into_iter().collect(),
+        measures: column::measure(&columns, machine, |press, rpm| {
+            Some(column_by(&frozen_at(press, &cylinder, rpm), reset))
+        })
+        .into_iter()
+        .collect(),
         notes: machine.idle_key_notes(KIND.keys, KIND.noun),
         picture: Picture::Curves(picture(machine.name(), &curves, &family_curves)),
         mechanism: None,

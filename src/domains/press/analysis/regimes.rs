@@ -172,7 +172,7 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
             .chain(reversal_of_bed(machine))
             .collect(),
         measures: std::iter::once(volume(&rows, CUBIC * 2.0 * cylinder.piston_area * design.column()))
-            .chain(column::measure(&columns, machine))
+            .chain(column::measure(&columns, machine, |press, rpm| Some(press.bottom_law(rpm).column())))
             .collect(),
         notes: notes(machine),
         picture: Picture::Curves(plot(machine.name(), cam_rpm, &curves, &along)),

@@ -11,6 +11,11 @@
 //! the way back. With y = −ln w both sides have logarithms that are nearly straight, so that Newton's steps are few. At the start of the
 //! reversal w is w0 < 1: the port shuts a lead e = L (1 − w0) before it.
 
+use crate::numeric::extremum;
+
+/// Parts of the stroke in which what a fixed bottom leaves has at most one hill, and hills that are looked at.
+const CELLS: u32 = 64;
+const HILLS: usize = 3;
 /// Newton's steps end by themselves: the logarithm of a sum of exponentials is convex, and each step doubles the digits.
 const NEWTON: u32 = 60;
 
@@ -45,6 +50,18 @@ impl LevelAir {
     pub fn pressures(&self, length: f64) -> [f64; 2] {
         let y = -libm::log(length);
         [libm::exp(self.compression * y), libm::exp(self.link + self.expansion * y)]
+    }
+
+    /// What a fixed bottom, its column by (7), leaves in this air on the way back: the largest |u − (p/p0 − 1)| up to the load at the end of the
+    /// stroke.
+    #[must_use]
+    pub fn left_by_fixed_bottom(&self, end_load: f64) -> f64 {
+        let end = libm::exp(-libm::log1p(end_load) / self.compression);
+        let left = |share: f64| {
+            let [_, back] = self.pressures(1.0 - share * (1.0 - end));
+            (share * end_load - (back - 1.0)).abs()
+        };
+        extremum::largest_of_hills(left, (0.0, 1.0), (CELLS, HILLS), extremum::TO_ROUNDING).value
     }
 
     /// y = −ln w where the mean of the pressures balances a load u.

@@ -12,6 +12,8 @@ pub(in crate::domains::press) fn of_balance(
 ) {
     of.add(&residual::CHECK, |written| residual::measure(balanced, written, subject));
     of.add(&air::CHECK, |_| balanced.least_air().map(|least| air::measure(&least, subject)));
-    of.add(&column::CHECK, |_| column::measure(&balanced.columns(), subject.machine));
+    of.add(&column::CHECK, |_| {
+        column::measure(&balanced.columns(), subject.machine, |press, rpm| Some(press.rotary_law(rpm).ok()?.column()))
+    });
     of.add(&run_up::CHECK, |_| balanced.run_up().map(|run_up| run_up::measure(&run_up)));
 }

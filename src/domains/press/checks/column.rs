@@ -27,18 +27,22 @@ const CUSTOMARY: f64 = 2.0;
 /// A speed so many times as high is looked at.
 const FASTEST: f64 = 1e4;
 
-/// Measure of the longest of columns (m), each with its speed of the main shaft, rpm; `None` without one.
+/// Measure of the longest of columns (m), each with its speed of the main shaft, rpm, and of the column at any speed; `None` without one.
 #[must_use]
-pub fn measure(columns: &[(f64, f64)], machine: &Machine) -> Option<Measure> {
+pub fn measure(
+    columns: &[(f64, f64)],
+    machine: &Machine,
+    column_at: impl Fn(&Press, f64) -> Option<f64>,
+) -> Option<Measure> {
     let (longest, rpm) = columns.iter().copied().reduce(|best, next| if next.0 > best.0 { next } else { best })?;
     let given = PressCams::of(machine).largest_column;
     let limit = given.unwrap_or(CUSTOMARY);
     let faster = || {
         let press = machine.part::<Press>()?;
-        let over = |rpm: f64| press.bottom_law(rpm).column() - limit;
+        let over = |rpm: f64| column_at(press, rpm).map_or(f64::NAN, |column| column - limit);
         let found = root::bracketed(over, rpm, FASTEST * rpm, 0.0).ok()?;
         let found = three_digits_up(found);
-        (over(found) <= 0.0).then(|| format!("at {found} rpm and more it would be shorter"))
+        (over(found) <= 0.0).then(|| format!("at {found} rpm and more it is within the limit"))
     };
     let customary = given.is_none().then(|| "the customary limit".to_owned());
     let remedy = if longest > limit { faster() } else { None };

@@ -14,7 +14,7 @@ pub const CHECK: Check = Check::on_analysis(
         bound: Bound::AtMost,
         formula: "max |r_back − r_in|/2 at the same overrun, over the largest residual force of a fixed bottom",
         usual: "camgen's own rule: below 1; it warns above ½",
-        change: "less leak or friction (`buffer.leak`, `buffer.piston_friction`, `bed.friction`), or a larger bore: a lower `buffer.end_pressure`",
+        change: "less leak or friction (`buffer.leak`, `buffer.piston_friction`, `bed.friction`), or a smaller bore: a higher `buffer.end_pressure`",
     },
 );
 
@@ -27,6 +27,10 @@ pub fn measure(half_loop: f64, fixed: f64) -> Measure {
         share if share > USEFUL => Verdict::Warn,
         _ => Verdict::Pass,
     };
-    let note = format!("half of the loop is {} N, a fixed bottom leaves {} N", shown(half_loop.abs()), shown(fixed));
+    let note = format!(
+        "half of the loop is {} N, a fixed bottom without losses leaves {} N",
+        shown(half_loop.abs()),
+        shown(fixed)
+    );
     CHECK.measure(share, Some(1.0)).judged(verdict).noted(note)
 }

@@ -86,11 +86,11 @@ impl Wheel {
                 shown(self.v_min),
                 shown(self.v_max)
             ),
-            format!("{:>8} {:>9} {:>9} {:>11} {:>22}", "v", "z/mm", "rpm", "column/mm", "or at n_c moving kg"),
+            format!("{:>8} {:>9} {:>9} {:>11} {:>25}", "v", "z/mm", "rpm", "column/mm", "or moving mass at n_c/kg"),
         ];
         words.extend(self.settings.iter().map(|setting| {
             format!(
-                "{:>8.4} {:>9.3} {:>9.3} {:>11.3} {:>22.1}",
+                "{:>8.4} {:>9.3} {:>9.3} {:>11.3} {:>25.1}",
                 setting.v, setting.z_mm, setting.rpm, setting.column_length_mm, setting.mass_kg
             )
         }));

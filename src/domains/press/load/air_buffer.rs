@@ -207,10 +207,14 @@ impl AirBuffer {
         self.bottom_law().place(crank)
     }
 
-    /// A plain buffer with fixed bottom and column by (7), at this speed.
+    /// What a plain buffer with fixed bottom and column by (7) leaves at this speed, N: of a law that levels a loop in the same air, on the way on
+    /// which that is more.
     #[must_use]
     pub fn residual_without_cam(&self) -> f64 {
-        self.cylinder.residual_fixed_bottom(self.bottom_law())
+        let on_way_in = self.cylinder.residual_fixed_bottom(self.bottom_law());
+        let level = self.bottom_law().of_yoke().and_then(|law| Some((law.level?, law.loading * law.stroke)));
+        let back = level.map(|(air, end_load)| self.cylinder.unit_force() * air.left_by_fixed_bottom(end_load));
+        back.map_or(on_way_in, |back| back.max(on_way_in))
     }
 
     /// In the reversal as a distance from the exact law's, whose air is L (1 + A x)^(−1/k); before it the bed runs at constant

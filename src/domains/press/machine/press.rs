@@ -133,6 +133,10 @@ impl Press {
                         buffer.balance = \"level\" each has its own";
             return Err(Refusal::new(what).remedy("leave one of the two out"));
         }
+        if self.column == AirColumn::LeastTorque {
+            let what = "buffer.column = \"least-torque\" is found for buffer.balance = \"braking\", and \"level\" needs another length";
+            return Err(Refusal::new(what).remedy("give buffer.column as a length, or \"matched\""));
+        }
         let (compression, loading) = (self.polytropic_exponent, self.cylinder().loading(rpm));
         if expansion < compression {
             return Err(ScatterError::ExpansionBelowCompression { expansion, compression }.into());

@@ -63,7 +63,7 @@ impl LossReport {
                 shown(self.residual_back_at_mm)
             ),
             format!(
-                "half of the loop {} N at x = {} mm, which neither cam nor screw takes out; the air takes {} J from the bed in a reversal, {} % of it left",
+                "half of the loop {} N at x = {} mm, which neither cam nor screw takes out; the air takes {} J from the bed in a reversal; {} % of the air is still in the cylinder at its end",
                 shown(self.half_loop_n),
                 shown(self.half_loop_at_mm),
                 shown(self.work_lost_j),
