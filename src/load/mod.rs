@@ -36,8 +36,8 @@ pub trait Load: fmt::Debug + Send + Sync {
         0.0
     }
 
-    /// The residual force in a machine that runs at another speed, by its square over that of the design, and whose load is so many times as
-    /// large, N; as [`Self::residual`] of a load that is not to be balanced.
+    /// The residual force at another speed and under another load, N: given the square of the speed and the load, each over that of the
+    /// design. The same as [`Self::residual`] where the load is not to be balanced.
     fn residual_as_made(&self, piece: usize, at: f64, moved: f64, _square_and_load: [f64; 2]) -> f64 {
         self.residual(piece, at, moved)
     }

@@ -333,7 +333,7 @@ impl Turn {
     }
 }
 
-/// The larger of two; not a number where one is none.
+/// The larger of two numbers, NaN where either is NaN.
 fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }

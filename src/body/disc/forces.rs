@@ -177,8 +177,8 @@ impl Disc {
         Some(self.borne(self.signed_normal_force(at, contact)?))
     }
 
-    /// Force along the normal, N, negative where it lifts the follower from its flank, with the follower `moved` (m) along its path from where the motion puts it, on this contact, at so many times the
-    /// speed and under so many times the load.
+    /// Force along the normal of this contact, N, negative where it lifts the follower from its flank. The follower is `moved` (m) along its path
+    /// from where the motion puts it; `speed` and `load` are ratios to those of the design.
     pub(super) fn normal_force_as_made(
         &self,
         (piece, angle): (usize, f64),

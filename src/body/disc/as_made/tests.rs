@@ -22,7 +22,7 @@ fn disc(errors: &str) -> Disc {
 }
 
 /// The distance of the roller's centre from the shaft along its path, with first and second derivative: the centre of the circle lies
-/// `e` off the shaft at the angle 0, the path `offset` beside it.
+/// at the distance `e` from the shaft at the angle 0, and the path is `offset` to the side.
 fn height(angle: f64, [e, radius, offset]: [f64; 3]) -> Rates {
     let (sine, cosine) = libm::sincos(angle);
     let (across, first, second) = (offset + e * sine, e * cosine, -e * sine);

@@ -250,7 +250,7 @@ mod tests {
         // The rate is kept: by the formula as printed.
         let rate = SHEAR_MODULUS * libm::pow(body.wire, 4.0) / (8.0 * libm::pow(body.coil, 3.0) * body.coils);
         assert!((rate / 66_685.22 - 1.0).abs() < 1e-13);
-        // Singh's wire of 4.15 mm, example 8.1, is one of 4.5 mm of the standard; beyond the thickest bar there is none.
+        // Singh's wire of 4.15 mm (example 8.1) becomes the next one of the standard, 4.5 mm; the thickest bar has no next one.
         assert_eq!(standard(4.15e-3), Some(4.5e-3));
         assert_eq!((standard(0.018), standard(0.1)), (Some(0.018), None));
         assert!(STANDARD_WIRES.is_sorted());

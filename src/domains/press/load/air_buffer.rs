@@ -67,7 +67,7 @@ fn residual_of(cylinder: &Cylinder, law: &CrankLaw, air: [f64; 2]) -> f64 {
     residual_off(cylinder, law, air, [1.0, 1.0])
 }
 
-/// The same at a speed whose square is so many times that of the design, in air of so many times its pressure.
+/// The same with the inertia times `square`, the squared ratio of the speeds, and the air times `pressure`, the ratio of the pressures.
 fn residual_off(
     cylinder: &Cylinder,
     law: &CrankLaw,
@@ -207,8 +207,8 @@ impl AirBuffer {
         self.bottom_law().place(crank)
     }
 
-    /// What a plain buffer with fixed bottom and column by (7) leaves at this speed, N: of a law that levels a loop in the same air, on the way on
-    /// which that is more.
+    /// What a plain buffer with fixed bottom and column by (7) leaves at this speed, N. For a law that levels a loop of the air: in the same air, the
+    /// larger of both ways.
     #[must_use]
     pub fn residual_without_cam(&self) -> f64 {
         let on_way_in = self.cylinder.residual_fixed_bottom(self.bottom_law());
