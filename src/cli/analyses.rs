@@ -19,6 +19,7 @@ use camgen::document::file::text_of;
 use camgen::domains::linkage::analysis::{self as linkage, DragLinkGoal};
 use camgen::domains::press::analysis::{drive, plain, regimes, spring};
 use camgen::domains::press::buffer::regime::Reset;
+use camgen::domains::press::buffer::spring_body::SpringShape;
 use camgen::domains::press::machine::{DriveMachine, PressCams};
 use camgen::domains::press::scatter::analysis as scatter_analysis;
 use camgen::domains::press::scatter::monte_carlo::Sampling;
@@ -67,11 +68,21 @@ pub(super) fn spring(args: &SpringArgs) -> Result<Outcome, Failure> {
     let standard = args.design.then(|| "spring_buffer.body.wire=standard".to_owned());
     let overrides: Vec<String> = args.analysis.set.iter().cloned().chain(standard).collect();
     let loaded = Machine::load(&args.machine, &overrides).map_err(Failure::new)?;
-    judge_and_write(spring_of(args, loaded)?, &args.analysis)
+    let (mut analysis, name) = spring_of(args, loaded)?;
+    analysis.notes.extend(replaced_wire(args));
+    judge_and_write((analysis, name), &args.analysis)
+}
+
+/// The wire of the machine file that a design does not take.
+fn replaced_wire(args: &SpringArgs) -> Option<String> {
+    let given = args.design.then(|| Machine::load(&args.machine, &args.analysis.set).ok()).flatten()?.0;
+    let SpringShape::Wire { wire, .. } = PressCams::of(&given).spring_body?.shape else { return None };
+    Some(format!("--design takes a standard wire in the place of `spring_buffer.body.wire`, {:.3} mm", 1e3 * wire))
 }
 
 /// The springs of a loaded machine.
-pub(crate) fn spring_of(args: &SpringArgs, (machine, name): (Machine, String)) -> Result<NamedAnalysis, Failure> {
+pub(crate) fn spring_of(args: &SpringArgs, loaded: (Machine, String)) -> Result<NamedAnalysis, Failure> {
+    let (machine, name) = at_end(args.end, loaded)?;
     let of_file: Vec<f64> =
         PressCams::of(&machine).spring_stiffness.filter(|_| args.residual.is_none()).into_iter().collect();
     let stiffnesses = if args.stiffness.is_empty() { &of_file } else { &args.stiffness };
@@ -93,7 +104,8 @@ pub(super) fn scatter(args: &ScatterArgs) -> Result<Outcome, Failure> {
 }
 
 /// The scatter of a loaded machine.
-pub(crate) fn scatter_of(args: &ScatterArgs, (machine, name): (Machine, String)) -> Result<NamedAnalysis, Failure> {
+pub(crate) fn scatter_of(args: &ScatterArgs, loaded: (Machine, String)) -> Result<NamedAnalysis, Failure> {
+    let (machine, name) = at_end(args.end, loaded)?;
     let design = machine.press().map_err(Failure::new)?.design_rpm;
     let of_file = PressCams::of(&machine).scatter;
     let sampling = Sampling {

@@ -39,17 +39,20 @@ const DISC: &str = "disc cams";
 const ONE_THICKNESS: &str = "cams of one thickness";
 const SURFACE: &str = "cams whose sections differ";
 const BASED: &str = "cams with a base circle";
+const RATED: &str = "cams whose roller may have a rating";
 
 /// The classes of a disc cam.
 pub const OF_A_DISC: &[&str] = &[TURNS, DISC, BASED];
-/// The classes of a disc cam whose thickness is a key.
-pub const OF_A_DISC_WITH_THICKNESS: &[&str] = &[TURNS, DISC, ONE_THICKNESS, BASED];
+/// The classes of a disc cam whose thickness is a key and whose roller may have a rating.
+pub const OF_A_DISC_WITH_A_RATED_ROLLER: &[&str] = &[TURNS, DISC, ONE_THICKNESS, BASED, RATED];
 /// The classes of a cam that turns and whose sections differ.
 pub const OF_A_SURFACE: &[&str] = &[TURNS, SURFACE, BASED];
 /// The kinds that turn about a shaft.
 pub const TURNING: &[&str] = &[TURNS];
 /// Cams with a base circle.
 pub const WITH_A_BASE: &[&str] = &[BASED];
+/// Cams whose roller may have a rating.
+pub const WITH_A_RATED_ROLLER: &[&str] = &[MAKE, RATED];
 /// Disc cams.
 pub const DISCS: &[&str] = &[DISC];
 /// Cams that are as thick everywhere.

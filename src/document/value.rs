@@ -181,7 +181,9 @@ impl KeyAtPath<'_> {
             Ok(share) if bounds.holds(share) => Ok(share),
             Ok(share) => {
                 let limit = bounds.broken(share, |share| format!("{} %", 100.0 * share));
-                misfit(format!("`{}` must be {limit}: {typed}", self.path), self.hint())
+                let is_percent = !typed.contains('%') && bounds.holds(share / 100.0);
+                let percent = is_percent.then(|| format!("a bare number is a share: write \"{} %\"", typed.trim()));
+                misfit(format!("`{}` must be {limit}: {typed}", self.path), percent.or(self.hint()))
             }
             Err(error) => misfit(format!("`{}`: {error}", self.path), Some(self.example())),
         }

@@ -4,6 +4,7 @@ use crate::document::Presence::{Default, Optional};
 use crate::document::{Field, KeySection, Occurrence, Reader, TableReader, cams, within};
 use crate::follower::{Element, FollowerData};
 use crate::units::Dimension::{Angle, Length};
+use std::f64::consts::TAU;
 
 /// `[as_made]`: errors of a disc and its follower, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,7 +66,7 @@ const ECCENTRICITY_AT: Field<f64> = Field::quantity(
     "direction of that distance on the cam, counted as the cam angle is",
     Default("0 deg"),
     Angle,
-    within(-7.0, 7.0),
+    within(-TAU, TAU),
 );
 const ANGLE: Field<f64> = Field::quantity(
     "angle",

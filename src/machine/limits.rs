@@ -2,7 +2,7 @@
 
 use super::material::{CamMaterial, Material};
 use crate::document::Presence::{Default, Optional};
-use crate::document::cams::MAKE;
+use crate::document::cams::{MAKE, WITH_A_RATED_ROLLER};
 use crate::document::range::{HIGHEST_STRESS, LARGEST_NUMBER, LONGEST};
 use crate::document::{
     Field, Input, Key, KeySection, LengthAngleOrShare, LengthOrAngle, Occurrence, Reader, TableReader, above, within,
@@ -226,7 +226,7 @@ const ROLLER_LIFE: Field<f64> = Field::number(
     Optional("20000"),
     above(0.0, LARGEST_HOURS),
 )
-.only(&[MAKE]);
+.only(WITH_A_RATED_ROLLER);
 const RESIDUAL: Field<f64> = Field::number(
     "residual",
     "largest residual vibration after a movement of a motion program, over its travel; only reported when absent",

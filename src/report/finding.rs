@@ -167,7 +167,9 @@ impl Finding {
     /// The value for a reader, whom a remainder of rounding does not help.
     #[must_use]
     pub(crate) fn readable(&self) -> f64 {
-        let is_rounding = self.limit.is_some_and(|limit| self.value.abs() < ROUNDING * limit.abs());
+        // What must reach a limit and is far from it is no rounding.
+        let below = self.bound != Some(Bound::AtLeast);
+        let is_rounding = below && self.limit.is_some_and(|limit| self.value.abs() < ROUNDING * limit.abs());
         if is_rounding { 0.0 } else { self.value }
     }
 

@@ -192,13 +192,23 @@ fn a_linkage_has_the_known_figures() {
     close(plain["linkage"]["c_plus"].as_f64().expect("a number"), 6.579_736_267_392_9);
     close(plain["linkage"]["k_c"].as_f64().expect("a number"), 1.911_519_489_723_9);
     let compensator = ["rotary", "dpi-six-bar", "--compensator", "spring_rate=100N/mm,preload=10kN"];
-    for args in [&["translating", "dpi-six-bar"][..], &["spring", "dpi-six-bar"], &compensator] {
+    for (args, why) in [(&["translating", "dpi-six-bar"][..], "moved by a linkage"), (&compensator, "does not mirror")]
+    {
         let refused = run(2, args);
-        assert!(
-            refused.err.contains("moved by a linkage") && written(&refused).is_empty(),
-            "{args:?}: {}",
-            refused.err
-        );
+        assert!(refused.err.contains(why) && written(&refused).is_empty(), "{args:?}: {}", refused.err);
+    }
+    // Where the return mirrors the outward stroke a second disc takes nearly all of the torque.
+    let second = ["rotary", "dpi-crank-slider", "--compensator", "spring_rate=100N/mm,preload=10kN", "--force"];
+    let told = report(&run(0, &[&second[..], &["--dry-run", "--json"]].concat()));
+    let of = |key: &str| told["compensator"][key].as_f64().unwrap_or_else(|| panic!("{key}: {}", told["compensator"]));
+    assert!(of("torque_after_max_nm") < 0.05 * of("torque_before_max_nm"), "{}", told["compensator"]);
+    // Springs at either end leave less than a fixed bottom does.
+    for end in ["outer", "inner"] {
+        let told = report(&run(0, &["spring", "dpi-six-bar", "--end", end, "--dry-run", "--json"]));
+        let plain = told["spring"]["residual_fixed_bottom_max_n"].as_f64().expect("a number");
+        for setting in told["spring"]["settings"].as_array().expect("a list") {
+            assert!(setting["residual_max_n"].as_f64().expect("a number") < plain, "{end}: {setting} {plain}");
+        }
     }
     for (goal, c) in [("equal", 5.016_901_073_051), ("symmetric", 4.554_830_706_734_38), ("least", 4.409_315_4)] {
         let told = report(&run(0, &["linkage", "dpi-crank-slider", "--synthesize", goal, "--dry-run", "--json"]));

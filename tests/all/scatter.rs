@@ -130,8 +130,24 @@ fn what_cannot_be_is_refused_with_its_cause() {
         assert!(refused.err.contains(why), "{args:?}: {}", refused.err);
         assert!(!refused.directory.path().join("output").exists());
     }
-    let linkage = run(2, &["scatter", "dpi-six-bar"]);
-    assert!(linkage.err.contains("for a yoke only"), "{}", linkage.err);
+}
+
+/// A fixed bottom, P95 of the section of the cam and of the draws at both ends of a linkage.
+#[test]
+fn presses_under_a_linkage_that_differ() {
+    for end in ["outer", "inner"] {
+        let drawn =
+            report(&run(0, &["scatter", "dpi-six-bar", "--end", end, "--samples", "2000", "--dry-run", "--json"]));
+        let cam = report(&run(0, &["rotary", "dpi-six-bar", "--end", end, "--force", "--dry-run", "--json"]));
+        let p95 = |at: usize| number(&drawn["scatter"]["percentiles"][at]["residual_n"]);
+        for (at, estimate) in [(1, "p95_as_built_n"), (4, "p95_reset_n"), (7, "p95_fixed_bottom_n")] {
+            assert!(
+                (number(&cam["scatter"][estimate]) / p95(at) - 1.0).abs() < 0.12,
+                "{end} {estimate}: {}",
+                cam["scatter"]
+            );
+        }
+    }
 }
 
 /// A cam that levels a loop of the air is cut, proven and reported as any other, in both commands; without a loop it is refused.

@@ -4,7 +4,7 @@ Shares nothing with camgen but the machine file. The bottom of the cylinder is t
 that is cut. The bed is a mass on a crank; its inertia is the second derivative of the place of the crank pin. The air of the true machine is a
 closed amount of gas whose pressure is integrated over the volume by Runge and Kutta, dp/dV = −κ p/V, from the pressure at which the port closes.
 Residual forces are searched on dense scans; settings of the screw by bisection of the force at the end and by golden section of the largest
-force; presses are drawn with a generator that is written down here.
+force; presses are drawn with a generator that is written down here. Every fourth press has its bed on a crank-slider.
 
 usage: scatter.py CAMGEN_BINARY DIRECTORY [--count N] [--seed N] [--jobs N]
 """
@@ -385,6 +385,141 @@ def levelled(binary, directory, name, m, rng, wrong, rounding):
         wrong.append(f"no lead: {lead} of {column}, {rows[0]}")
 
 
+class SliderBed:
+    """The bed on a crank-slider, by the crank angle from the start of the reversal at one end: overrun and deceleration over the square of the crank speed."""
+
+    def __init__(self, r, rod, offset, outer):
+        self.r, self.rod, self.offset, self.sign = r, rod, offset, 1 if outer else -1
+        fine = np.linspace(-math.pi, math.pi, 200001) if outer else np.linspace(0, 2 * math.pi, 200001)
+        dead = fine[int((self.sign * self.place(fine)).argmax())]
+        braked = lambda at: self.sign * self.second(at) < 0
+        step = 1e-3
+        start = next(dead - i * step for i in range(1, 4000) if not braked(dead - i * step))
+        end = next(dead + i * step for i in range(1, 4000) if not braked(dead + i * step))
+        zero = lambda low, high: bisected(lambda at: self.sign * self.second(at) * (1 if braked(low) else -1), low, high)
+        self.start, self.angle = zero(start, start + step), 0.0
+        self.angle = zero(end - step, end) - self.start
+        self.dead = bisected(lambda at: -self.sign * self.first(at), dead - 1e-3, dead + 1e-3) - self.start
+
+    def arm(self, at):
+        s = self.r * np.sin(at) - self.offset
+        return s, np.sqrt(self.rod**2 - s * s)
+
+    def place(self, at):
+        return self.r * np.cos(at) + self.arm(at)[1]
+
+    def first(self, at):
+        s, q = self.arm(at)
+        return -self.r * np.sin(at) - s * self.r * np.cos(at) / q
+
+    def second(self, at):
+        (s, q), s1, s2 = self.arm(at), self.r * np.cos(at), -self.r * np.sin(at)
+        return -self.r * np.cos(at) - (s1 * s1 + s * s2) / q - (s * s1) ** 2 / q**3
+
+    def at(self, crank):
+        theta = self.start + crank
+        return self.sign * (self.place(theta) - self.place(self.start)), np.maximum(-self.sign * self.second(theta), 0.0)
+
+
+def under_a_linkage(binary, directory, number, rng):
+    """The same under a crank-slider: bed by its own kinematics, bottom by the law, which the table of the cam has."""
+    m, name, wrong = press(rng), f"linkage-{number}", Wrong()
+    m.lead, m.lobes, m.lever, m.column = X(0), 1, X(1), rng.choice(["matched", "return"])
+    rod, offset, outer = rng.uniform(2.2, 8), rng.choice([0.0, rng.uniform(-0.25, 0.25)]), rng.random() < 0.5
+    sets = [*m.sets(), "--set", f"linkage.rod_ratio={rod!r}", "--set", f"linkage.offset_ratio={offset!r}", "--end", "outer" if outer else "inner"]
+    cut, report = run(binary, ["rotary", "dpi-crank-slider", *sets, "--samples", "3600", "--force", "--set", "transition.kind=run-up"], directory, name + "-cam")
+    if report is None or not report["files"]:
+        return "no cam under a linkage", [], sets
+    with open(report["files"][0], newline="") as file:
+        rows = [[float(row[key]) for key in ("crank_deg", "x_mm", "dx_mm")] for row in csv.DictReader(file)]
+    r, k, p0 = float(m.r), float(m.k), float(m.p0)
+    # Which side the offset is on is a matter of definition: the side whose bed the table has.
+    sides = [SliderBed(r, rod * r, side * offset * r, outer) for side in (1, -1)]
+    inside = lambda bed: np.array([row for row in rows if 0 <= row[0] <= math.degrees(bed.angle)])
+    off = lambda bed: np.abs(bed.at(np.radians(inside(bed)[:, 0]))[0] - inside(bed)[:, 1] / 1000).max()
+    bed = min(sides, key=off)
+    if off(bed) > 1e-9 * r:
+        return "linkage", [f"the bed is {off(bed)} m beside its own kinematics"], sets
+    omega = 2 * math.pi * float(m.rpm) * float(m.turns) / 60
+    design = omega
+    dense = np.linspace(0, bed.angle, 20001)
+    x, a = bed.at(dense)
+    both = float(m.mass) * design**2 * a.max() / (float(m.end) - p0)
+    loading = float(m.mass) * omega**2 / (both * p0)
+    column = report["law"]["column_length_mm"] / 1000
+    bottom = lambda x, a: column * (1 - (1 + loading * a) ** (-1 / k)) - x
+    table = inside(bed)
+    exact = bottom(*bed.at(np.radians(table[:, 0])))
+    if np.abs(exact - table[:, 2] / 1000).max() > 1e-8 * r:
+        wrong.append(f"the bottom is {np.abs(exact - table[:, 2] / 1000).max()} m beside the law")
+
+    def residual(true, at, column_of=None):
+        """At crank angles; a fixed bottom where its column is given."""
+        x, a = bed.at(at)
+        own = column if column_of is None else column_of
+        volume = own + true["column"] - true["lead"] - x - (bottom(x, a) if column_of is None else 0)
+        if volume.min() <= 0:
+            return None
+        amount = true["air"] * (own + true["column"])
+        gas = Gas(true["kappa"], volume.min() / amount * 0.99, max(volume.max() / amount * 1.01, 1.001))
+        pressure = true["closing"] * p0 * true["ambient"] * gas.at(volume / amount)
+        return float(m.mass) * true["mass"] * (omega * true["speed"]) ** 2 * a - both * (pressure - p0 * true["ambient"])
+
+    true, words = fault(rng, k)
+    true["column"], true["lead"] = rng.uniform(-0.02, 0.05) * column, 0.0
+    words += ["--fault", f"column={1000 * true['column']!r}mm"]
+    seed, samples = rng.randrange(1 << 40), 25
+    asked = ["scatter", "dpi-crank-slider", *sets, *words, "--samples", str(samples), "--seed", str(seed), "--force"]
+    got, told = run(binary, asked, directory, name)
+    here = residual(true, dense)
+    if told is None:
+        known = here is None or "column used up" in got.stderr or "no column balances" in got.stderr
+        return "refused under a linkage", [] if known else [got.stderr.strip()], asked
+    part, rounding = told["scatter"], ROUNDING * max(both * p0, both * p0 * loading * a.max()) * 4
+    wrong.close(part["fault"]["residual_n"], scan(here), "residual under a linkage", 1e-6, rounding)
+    dead = np.array([bed.dead])
+    end = bisected(lambda at: residual({**true, "column": at}, dead)[0], -column * (1 + loading * a.max()) ** (-1 / k) * 0.999, 50 * column)
+    wrong.close(part["fault"]["column_end_mm"], 1000 * end, "column of end under a linkage", EXACT, 1e-8 * 1000 * column)
+    left = lambda at: abs(scan(residual({**true, "column": at}, dense)))
+    wrong.close(abs(part["fault"]["residual_end_n"]), left(end), "residual of end under a linkage", 1e-6, 10 * rounding)
+    level = part["fault"]["column_level_mm"] / 1000
+    wrong.close(part["fault"]["residual_level_n"], left(level), "residual of level under a linkage", 1e-6, 10 * rounding)
+    for step in (-1e-3, 1e-3):
+        if left(level + step * column) < left(level) * (1 - 1e-6) - rounding:
+            wrong.append(f"a screw {step} of the column beside the level setting leaves less under a linkage")
+    stations = np.append(np.linspace(0, bed.angle, 181), [bed.dead, dense[int(a.argmax())]])
+    x, a_here = bed.at(stations)
+    # Ahead by δ the bottom stands Δx' δ nearer: by a central difference of the law along the crank, times the stiffness of the air.
+    ahead = 1e-4
+    slope = (bottom(*bed.at(stations + ahead)) - bottom(*bed.at(stations - ahead))) / (2 * ahead)
+    slope[np.abs(stations) < 1e-9] = (bottom(*bed.at(np.array([ahead])))[0] - 0.0) / ahead
+    nominal, tiny = dict(mass=1.0, speed=1.0, ambient=1.0, kappa=k, closing=1.0, air=1.0, column=0.0), 1e-6 * column
+    stiffness = (residual({**nominal, "lead": tiny}, stations) - residual({**nominal, "lead": -tiny}, stations)) / (2 * tiny)
+    x_dead, a_dead = (float(values[0]) for values in bed.at(dead))
+    fixed = x_dead / (1 - (1 + loading * a_dead) ** (-1 / k))
+    built, plain = [], []
+    for true, phase, screw in drawn(m, seed, samples):
+        built.append(float(np.abs(residual(true, stations) + slope * stiffness * phase).max()))
+        reach = lambda at: residual({**true, "column": at}, dead, fixed)[0]
+        end = bisected(reach, -(fixed - x_dead - abs(true["lead"])) * 0.999, 50 * fixed)
+        plain.append(float(np.abs(residual({**true, "column": end + screw}, stations, fixed)).max()))
+    for body, rule, sizes in (("cam", "none", built), ("fixed-bottom", "end", plain)):
+        sizes.sort()
+        for row in part["percentiles"]:
+            if (row["body"], row["reset"]) == (body, rule):
+                rank = math.ceil(row["percentile"] / 100 * samples - 1e-9)
+                wrong.close(row["residual_n"], sizes[rank - 1], f"P{row['percentile']:.0f} {body} under a linkage", 1e-4, 10 * rounding)
+    for row in part["settings"][::6]:
+        true = {**nominal, "lead": 0.0, "mass": row["v"], "column": row["column_mm"] / 1000 - column}
+        wrong.close(row["residual_n"], abs(scan(residual(true, dense))), "residual of a setting under a linkage", 1e-6, 10 * rounding)
+        of_fixed = lambda length: abs(scan(residual({**true, "column": 0.0}, dense, length)))
+        own = row["fixed_column_mm"] / 1000
+        wrong.close(row["fixed_residual_n"], of_fixed(own), "residual of a fixed bottom under a linkage", 2e-4, 10 * rounding)
+        if min(of_fixed(own * (1 - 1e-3)), of_fixed(own * (1 + 1e-3))) < row["fixed_residual_n"] * (1 - 2e-4) - rounding:
+            wrong.append(f"a fixed bottom at v = {row['v']} is not levelled under a linkage")
+    return "linkage", wrong, asked
+
+
 def size_of(cam):
     """The work of the largest force over the stroke, J."""
     return float(cam.inertia[-1] * cam.x[-1])
@@ -394,7 +529,8 @@ def main():
     words = cases.given("scatter", 12)
 
     def judged(number, rng):
-        state, wrong, arguments = one(words.binary, words.directory, number, rng)
+        of = under_a_linkage if number % 4 == 3 else one
+        state, wrong, arguments = of(words.binary, words.directory, number, rng)
         return state, wrong, " ".join(arguments)
 
     states, failed = cases.judged(words, judged)

@@ -37,8 +37,8 @@ impl Wedge {
         let (thinnest, at) = self.thinnest;
         if !(thinnest > 0.0) {
             let [thinnest, x, least] = [thinnest, at, self.height - thinnest].map(|length| MILLIMETRES * length);
-            let refusal =
-                Refusal::new(format!("the plate would be {thinnest:.3} mm high")).at(format!("x = {x:.3} mm"));
+            let refusal = Refusal::new(format!("the flanks of the plate would cross by {:.3} mm", -thinnest))
+                .at(format!("x = {x:.3} mm"));
             return Err(DrawError::NoOutline(
                 refusal.remedy(format!("cam.height must exceed {least:.3} mm")).to_string(),
             ));

@@ -101,6 +101,10 @@ pub(crate) struct SpringArgs {
     #[arg(long)]
     pub(in crate::cli) design: bool,
 
+    /// End of the bed's stroke that has the buffers; needs [linkage] in the machine file [default: outer]
+    #[arg(long, value_name = "END", ignore_case = true, value_parser = word::<End>())]
+    pub(in crate::cli) end: Option<End>,
+
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,
 }
@@ -141,6 +145,10 @@ pub(crate) struct ScatterArgs {
     /// Seed of the draws [default: that of the file, else 1]
     #[arg(long, value_name = "N")]
     pub(in crate::cli) seed: Option<u64>,
+
+    /// End of the bed's stroke that has the buffers; needs [linkage] in the machine file [default: outer]
+    #[arg(long, value_name = "END", ignore_case = true, value_parser = word::<End>())]
+    pub(in crate::cli) end: Option<End>,
 
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,

@@ -402,7 +402,7 @@ pub(super) struct TranslatingArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub(super) stations: Option<u32>,
 
-    /// Direction of the bed in which the forces balance, or mean: equal residual forces in both [default: that of the file, else braking]
+    /// Direction of the bed in which the forces balance, or level (also mean): equal residual forces in both [default: that of the file, else braking]
     #[arg(long, value_name = "DIRECTION", ignore_case = true, value_parser = word::<ExactOn>())]
     pub(super) balance: Option<ExactOn>,
 }

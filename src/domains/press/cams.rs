@@ -1,7 +1,7 @@
 //! The cams of a press and its analyses, as keys name the ones on which they have an effect.
 
 use crate::document::cams::CamKind;
-use crate::document::cams::{EVEN, OF_A_DISC_WITH_THICKNESS, OF_A_SURFACE};
+use crate::document::cams::{EVEN, OF_A_DISC_WITH_A_RATED_ROLLER, OF_A_SURFACE};
 
 /// The disc cam of a press.
 pub const ROTARY: &str = "rotary";
@@ -25,7 +25,7 @@ pub const OF_BED_MOTION: &[&str] = &[BED_MOTION];
 
 /// The kinds.
 pub const KINDS: &[CamKind] = &[
-    CamKind::cam(ROTARY, OF_A_DISC_WITH_THICKNESS),
+    CamKind::cam(ROTARY, OF_A_DISC_WITH_A_RATED_ROLLER),
     CamKind::cam(TRANSLATING, EVEN),
     CamKind::cam(CONOID, OF_A_SURFACE),
     CamKind::analysis(REGIMES),

@@ -3,7 +3,7 @@
 use super::buffer::regime::{self, Reset};
 use super::cams;
 use super::load::ShaftWork;
-use super::machine::{CompensatorData, PressCams, only_under_a_yoke};
+use super::machine::{CompensatorData, PressCams};
 use super::rotary::RotaryCam;
 use crate::body::disc::{Disc, Duty, Purpose};
 use crate::body::{Body, Kind, torque};
@@ -29,8 +29,11 @@ fn none_described() -> Refusal {
 
 /// The refusal of a motion that is not symmetric: no spring can take the work that it leaves at the end of a turn.
 fn under_a_linkage() -> Refusal {
-    let why = "the air of one end gives more or less work in a turn than it takes up, and a spring gives back exactly what it takes up";
-    only_under_a_yoke("compensating cams are solved", why)
+    Refusal::new(
+        "the return of the bed of this machine does not mirror its outward stroke: the air of one end gives more or less work in a turn than it \
+         takes up, and a spring gives back exactly what it takes up",
+    )
+    .remedy("use a yoke or a crank-slider without offset (linkage.offset_ratio = 0), or leave out [compensator]")
 }
 
 /// The refusal of air that takes work in every turn.
@@ -190,7 +193,7 @@ impl RotaryCam {
         let (Ok(press), Some(own)) = (machine.press(), rpm_of(&self.disc)) else { return Vec::new() };
         let lever = PressCams::of(machine).lever;
         let (design, cylinder) = (press.bottom_law(own), press.cylinder());
-        let Some(law_of_x) = design.of_yoke() else { return Vec::new() };
+        let (lead, exponent) = (design.lead(), design.exponent());
         let (rate, own_preload) = (law.law().rate(), law.law().preload());
         let inertia = |disc: &Disc| {
             let mass = disc.machine().follower.mass.zip(disc.shaft_speed());
@@ -213,8 +216,8 @@ impl RotaryCam {
             let torques: Vec<(f64, f64, f64)> = places
                 .iter()
                 .map(|place| {
-                    let left = column - (place.overrun + law_of_x.lead) - place.displacement;
-                    let ratio = libm::exp(law_of_x.exponent * libm::log(column / left));
+                    let left = column - (place.overrun + lead) - place.displacement;
+                    let ratio = libm::exp(exponent * libm::log(column / left));
                     let air = if place.reversing { cylinder.force(ratio) / lever } else { 0.0 };
                     let (one, two) = (place.first, place.second);
                     let alone = (air + first_preload + slower * masses.0 * one.dds) * one.ds;

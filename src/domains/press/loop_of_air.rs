@@ -33,14 +33,16 @@ struct LoopOfAir {
 /// The section for a cam with this law; `None` where the machine file gives no losses.
 pub(super) fn section(machine: &Machine, cylinder: &Cylinder, law: &CrankLaw) -> Option<Section> {
     let losses = PressCams::of(machine).losses;
-    let law = law.of_yoke().filter(|_| losses.is_any())?;
-    let cam = FrozenBuffer::of_cam(law, cylinder);
-    let reversal = LossyReversal::new(&cam, &Fault::none(law.exponent), &losses).ok()?;
-    let air = law.level.as_ref();
+    if !losses.is_any() {
+        return None;
+    }
+    let cam = FrozenBuffer::of_law(law, cylinder);
+    let reversal = LossyReversal::new(&cam, &Fault::none(law.exponent()), &losses).ok()?;
+    let air = law.of_yoke().and_then(|law| law.level.as_ref());
     let back = |length: f64| air.map(|air| cylinder.unit_force() * (1.0 - air.pressures(length)[1]));
     let values = LoopOfAir {
         balance: if air.is_some() { "level" } else { "braking" },
-        lead_mm: air.map(|_| MILLIMETRES * law.lead),
+        lead_mm: air.map(|_| MILLIMETRES * law.lead()),
         residual_at_port_n: back(1.0),
         pull_n: back(1.0).map(|pull| pull.max(0.0)),
         losses: lost_in(&reversal),

@@ -9,6 +9,8 @@
 use super::machine::PressCams;
 use crate::body::Body;
 use crate::body::disc::Disc;
+use crate::body::roller_bearing::LIFE;
+use crate::check::Measure;
 use crate::geometry::MILLIMETRES;
 use crate::numeric::quadrature;
 use crate::profile::extremes::stretches;
@@ -18,6 +20,8 @@ use std::f64::consts::TAU;
 
 /// Exponent of the life of roller bearings (ISO 281).
 const EXPONENT: f64 = 10.0 / 3.0;
+/// Share of the rating up to which ISO 281 holds: beyond, the surfaces yield.
+const HEAVY: f64 = 0.5;
 /// Panels of a stretch, of eight points each.
 const PANELS: u32 = 64;
 
@@ -75,6 +79,18 @@ pub fn of_disc(disc: &Disc) -> Option<RollerLife> {
 }
 
 impl RollerLife {
+    /// The measure of the hours against their limit; `None` where the speed is not known.
+    #[must_use]
+    pub fn measure(&self, limit: Option<f64>) -> Option<Measure> {
+        let hours = self.life_h?;
+        let needed = limit.filter(|limit| hours < *limit).map(|limit| {
+            let rating = self.load_rating_n * libm::pow(limit / hours, 1.0 / EXPONENT);
+            format!("; a follower.roller.load_rating of {} kN would keep it", shown((rating / 10.0).ceil() / 100.0))
+        });
+        let note = format!("mean load {} N{}", shown(self.mean_load_n), needed.unwrap_or_default());
+        Some(LIFE.measure(hours, limit).noted(note))
+    }
+
     /// The section of the report.
     #[must_use]
     pub fn section(&self) -> Section {
@@ -87,7 +103,12 @@ impl RollerLife {
             shown(self.load_rating_n),
             shown(self.roller_turns_per_cam_turn)
         );
-        Section::new("roller_life", self).with_words(vec![words])
+        let heavy = self.mean_load_n > HEAVY * self.load_rating_n;
+        let heavy = heavy.then(|| {
+            "the mean load is above half of the rating: ISO 281 does not hold there, and the roller lasts less"
+                .to_owned()
+        });
+        Section::new("roller_life", self).with_words(std::iter::once(words).chain(heavy).collect())
     }
 }
 

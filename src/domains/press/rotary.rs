@@ -14,6 +14,7 @@ use super::smoother::smoother;
 use super::{cams, loop_of_air, raised_disc, roller_life, scatter};
 use crate::body::disc::{Disc, Duty, Purpose};
 use crate::body::picture::DrivenMechanism;
+use crate::body::roller_bearing::LIFE;
 use crate::body::{Body, Figures, Kind};
 use crate::check::{Measures, Subject};
 use crate::load::Load;
@@ -199,6 +200,7 @@ impl Duty for BedBalanceDuty {
     fn measures(&self, disc: &Disc, of: &mut Measures<'_>, subject: &Subject<'_>) {
         of_balance(&BalancedDisc { disc, duty: self }, of, subject);
         of.add(&contact_life::CHECK, |_| contact_life::measure(disc.contact_stress(), disc.touching(), subject));
+        of.add(&LIFE, |_| roller_life::of_disc(disc)?.measure(disc.machine().limits.roller_life));
     }
 
     fn smoother(&self, machine: &Machine) -> Option<String> {

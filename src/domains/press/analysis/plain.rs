@@ -1,7 +1,10 @@
-//! Buffers without a cam, sized alone: a fixed bottom at the design speed and at others, and what the end pressure chooses. Equations (3) to (9), figure 4.
+//! Buffers without a cam, sized alone: a fixed bottom at the design speed and at others, and what the end pressure chooses. Equations (3) to (9), figures
+//! 4 and 9.
 
+use super::at_speeds::{CURVES, ColumnReset, CurveAxis, ForcePlace, force_panels, unsigned_zero, volume};
 use super::regimes::KIND;
-use crate::analysis::{Analysis, Picture, places};
+use super::trial_bottoms::{self, TrialRow};
+use crate::analysis::{Analysis, Listing, Picture, places};
 use crate::document::{Input, NamedChoice};
 use crate::domains::press::buffer::bottom_law::{BottomLaw, ColumnRule, column_for};
 use crate::domains::press::buffer::regime::Reset;
@@ -13,7 +16,7 @@ use crate::domains::press::scatter::settings::{extremes_of_fixed, level_of_fixed
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::refusal::{Refusal, WorkBound};
-use crate::report::plot::{self, Plot, PlotCurve, PlotPanel};
+use crate::report::plot::{Plot, PlotCurve, PlotPanel};
 use crate::report::{Section, Speeds, shown};
 use crate::table::{ListedColumn, Table};
 use crate::units::TECHNICAL_ATMOSPHERE;
@@ -40,6 +43,12 @@ struct PlainRow {
     residual_at_mm: f64,
     end_residual_n: f64,
     end_pressure_pa: f64,
+}
+
+impl PlainRow {
+    fn reset(&self) -> ColumnReset {
+        ColumnReset { rpm: self.rpm, column_mm: self.column_length_mm, added_mm3: self.added_volume_mm3 }
+    }
 }
 
 const COLUMNS: &[ListedColumn<PlainRow>] = &[
@@ -79,22 +88,6 @@ const FAMILY_COLUMNS: &[ListedColumn<FamilyRow>] = &[
     ("dx_max_at_x_mm", |row| row.dx_max_at_x_mm),
     ("matched_column_length_mm", |row| row.matched_column_length_mm),
     ("matched_dx_max_mm", |row| row.matched_dx_max_mm),
-];
-
-/// A place of a curve at a speed.
-struct PlaceRow {
-    rpm: f64,
-    x: f64,
-    inertia: f64,
-    air: f64,
-}
-
-const CURVES: &[ListedColumn<PlaceRow>] = &[
-    ("rpm", |row| row.rpm),
-    ("x_mm", |row| MILLIMETRES * row.x),
-    ("inertia_n", |row| row.inertia),
-    ("air_n", |row| row.air),
-    ("residual_n", |row| row.inertia - row.air),
 ];
 
 /// A place of figure 4.
@@ -148,16 +141,19 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
     }
     let cylinder = press.cylinder();
     let rows: Vec<PlainRow> = speeds.iter().map(|rpm| at_speed(press, &cylinder, *rpm, reset)).collect();
-    let curves: Vec<PlaceRow> = rows.iter().flat_map(|row| curve(press, &cylinder, row)).collect();
+    let curves: Vec<ForcePlace> = rows.iter().flat_map(|row| curve(press, &cylinder, row)).collect();
     let pressures = pressures(press);
     let family: Vec<FamilyRow> = pressures.iter().map(|end| of_pressure(press, *end)).collect();
     let family_curves: Vec<FamilyPlace> = pressures.iter().flat_map(|end| family_curve(press, *end)).collect();
+    let trials = trial_bottoms::trials(machine);
     let section = PlainBuffers {
         reset: reset.word(),
         bore_mm: MILLIMETRES * cylinder.bore(),
         speeds: &rows,
         end_pressures: &family,
     };
+    let own = column_by(&frozen_at(press, &cylinder, press.design_rpm), reset);
+    let resets: Vec<ColumnReset> = rows.iter().map(PlainRow::reset).collect();
     let columns: Vec<(f64, f64)> = rows.iter().map(|row| (row.column_length_mm / MILLIMETRES, row.rpm)).collect();
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs(KIND.keys));
@@ -173,21 +169,16 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
         sections: vec![Section::new("plain_buffers", &section).with_words(words)],
-        measures: column::measure(&columns, machine, |press, rpm| {
-            Some(column_by(&frozen_at(press, &cylinder, rpm), reset))
-        })
-        .into_iter()
-        .collect(),
-        notes: machine.idle_key_notes(KIND.keys, KIND.noun),
-        picture: Picture::Curves(picture(machine.name(), &curves, &family_curves)),
+        measures: std::iter::once(volume(&resets, CUBIC * 2.0 * cylinder.piston_area * own))
+            .chain(column::measure(&columns, machine, |press, rpm| {
+                Some(column_by(&frozen_at(press, &cylinder, rpm), reset))
+            }))
+            .collect(),
+        notes: notes(machine),
+        picture: Picture::Curves(picture(machine.name(), &curves, &family_curves, &trials)),
         mechanism: None,
         document: None,
-        tables: vec![
-            ("", Table::listed(COLUMNS, &rows)),
-            ("-pressures", Table::listed(FAMILY_COLUMNS, &family)),
-            ("-pressure-curves", Table::listed(FAMILY_CURVES, &family_curves)),
-            ("-curves", Table::listed(CURVES, &curves)),
-        ],
+        tables: tables_of(&rows, &curves, (&family, &family_curves), &trials),
         by: &["rpm"],
         along: "x_mm",
         diagrams: &[],
@@ -197,13 +188,36 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
     })
 }
 
+fn tables_of(
+    rows: &[PlainRow],
+    curves: &[ForcePlace],
+    (family, family_curves): (&[FamilyRow], &[FamilyPlace]),
+    trials: &[TrialRow],
+) -> Vec<Listing> {
+    let trials = (!trials.is_empty()).then(|| ("-equation-18", Table::listed(trial_bottoms::COLUMNS, trials)));
+    let first = [
+        ("", Table::listed(COLUMNS, rows)),
+        ("-pressures", Table::listed(FAMILY_COLUMNS, family)),
+        ("-pressure-curves", Table::listed(FAMILY_CURVES, family_curves)),
+    ];
+    first.into_iter().chain(trials).chain([("-curves", Table::listed(CURVES, curves))]).collect()
+}
+
+/// The keys that were given and have an effect on a cam alone.
+fn notes(machine: &Machine) -> Vec<String> {
+    let given = |key: &&str| machine.given().iter().any(|given| given == key);
+    let of_cam = ["buffer.column", "buffer.lead"].into_iter().filter(given);
+    let of_cam = of_cam.map(|key| format!("`{key}` has no effect without a cam: the column is that of the reset, and the port shuts as the reversal starts"));
+    machine.idle_key_notes(KIND.keys, KIND.noun).into_iter().chain(of_cam).collect()
+}
+
 /// Column of a fixed bottom by a rule, m, for the loading A of a speed: `half` and `level` are those of `camgen regimes`.
 fn column_by(frozen: &FrozenBuffer, reset: Reset) -> f64 {
-    let (stroke, exponent, load) = (frozen.stroke, frozen.exponent, frozen.end_load());
+    let (stroke, exponent, load) = (frozen.path.stroke(), frozen.exponent, frozen.end_load());
     match reset {
         Reset::End => column_for(stroke, load, exponent),
         Reset::Half => {
-            let (_, worst) = PlainBuffer::new(frozen.loading, exponent, stroke).largest_residual();
+            let (_, worst) = PlainBuffer::new(frozen.path.loading(), exponent, stroke).largest_residual();
             // The air of `end` is too weak in the middle: half of that is put on at its end.
             column_for(stroke, load + 0.5 * worst, exponent)
         }
@@ -225,11 +239,11 @@ fn at_speed(press: &Press, cylinder: &Cylinder, rpm: f64, reset: Reset) -> Plain
         .into_iter()
         .reduce(|a, b| if b.value.abs() > a.value.abs() { b } else { a });
     let (value, at) = worst.map_or((0.0, 0.0), |worst| (worst.value, worst.at));
-    let air = libm::expm1(-frozen.exponent * libm::log1p(-frozen.stroke / column));
+    let air = libm::expm1(-frozen.exponent * libm::log1p(-frozen.path.stroke() / column));
     let end = frozen.end_load() - air;
     PlainRow {
         rpm,
-        a_per_mm: frozen.loading / MILLIMETRES,
+        a_per_mm: frozen.path.loading() / MILLIMETRES,
         column_length_mm: MILLIMETRES * column,
         added_volume_mm3: CUBIC * 2.0 * cylinder.piston_area * (column - own),
         residual_max_n: value.abs(),
@@ -241,7 +255,7 @@ fn at_speed(press: &Press, cylinder: &Cylinder, rpm: f64, reset: Reset) -> Plain
     }
 }
 
-fn curve<'a>(press: &'a Press, cylinder: &'a Cylinder, row: &PlainRow) -> impl Iterator<Item = PlaceRow> + use<'a> {
+fn curve<'a>(press: &'a Press, cylinder: &'a Cylinder, row: &PlainRow) -> impl Iterator<Item = ForcePlace> + use<'a> {
     let (rpm, column, unit) = (row.rpm, row.column_length_mm / MILLIMETRES, cylinder.unit_force());
     let (loading, exponent) = (cylinder.loading(rpm), cylinder.exponent);
     let (stroke, balanced) = (press.bed.crank_radius, row.end_residual_n == 0.0);
@@ -249,7 +263,8 @@ fn curve<'a>(press: &'a Press, cylinder: &'a Cylinder, row: &PlainRow) -> impl I
         let inertia = unit * loading * x;
         let air = unit * libm::expm1(-exponent * libm::log1p(-x / column));
         // By (7) the air is the inertia at the end, to its rounding.
-        PlaceRow { rpm, x, inertia, air: if balanced && x == stroke { inertia } else { air } }
+        let air = if balanced && x == stroke { inertia } else { air };
+        ForcePlace { rpm, crank: f64::NAN, x, inertia, air, residual: inertia - air }
     })
 }
 
@@ -309,14 +324,14 @@ fn words(found: &PlainBuffers<'_>) -> Vec<String> {
     ));
     lines.extend(found.speeds.iter().map(|row| {
         format!(
-            "{:>8} {:>11.3} {:>13.1} {:>11.2} {:>8.3} {:>9.3} {:>10.3} {:>9.4}",
+            "{:>8} {:>11.3} {:>13} {:>11.2} {:>8.3} {:>9.3} {:>10} {:>9.4}",
             shown(row.rpm),
             row.column_length_mm,
-            1e-3 * row.added_volume_mm3,
+            unsigned_zero(1e-3 * row.added_volume_mm3, 1),
             row.residual_max_n,
             100.0 * row.residual_share,
             row.residual_at_mm,
-            row.end_residual_n,
+            unsigned_zero(row.end_residual_n, 3),
             row.end_pressure_pa / TECHNICAL_ATMOSPHERE
         )
     }));
@@ -343,17 +358,7 @@ fn words(found: &PlainBuffers<'_>) -> Vec<String> {
 }
 
 /// The forces at each speed, and figure 4: the bottom for each end pressure.
-fn picture(machine: &str, curves: &[PlaceRow], family: &[FamilyPlace]) -> Plot {
-    let by_speed: Vec<&[PlaceRow]> = curves.chunk_by(|a, b| a.rpm == b.rpm).collect();
-    let of = |bold: bool, value: fn(&PlaceRow) -> f64| -> Vec<PlotCurve> {
-        let one = |(colour, rows): (usize, &&[PlaceRow])| PlotCurve {
-            name: rows.first().filter(|_| bold).map_or_else(String::new, |row| format!("{} rpm", shown(row.rpm))),
-            colour: if bold { colour } else { plot::GREY },
-            bold,
-            points: rows.iter().map(|row| [MILLIMETRES * row.x, value(row)]).collect(),
-        };
-        by_speed.iter().enumerate().map(one).collect()
-    };
+fn picture(machine: &str, curves: &[ForcePlace], family: &[FamilyPlace], trials: &[TrialRow]) -> Plot {
     let by_pressure = family.chunk_by(|a, b| a.end_pressure == b.end_pressure).enumerate();
     let bottoms = by_pressure.map(|(colour, rows)| PlotCurve {
         name: rows
@@ -363,23 +368,15 @@ fn picture(machine: &str, curves: &[PlaceRow], family: &[FamilyPlace]) -> Plot {
         bold: true,
         points: rows.iter().map(|row| [MILLIMETRES * row.x, MILLIMETRES * row.dx]).collect(),
     });
+    let bottoms = PlotPanel {
+        name: "Δx of a cam with the returning column, mm, for each end pressure".into(),
+        curves: bottoms.collect(),
+    };
     Plot {
         title: format!("{machine}: plain buffers without a cam"),
-        places: "overrun x of the bed, mm".into(),
-        panels: vec![
-            PlotPanel {
-                name: "Force, N: inertia of the bed (thin), air of both cylinders (bold)".into(),
-                curves: [of(false, |row| row.inertia), of(true, |row| row.air)].concat(),
-            },
-            PlotPanel {
-                name: "Residual force, inertia less air, N".into(),
-                curves: of(true, |row| row.inertia - row.air),
-            },
-            PlotPanel {
-                name: "Δx of a cam with the returning column, mm, for each end pressure".into(),
-                curves: bottoms.collect(),
-            },
-        ],
+        places: CurveAxis::OVERRUN.words.into(),
+        panels: force_panels(curves, &CurveAxis::OVERRUN).into_iter().chain([bottoms]).collect(),
+        own: trial_bottoms::panel(trials).into_iter().collect(),
         ..Plot::default()
     }
 }

@@ -1,21 +1,21 @@
 //! One cam at other speeds: the column is reset, or air is added, and a residual force is left. Equations (14) and (15), figure 5.
 
-use crate::analysis::{Analysis, PLACES, Picture, places};
+use super::at_speeds::{ColumnReset, CurveAxis, ForcePlace, force_panels, unsigned_zero, volume};
+use crate::analysis::{Analysis, Picture, places};
 use crate::body::Kind;
-use crate::check::Measure;
 use crate::document::{Input, NamedChoice};
 use crate::domains::press::balance::reversal_of_bed;
 use crate::domains::press::buffer::crank_law::CrankLaw;
 use crate::domains::press::buffer::regime::{self, Regime, Reset};
 use crate::domains::press::cams;
-use crate::domains::press::checks::{added_volume, column};
+use crate::domains::press::checks::column;
 use crate::domains::press::machine::Press;
 use crate::domains::press::machine::PressCams;
 use crate::domains::press::motion::Transition;
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::refusal::{Refusal, WorkBound};
-use crate::report::plot::{Plot, PlotCurve, PlotPanel};
+use crate::report::plot::Plot;
 use crate::report::{Section, Speeds, shown};
 use crate::table::{ListedColumn, Table};
 use crate::units::TECHNICAL_ATMOSPHERE;
@@ -28,8 +28,6 @@ pub const KIND: Kind = Kind { command: "regimes", noun: "reset of the column", k
 const SPEEDS: WorkBound = WorkBound { what: "speeds", most: 1000 };
 /// Cubic millimetres in a cubic metre.
 const CUBIC: f64 = MILLIMETRES * MILLIMETRES * MILLIMETRES;
-/// A volume of less than this share of the cylinders' is rounding.
-const NO_VOLUME: f64 = 1e-12;
 
 /// The figures of a speed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -48,6 +46,12 @@ struct SpeedRow {
     camshaft_torque_max_nm: f64,
 }
 
+impl SpeedRow {
+    fn reset(&self) -> ColumnReset {
+        ColumnReset { rpm: self.rpm, column_mm: self.column_length_mm, added_mm3: self.added_volume_mm3 }
+    }
+}
+
 const COLUMNS: &[ListedColumn<SpeedRow>] = &[
     ("rpm", |row| row.rpm),
     ("a_per_mm", |row| row.a_per_mm),
@@ -62,62 +66,6 @@ const COLUMNS: &[ListedColumn<SpeedRow>] = &[
     ("crank_torque_max_nm", |row| row.crank_torque_max_nm),
     ("camshaft_torque_max_nm", |row| row.camshaft_torque_max_nm),
 ];
-
-/// A place of a curve.
-struct RegimeRow {
-    rpm: f64,
-    /// Crank angle from the start of the reversal, rad; not known under a yoke.
-    crank: f64,
-    x: f64,
-    inertia: f64,
-    air: f64,
-    residual: f64,
-}
-
-const CURVES: &[ListedColumn<RegimeRow>] = &[
-    ("rpm", |row| row.rpm),
-    ("x_mm", |row| MILLIMETRES * row.x),
-    ("inertia_n", |row| row.inertia),
-    ("air_n", |row| row.air),
-    ("residual_n", |row| row.residual),
-];
-
-/// Under a linkage the bed comes to one place with two forces: the curves run along the crank angle.
-const CURVES_OF_A_LINKAGE: &[ListedColumn<RegimeRow>] = &[
-    ("rpm", |row| row.rpm),
-    ("crank_deg", |row| row.crank.to_degrees()),
-    ("x_mm", |row| MILLIMETRES * row.x),
-    ("inertia_n", |row| row.inertia),
-    ("air_n", |row| row.air),
-    ("residual_n", |row| row.residual),
-];
-
-/// The horizontal axis of the curves.
-struct CurveAxis {
-    list: &'static [ListedColumn<RegimeRow>],
-    column: &'static str,
-    words: &'static str,
-    value: fn(&RegimeRow) -> f64,
-}
-
-impl CurveAxis {
-    fn of(design: &CrankLaw) -> Self {
-        match design {
-            CrankLaw::Yoke(_) => Self {
-                list: CURVES,
-                column: "x_mm",
-                words: "overrun x of the bed, mm",
-                value: |place| MILLIMETRES * place.x,
-            },
-            CrankLaw::Linkage(_) => Self {
-                list: CURVES_OF_A_LINKAGE,
-                column: "crank_deg",
-                words: "crank angle from the start of the reversal, degrees",
-                value: |place| place.crank.to_degrees(),
-            },
-        }
-    }
-}
 
 /// The section `regimes`.
 #[derive(Debug, Serialize)]
@@ -151,9 +99,10 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
         speeds.iter().map(|rpm| (*rpm, regime::reset(&design, &cylinder, *rpm, reset))).collect();
     let lobes = f64::from(PressCams::of(machine).lobes);
     let rows: Vec<SpeedRow> = all.iter().map(|(rpm, regime)| at_speed((press, &design), *rpm, regime, lobes)).collect();
-    let curves: Vec<RegimeRow> = all.iter().flat_map(|(rpm, regime)| curve(&design, *rpm, regime)).collect();
+    let curves: Vec<ForcePlace> = all.iter().flat_map(|(rpm, regime)| curve(&design, *rpm, regime)).collect();
     let along = CurveAxis::of(&design);
     let columns: Vec<(f64, f64)> = rows.iter().map(|row| (row.column_length_mm / MILLIMETRES, row.rpm)).collect();
+    let resets: Vec<ColumnReset> = rows.iter().map(SpeedRow::reset).collect();
     let regimes =
         Regimes { cam_rpm, reset: reset.word(), column_length_mm: MILLIMETRES * design.column(), speeds: &rows };
     let mut inputs = vec![Input::word("command", KIND.command)];
@@ -171,7 +120,7 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
         sections: std::iter::once(Section::new(KIND.command, &regimes).with_words(words(&regimes)))
             .chain(reversal_of_bed(machine))
             .collect(),
-        measures: std::iter::once(volume(&rows, CUBIC * 2.0 * cylinder.piston_area * design.column()))
+        measures: std::iter::once(volume(&resets, CUBIC * 2.0 * cylinder.piston_area * design.column()))
             .chain(column::measure(&columns, machine, |press, rpm| Some(press.bottom_law(rpm).column())))
             .collect(),
         notes: notes(machine),
@@ -231,8 +180,8 @@ fn at_speed((press, design): (&Press, &CrankLaw), rpm: f64, regime: &Regime, lob
 }
 
 /// Over the braking half under a yoke, whose other half is its mirror; over the whole reversal under a linkage.
-fn curve(design: &CrankLaw, rpm: f64, regime: &Regime) -> Vec<RegimeRow> {
-    let at = |crank: f64, [x, a]: [f64; 2]| RegimeRow {
+fn curve(design: &CrankLaw, rpm: f64, regime: &Regime) -> Vec<ForcePlace> {
+    let at = |crank: f64, [x, a]: [f64; 2]| ForcePlace {
         rpm,
         crank,
         x,
@@ -244,21 +193,6 @@ fn curve(design: &CrankLaw, rpm: f64, regime: &Regime) -> Vec<RegimeRow> {
         CrankLaw::Yoke(law) => places(law.stroke).map(|x| at(f64::NAN, [x, x])).collect(),
         CrankLaw::Linkage(law) => places(law.end.angle()).map(|crank| at(crank, design.bed(crank))).collect(),
     }
-}
-
-/// The least volume to add, mm³, to that of the cylinders: air cannot be taken away from a cylinder at ambient pressure.
-fn volume(rows: &[SpeedRow], own: f64) -> Measure {
-    let rounding = NO_VOLUME * own;
-    let least = rows.iter().map(|row| row.added_volume_mm3).fold(f64::INFINITY, f64::min);
-    let below: Vec<String> = rows
-        .iter()
-        .filter(|row| row.added_volume_mm3 < -rounding)
-        .map(|row| format!("to {:.3} mm for {} rpm", row.column_length_mm, row.rpm))
-        .collect();
-    let note =
-        format!("air would have to be taken away; shorten the column by its screw instead, {}", below.join(", "));
-    let least = if least.abs() <= rounding { 0.0 } else { least };
-    added_volume::CHECK.measure(least, Some(0.0)).noted((!below.is_empty()).then_some(note))
 }
 
 fn words(regimes: &Regimes<'_>) -> Vec<String> {
@@ -289,37 +223,12 @@ fn words(regimes: &Regimes<'_>) -> Vec<String> {
     lines
 }
 
-/// A number with so many decimals; what is 0 with them has no sign.
-fn unsigned_zero(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    text.strip_prefix('-')
-        .filter(|size| size.bytes().all(|c| matches!(c, b'0' | b'.')))
-        .map_or(text.clone(), str::to_owned)
-}
-
 /// Figure 5 of the paper, with the residual below.
-fn plot(machine: &str, cam_rpm: f64, all: &[RegimeRow], along: &CurveAxis) -> Plot {
-    let speeds: Vec<&[RegimeRow]> = all.chunks(PLACES as usize + 1).collect();
-    let curve = |(colour, places): (usize, &&[RegimeRow]), bold: bool, value: fn(&RegimeRow) -> f64| PlotCurve {
-        name: places.first().filter(|_| bold).map_or_else(String::new, |place| format!("{} rpm", shown(place.rpm))),
-        colour,
-        bold,
-        points: places.iter().map(|place| [(along.value)(place), value(place)]).collect(),
-    };
-    let of = |bold, value: fn(&RegimeRow) -> f64| -> Vec<PlotCurve> {
-        speeds.iter().enumerate().map(|one| curve(one, bold, value)).collect()
-    };
-    let forces = [of(false, |place| place.inertia), of(true, |place| place.air)].concat();
+fn plot(machine: &str, cam_rpm: f64, all: &[ForcePlace], along: &CurveAxis) -> Plot {
     Plot {
         title: format!("{machine}: the cam for {} rpm at other speeds, column reset", shown(cam_rpm)),
         places: along.words.into(),
-        panels: vec![
-            PlotPanel {
-                name: "Force, N: inertia of the bed (thin), air of both cylinders (bold)".into(),
-                curves: forces,
-            },
-            PlotPanel { name: "Residual force, inertia less air, N".into(), curves: of(true, |place| place.residual) },
-        ],
+        panels: force_panels(all, along),
         ..Plot::default()
     }
 }

@@ -1,14 +1,15 @@
 //! Buffers whose bottoms rest on springs instead of a cam. Equations (26) to (28), figure 11.
 
-use crate::analysis::{Analysis, Picture, places};
+use super::at_speeds::CurveAxis;
+use crate::analysis::{Analysis, PLACES, Picture, places};
 use crate::body::Kind;
 use crate::check::Measure;
 use crate::document::Input;
-use crate::domains::press::buffer::spring::{self, SpringBuffer};
+use crate::domains::press::buffer::spring::{self, BrakedBed, SpringBuffer};
 use crate::domains::press::buffer::spring_body::SpringBody;
 use crate::domains::press::cams;
-use crate::domains::press::checks::{buckling, spring_stress, surge};
-use crate::domains::press::machine::{Press, PressCams, only_under_a_yoke};
+use crate::domains::press::checks::{buckling, spring_coils, spring_stress, surge};
+use crate::domains::press::machine::{Press, PressCams};
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::refusal::{Refusal, WorkBound};
@@ -24,6 +25,10 @@ pub const KIND: Kind = Kind { command: "spring", noun: "pneumatic-spring buffer"
 const SETS: WorkBound = WorkBound { what: "springs at a speed", most: 1000 };
 /// Stiffnesses that are looked at by default, over the least one: near those of the paper's figure.
 const USUAL: [f64; 3] = [1.125, 1.375, 2.75];
+
+fn braked_by(press: &Press) -> BrakedBed {
+    BrakedBed { bed: press.bed, linkage: press.stroke_end }
+}
 
 /// The figures of a spring at a speed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -55,6 +60,8 @@ const COLUMNS: &[ListedColumn<SpringSet>] = &[
 struct SpringRow {
     stiffness: f64,
     rpm: f64,
+    /// Crank angle from the start of the reversal, rad.
+    crank: f64,
     x: f64,
     inertia: f64,
     air: f64,
@@ -72,19 +79,24 @@ const CURVES: &[ListedColumn<SpringRow>] = &[
     ("spring_travel_mm", |row| MILLIMETRES * row.travel),
 ];
 
+/// Under a linkage the bed comes to one place with two forces: the curves run along the crank angle.
+const CURVES_OF_A_LINKAGE: &[ListedColumn<SpringRow>] = &[
+    ("stiffness_n_per_mm", |row| row.stiffness / MILLIMETRES),
+    ("rpm", |row| row.rpm),
+    ("crank_deg", |row| row.crank.to_degrees()),
+    ("x_mm", |row| MILLIMETRES * row.x),
+    ("inertia_n", |row| row.inertia),
+    ("air_n", |row| row.air),
+    ("residual_n", |row| row.residual),
+    ("spring_travel_mm", |row| MILLIMETRES * row.travel),
+];
+
 /// The section `spring`.
 #[derive(Debug, Serialize)]
 struct Springs<'a> {
     least_stiffness_n_per_mm: f64,
     residual_fixed_bottom_max_n: f64,
     settings: &'a [SpringSet],
-}
-
-/// The press, where a yoke moves its bed.
-fn under_a_yoke(machine: &Machine) -> Result<&Press, Refusal> {
-    let press = machine.press()?;
-    let why = "the travel of the spring has no closed form";
-    if press.stroke_end.is_some() { Err(only_under_a_yoke("springs are set", why)) } else { Ok(press) }
 }
 
 /// Buffers on springs of these stiffnesses (N/m), and of that which leaves a wanted residual force (N) at the design speed, at
@@ -109,25 +121,30 @@ pub fn analysis(
     stiffnesses: &[f64],
     residual: Option<f64>,
 ) -> Result<Analysis, Refusal> {
-    let press = under_a_yoke(machine)?;
-    let (bed, cylinder, own) = (press.bed, press.cylinder(), [press.design_rpm]);
+    let press = machine.press()?;
+    let braked = braked_by(press);
+    let (cylinder, own) = (press.cylinder(), [press.design_rpm]);
     let speeds = if speeds.is_empty() { &own[..] } else { speeds };
-    let least = spring::least_stiffness(&bed, press.design_rpm);
+    let least = spring::least_stiffness(&braked, press.design_rpm);
     let mut all = stiffnesses.to_vec();
     if let Some(residual) = residual {
-        all.push(spring::stiffness_for(residual, &bed, &cylinder, press.design_rpm)?);
+        all.push(spring::stiffness_for(residual, &braked, &cylinder, press.design_rpm)?);
     } else if all.is_empty() {
-        let highest = speeds.iter().map(|rpm| spring::least_stiffness(&bed, *rpm)).fold(least, f64::max);
+        let highest = speeds.iter().map(|rpm| spring::least_stiffness(&braked, *rpm)).fold(least, f64::max);
         all.extend(USUAL.map(|over| over * highest));
     }
     SETS.allow(all.len().saturating_mul(speeds.len()))?;
     let sets = sets_of(press, &all, speeds)?;
     let rows: Vec<SpringSet> = sets.iter().map(|(rpm, spring)| set_of(*rpm, spring)).collect();
     let curves: Vec<SpringRow> = sets.iter().flat_map(|(rpm, spring)| curve(press, *rpm, spring)).collect();
+    let (columns, along) = match press.stroke_end {
+        None => (CURVES, "x_mm"),
+        Some(_) => (CURVES_OF_A_LINKAGE, "crank_deg"),
+    };
     let bodies = bodies_of(machine, &sets);
     let springs = Springs {
         least_stiffness_n_per_mm: least / MILLIMETRES,
-        residual_fixed_bottom_max_n: spring::plain_residual(&bed, &cylinder, press.design_rpm).value,
+        residual_fixed_bottom_max_n: spring::plain_residual(&braked, &cylinder, press.design_rpm).value,
         settings: &rows,
     };
     let mut inputs = vec![Input::word("command", KIND.command)];
@@ -139,20 +156,20 @@ pub fn analysis(
         machine: machine.name().to_owned(),
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
-        sections: std::iter::once(Section::new(KIND.command, &springs).with_words(words(&springs, press.design_rpm)))
+        sections: std::iter::once(Section::new(KIND.command, &springs).with_words(words(&springs, press)))
             .chain(bodies.as_ref().map(|(rows, _)| section_of_bodies(rows)))
             .collect(),
         measures: bodies.as_ref().map_or_else(Vec::new, |(rows, stress)| measures_of(rows, *stress)),
         notes: machine.idle_key_notes(KIND.keys, KIND.noun),
-        picture: Picture::Curves(curves_of(machine.name(), press, &sets)),
+        picture: Picture::Curves(curves_of(machine.name(), &sets, &curves)),
         mechanism: None,
         document: None,
         tables: std::iter::once(("", Table::listed(COLUMNS, &rows)))
             .chain(bodies.as_ref().map(|(rows, _)| ("-bodies", Table::listed(BODIES, rows))))
-            .chain([("-curves", Table::listed(CURVES, &curves))])
+            .chain([("-curves", Table::listed(columns, &curves))])
             .collect(),
         by: &["stiffness_n_per_mm", "rpm"],
-        along: "x_mm",
+        along,
         diagrams: &[],
         not_modelled: NOT_MODELLED.to_vec(),
     })
@@ -245,17 +262,20 @@ fn measures_of(rows: &[SpringBodyRow], allowable: f64) -> Vec<Measure> {
     let slowest = rows.iter().map(|row| row.surge_hz / row.crank_hz).fold(f64::INFINITY, f64::min);
     let limit = 1e-6 * allowable;
     let bent = rows.iter().map(|row| row.buckling).fold(0.0, f64::max);
-    vec![
-        spring_stress::CHECK.measure(largest, Some(limit)).kept(largest <= limit * (1.0 + ROUNDING)),
-        surge::CHECK.measure(slowest, Some(surge::LEAST)),
-        buckling::measure(bent),
-    ]
+    let least = |of: fn(&SpringBodyRow) -> f64| rows.iter().map(of).fold(f64::INFINITY, f64::min);
+    let thickest = rows.iter().map(|row| row.wire_mm).fold(0.0, f64::max);
+    let stress = spring_stress::CHECK.measure(largest, Some(limit)).kept(largest <= limit * (1.0 + ROUNDING));
+    let coiled = spring_coils::measures(least(|row| row.coils), thickest, least(|row| row.coil_mm / row.wire_mm));
+    std::iter::once(stress)
+        .chain(coiled)
+        .chain([surge::CHECK.measure(slowest, Some(surge::LEAST)), buckling::measure(bent)])
+        .collect()
 }
 
 /// Every spring at every speed.
 fn sets_of(press: &Press, stiffnesses: &[f64], speeds: &[f64]) -> Result<Vec<(f64, SpringBuffer)>, Refusal> {
     let set = |stiffness: f64, rpm: f64| {
-        let set = spring::set_for(&press.bed, &press.cylinder(), stiffness, rpm);
+        let set = spring::set_for(&braked_by(press), &press.cylinder(), stiffness, rpm);
         set.map_err(|soft| soft.at(format!("{rpm} rpm")))
     };
     // The speed that needs the stiffest spring comes first: its report serves for all.
@@ -286,25 +306,35 @@ fn set_of(rpm: f64, spring: &SpringBuffer) -> SpringSet {
     }
 }
 
-fn curve<'a>(press: &Press, rpm: f64, spring: &'a SpringBuffer) -> impl Iterator<Item = SpringRow> + use<'a> {
-    let slope = press.bed.largest_inertia(rpm) / press.bed.crank_radius;
-    places(press.bed.crank_radius).map(move |x| SpringRow {
-        stiffness: spring.stiffness,
-        rpm,
-        x,
-        inertia: slope * x,
-        air: spring.air(x),
-        residual: spring.residual(x),
-        travel: spring.spring_travel(x),
-    })
+/// Over the braking half under a yoke, whose other half is its mirror; over the whole reversal under a linkage.
+fn curve(press: &Press, rpm: f64, spring: &SpringBuffer) -> Vec<SpringRow> {
+    let at = |crank: f64, [x, deceleration]: [f64; 2], residual: f64| {
+        let inertia = press.bed.inertia(rpm, deceleration);
+        let (air, travel) = (spring.air(x), spring.spring_travel(x));
+        SpringRow { stiffness: spring.stiffness, rpm, crank, x, inertia, air, residual, travel }
+    };
+    match &press.stroke_end {
+        None => places(press.bed.crank_radius).map(|x| at(f64::NAN, [x, x], spring.residual(x))).collect(),
+        Some(end) => places(end.angle())
+            .map(|crank| {
+                let bed = end.at(crank);
+                at(crank, [bed.x[0], bed.deceleration()[0].max(0.0)], spring.residual_at_crank(crank))
+            })
+            .collect(),
+    }
 }
 
-fn words(springs: &Springs<'_>, design: f64) -> Vec<String> {
+fn words(springs: &Springs<'_>, press: &Press) -> Vec<String> {
+    let design = press.design_rpm;
+    let fastest = springs.settings.iter().map(|row| row.rpm).fold(design, f64::max);
+    let faster = spring::least_stiffness(&braked_by(press), fastest) / MILLIMETRES;
+    let faster = (fastest > design).then(|| format!(", at {} rpm more than {faster:.4}", shown(fastest)));
     let mut lines = vec![
         format!(
-            "at {} rpm more than {:.4} N/mm are needed; a fixed bottom leaves {:.2} N",
+            "at the design speed of {} rpm more than {:.4} N/mm are needed{}; a fixed bottom leaves {:.2} N there",
             shown(design),
             springs.least_stiffness_n_per_mm,
+            faster.unwrap_or_default(),
             springs.residual_fixed_bottom_max_n
         ),
         format!(
@@ -330,39 +360,54 @@ fn words(springs: &Springs<'_>, design: f64) -> Vec<String> {
 }
 
 /// Figure 11 of the paper, with the residual below.
-fn curves_of(machine: &str, press: &Press, sets: &[(f64, SpringBuffer)]) -> Plot {
-    let stroke = press.bed.crank_radius;
+fn curves_of(machine: &str, sets: &[(f64, SpringBuffer)], rows: &[SpringRow]) -> Plot {
     let name =
         |rpm: f64, spring: &SpringBuffer| format!("{:.2} N/mm, {} rpm", spring.stiffness / MILLIMETRES, shown(rpm));
-    let curve = |colour: usize, (rpm, spring): &(f64, SpringBuffer), value: fn(&SpringBuffer, f64) -> f64| PlotCurve {
-        name: name(*rpm, spring),
-        colour,
-        bold: true,
-        points: places(stroke).map(|x| [MILLIMETRES * x, value(spring, x)]).collect(),
+    let of_sets: Vec<&[SpringRow]> = rows.chunks(PLACES as usize + 1).collect();
+    let by_crank = rows.first().is_some_and(|row| row.crank.is_finite());
+    let points = |rows: &[SpringRow], value: fn(&SpringRow) -> f64| -> Vec<[f64; 2]> {
+        let place = |row: &SpringRow| if by_crank { row.crank.to_degrees() } else { MILLIMETRES * row.x };
+        rows.iter().map(|row| [place(row), value(row)]).collect()
     };
-    let of = |value: fn(&SpringBuffer, f64) -> f64| -> Vec<PlotCurve> {
-        sets.iter().enumerate().map(|(colour, set)| curve(colour, set, value)).collect()
+    let of = |value: fn(&SpringRow) -> f64| -> Vec<PlotCurve> {
+        let curve = |(colour, ((rpm, spring), rows)): (usize, (&(f64, SpringBuffer), &&[SpringRow]))| PlotCurve {
+            name: name(*rpm, spring),
+            colour,
+            bold: true,
+            points: points(rows, value),
+        };
+        sets.iter().zip(&of_sets).enumerate().map(curve).collect()
     };
-    let mut speeds: Vec<f64> = sets.iter().map(|(rpm, _)| *rpm).collect();
-    speeds.sort_by(f64::total_cmp);
-    speeds.dedup();
-    let inertia = |rpm: f64| PlotCurve {
-        name: format!("inertia, {} rpm", shown(rpm)),
-        colour: plot::GREY,
-        bold: false,
-        points: vec![[0.0, 0.0], [MILLIMETRES * stroke, press.bed.largest_inertia(rpm)]],
+    let mut speeds: Vec<&[SpringRow]> = of_sets.clone();
+    speeds.sort_by(|a, b| speed_of(a).total_cmp(&speed_of(b)));
+    speeds.dedup_by(|a, b| speed_of(a) == speed_of(b));
+    let inertia = |rows: &[SpringRow]| {
+        let all = points(rows, |row| row.inertia);
+        // Under a yoke it is a straight line.
+        let ends = [all.first(), all.last()].into_iter().flatten().copied().collect();
+        PlotCurve {
+            name: format!("inertia, {} rpm", shown(speed_of(rows))),
+            colour: plot::GREY,
+            bold: false,
+            points: if by_crank { all } else { ends },
+        }
     };
-    let forces = [speeds.into_iter().map(inertia).collect(), of(SpringBuffer::air)].concat();
+    let forces = [speeds.into_iter().map(inertia).collect(), of(|row| row.air)].concat();
+    let along = if by_crank { "crank angle from the start of the reversal, degrees" } else { CurveAxis::OVERRUN.words };
     Plot {
         title: format!("{machine}: buffers on springs"),
-        places: "overrun x of the bed, mm".into(),
+        places: along.into(),
         panels: vec![
             PlotPanel {
                 name: "Force, N: inertia of the bed (thin), air of both cylinders (bold)".into(),
                 curves: forces,
             },
-            PlotPanel { name: "Residual force, inertia less air, N".into(), curves: of(SpringBuffer::residual) },
+            PlotPanel { name: "Residual force, inertia less air, N".into(), curves: of(|row| row.residual) },
         ],
         ..Plot::default()
     }
+}
+
+fn speed_of(rows: &[SpringRow]) -> f64 {
+    rows.first().map_or(f64::NAN, |row| row.rpm)
 }

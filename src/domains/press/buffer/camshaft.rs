@@ -12,14 +12,23 @@
 //! since ∫ u (1+u)^(−p−1) du = ∫ [(1+u)^−p − (1+u)^(−p−1)] du. E is counted from the dwell, is positive where the shaft drives
 //! the follower, and E(π − φ) = E(φ). With c ≤ 1 it falls all the way; with c > 1 it rises to `x_top`, where the law turns.
 //!
+//! Under a linkage, whose deceleration a is not its overrun, the same integral is
+//!
+//! ```text
+//! E(φ) = 2 p0 F A [c B + (c − 1) (x'(0)² − x'²)/2 + (c/κ) a² (H(A a) − ½)],   B = ∫ a (a'/κ − x') dφ = a²/(2κ) − (x'(0)² − x'²)/2
+//! ```
+//!
+//! with κ = a'/x' at the start, and B = 0 for a yoke. Where the return does not mirror the outward motion it is not 0 at the end.
+//!
 //! Both humps of the torque are single. N = s cos 2φ + x s' cos²φ with s = dΔx/dx has the sign of dT/dφ. Where s > 0, −x s'/s
 //! rises from 0 without bound and cos 2φ/cos²φ falls from 1. Where s < 0, x s'/s falls for c ≥ 1, and for c < 1 never grows
 //! faster than 1/(2t) by t = (x/r)², while −cos 2φ/cos²φ grows faster than 4 from 0 at 45°.
 
 use super::Cylinder;
 use super::bottom_law::BottomLaw;
+use super::crank_law::{CrankLaw, LinkageLaw};
 use crate::numeric::extremum::Extremum;
-use crate::numeric::root;
+use crate::numeric::{quadrature, root};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 /// Below this u the series of H − ½ is summed (50 terms at most); above it the closed form has lost less than five bits.
@@ -82,6 +91,47 @@ pub fn work(law: &BottomLaw, cylinder: &Cylinder, crank: f64) -> WorkDerivatives
         torque: f * first,
         torque_slope: f_slope * first * first - f * x,
         torque_second: (f_second * first * first - 3.0 * f_slope * x - f) * first,
+    }
+}
+
+/// The work and its derivatives at a crank angle of the reversal of any bed.
+#[must_use]
+pub fn work_of(law: &CrankLaw, cylinder: &Cylinder, crank: f64) -> WorkDerivatives {
+    match law {
+        CrankLaw::Yoke(law) => work(law, cylinder, crank),
+        CrankLaw::Linkage(law) => work_of_linkage(law, cylinder, crank),
+    }
+}
+
+/// Crank angle from the start of the reversal up to which B is integrated, rad: there its two terms cancel.
+const NEAR: f64 = 0.2;
+/// Panels in it, of eight points each.
+const PANELS: u32 = 2;
+
+fn work_of_linkage(law: &LinkageLaw, cylinder: &Cylinder, crank: f64) -> WorkDerivatives {
+    let bed = law.end.at(crank);
+    let ([_, speed, ..], [a, a1, a2, ..]) = (bed.x, bed.deceleration());
+    let (c, ratio, start) = (1.0 + law.start_slope, law.end.start_ratio(), law.end.at(0.0).x[1]);
+    let slowed = 0.5 * (start - speed) * (start + speed);
+    // The return mirrors the outward motion, or its end is not near the start.
+    let from_start = if law.end.symmetric() { crank.min(law.end.angle() - crank) } else { crank };
+    let excess = if from_start < NEAR {
+        let of = |crank: f64| {
+            let bed = law.end.at(crank);
+            bed.deceleration()[0] * bed.excess[1]
+        };
+        quadrature::integrate(of, (0.0, from_start.max(0.0)), PANELS)
+    } else {
+        0.5 * a * a / ratio - slowed
+    };
+    let shape = h_minus_half(law.loading * a.max(0.0), 1.0 / law.exponent);
+    let [_, b1, b2, b3, _] = law.at(crank);
+    let force = cylinder.unit_force() * law.loading;
+    WorkDerivatives {
+        value: force * (c * excess + law.start_slope * slowed + c / ratio * a * a * shape),
+        torque: force * a * b1,
+        torque_slope: force * (a1 * b1 + a * b2),
+        torque_second: force * (a2 * b1 + 2.0 * a1 * b2 + a * b3),
     }
 }
 
@@ -202,7 +252,7 @@ mod tests {
     use crate::domains::press::buffer::bottom_law::ColumnRule;
     use crate::domains::press::buffer::regime::{Reset, reset};
     use crate::domains::press::buffer::tests::{Random, reference};
-    use crate::numeric::{extremum, quadrature};
+    use crate::numeric::extremum;
 
     fn machine(q: f64, column: ColumnRule) -> (BottomLaw, Cylinder) {
         let (_, cylinder) = reference(q);
@@ -367,6 +417,49 @@ mod tests {
                 (got.torque_second, difference(|w| w.torque_slope)),
             ] {
                 assert!((exact - quotient).abs() < 1e-6 * scale, "k {k} q {q} {column:?} {crank}: {exact} {quotient}");
+            }
+        }
+    }
+
+    /// The work under linkages against quadrature of the torque, which is that of the yoke where the linkage is nearly one; work is left where
+    /// the return does not mirror the outward motion.
+    #[test]
+    fn work_under_a_linkage() {
+        use crate::domains::press::bed_motion::{End, Linkage, Slider, StrokeEnd};
+        let (_, cylinder) = reference(2.0);
+        let loading = cylinder.loading(35.0);
+        for (rod_ratio, offset_ratio) in [(3.0, 0.0), (4.5, 0.0), (3.0, 0.1), (1e6, 0.0)] {
+            for end in [End::Outer, End::Inner] {
+                let slider = Linkage::CrankSlider(Slider { rod_ratio, offset_ratio });
+                let end = StrokeEnd::new(slider, 0.18, end).expect("two zeros");
+                for column in [ColumnRule::Matched, ColumnRule::Return, ColumnRule::Length(0.5)] {
+                    let law = LinkageLaw::new(loading, 1.35, end, column, 0.0);
+                    let crank_law = CrankLaw::Linkage(law);
+                    let at = |crank: f64| work_of(&crank_law, &cylinder, crank);
+                    for share in [1e-3, 0.02, 0.05, 0.07, 0.3, 0.5, 0.8, 0.99, 1.0] {
+                        let crank = share * end.angle();
+                        let summed = quadrature::integrate(|crank| at(crank).torque, (0.0, crank), 64);
+                        let size = at(0.5 * end.angle()).value.abs();
+                        assert!(
+                            (at(crank).value - summed).abs() < 1e-12 * size.max(100.0),
+                            "{slider:?} {column:?} {share}: {} {summed}",
+                            at(crank).value
+                        );
+                        let h = 1e-5;
+                        let slope =
+                            |of: fn(WorkDerivatives) -> f64| (of(at(crank + h)) - of(at(crank - h))) / (2.0 * h);
+                        let (own, scale) = (at(crank), 1e-6 * 1e4);
+                        if share < 1.0 {
+                            assert!((own.torque_slope - slope(|work| work.torque)).abs() < scale);
+                            assert!((own.torque_second - slope(|work| work.torque_slope)).abs() < 10.0 * scale);
+                        }
+                    }
+                    let left = at(end.angle()).value.abs();
+                    assert!(
+                        if offset_ratio == 0.0 { left < 1e-10 } else { left > 1.0 },
+                        "{slider:?} {column:?}: {left}"
+                    );
+                }
             }
         }
     }

@@ -285,6 +285,30 @@ impl CrankLaw {
         }
     }
 
+    /// Overrun x at a crank angle of the reversal with its first two derivatives, m.
+    #[must_use]
+    pub fn travel(&self, angle: f64) -> [f64; 3] {
+        match self {
+            Self::Yoke(law) => {
+                let [x, _] = self.bed(angle);
+                [x, law.stroke * libm::cos(angle), -x]
+            }
+            Self::Linkage(law) => {
+                let [x, first, second, ..] = law.end.at(angle).x;
+                [x, first, second]
+            }
+        }
+    }
+
+    /// Whether the air gives back on the way back what it takes on the way in, at the same places.
+    #[must_use]
+    pub fn is_symmetric(&self) -> bool {
+        match self {
+            Self::Yoke(law) => law.level.is_none(),
+            Self::Linkage(law) => law.end.symmetric(),
+        }
+    }
+
     /// Overrun of the bed at any crank angle, in strokes. A yoke lets the bed go outside the reversal, where it runs at constant speed, and
     /// the part of its path about its other end is not known; a linkage holds it all the time.
     #[must_use]

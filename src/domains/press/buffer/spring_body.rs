@@ -58,10 +58,10 @@ pub struct SpringBody {
 }
 
 /// Diameters of drawn wire up to 20 mm and of bars above, mm: the preferred ones of EN 10270-1 and EN 10060.
-const STANDARD_WIRES: [f64; 46] = [
+const STANDARD_WIRES: [f64; 48] = [
     0.5, 0.56, 0.63, 0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.25, 2.5, 2.8, 3.2, 3.6, 4.0, 4.5, 5.0, 5.6,
     6.3, 7.0, 8.0, 9.0, 10.0, 11.0, 12.5, 14.0, 16.0, 18.0, 20.0, 22.0, 25.0, 28.0, 30.0, 32.0, 36.0, 40.0, 45.0, 50.0,
-    55.0, 60.0, 70.0, 80.0,
+    55.0, 60.0, 70.0, 80.0, 90.0, 100.0,
 ];
 /// A wire that is found to be a standard one within this share is that one.
 const SAME_WIRE: f64 = 1e-12;
@@ -252,7 +252,7 @@ mod tests {
         assert!((rate / 66_685.22 - 1.0).abs() < 1e-13);
         // Singh's wire of 4.15 mm (example 8.1) becomes the next one of the standard, 4.5 mm; the thickest bar has no next one.
         assert_eq!(standard(4.15e-3), Some(4.5e-3));
-        assert_eq!((standard(0.018), standard(0.1)), (Some(0.018), None));
+        assert_eq!((standard(0.018), standard(0.101)), (Some(0.018), None));
         assert!(STANDARD_WIRES.is_sorted());
         let on_coil = SpringBody::new(SpringShape::StandardFor(0.108), 10_644.05, 66_685.22, 700e6);
         assert!(on_coil.wire == 0.018 && (on_coil.coil / 0.108 - 1.0).abs() < 1e-15, "{on_coil:?}");

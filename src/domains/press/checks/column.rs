@@ -23,7 +23,7 @@ pub const CHECK: Check = Check {
 };
 
 /// Customary largest column, m.
-const CUSTOMARY: f64 = 2.0;
+pub const CUSTOMARY: f64 = 2.0;
 /// A speed so many times as high is looked at.
 const FASTEST: f64 = 1e4;
 

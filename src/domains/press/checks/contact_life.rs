@@ -37,11 +37,13 @@ pub fn contacts(hardness: f64, pressure: f64) -> f64 {
     CONTACTS * libm::pow(strength / pressure, 1.0 / EXPONENT)
 }
 
-/// The measure of the largest pressure, Pa; `None` where no hardness is given.
+/// The measure of the largest pressure, Pa; `None` where neither hardness nor life is given.
 #[must_use]
 pub fn measure(largest: Option<Worst>, contact: ContactKind, subject: &Subject<'_>) -> Option<Measure> {
     let cams = PressCams::of(subject.machine);
-    let hardness = cams.hardness?;
+    let Some(hardness) = cams.hardness else {
+        return cams.life.map(|_| CHECK.unknown("limits.life is given without cam.hardness"));
+    };
     let Some(worst) = largest else {
         return Some(CHECK.unknown("the pressure is not known: cam.thickness and cam.material are not both given"));
     };

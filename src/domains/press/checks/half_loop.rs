@@ -18,17 +18,18 @@ pub const CHECK: Check = Check::on_analysis(
     },
 );
 
-/// The measure of the largest h and of what a fixed bottom leaves, N.
+/// The measure of the largest h and of what a fixed bottom leaves, N: without losses, and with the same ones where that is known.
 #[must_use]
-pub fn measure(half_loop: f64, fixed: f64) -> Measure {
+pub fn measure(half_loop: f64, fixed: f64, with_losses: Option<f64>) -> Measure {
     let share = half_loop.abs() / fixed;
     let verdict = match share {
         share if !(share < 1.0) => Verdict::Fail,
         share if share > USEFUL => Verdict::Warn,
         _ => Verdict::Pass,
     };
+    let with_losses = with_losses.map_or_else(String::new, |left| format!(", {} N with these", shown(left)));
     let note = format!(
-        "half of the loop is {} N, a fixed bottom without losses leaves {} N",
+        "half of the loop is {} N, a fixed bottom without losses leaves {} N{with_losses}",
         shown(half_loop.abs()),
         shown(fixed)
     );

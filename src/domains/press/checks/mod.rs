@@ -13,6 +13,7 @@ pub mod residual;
 pub mod run_up;
 pub mod scatter;
 pub mod setting;
+pub mod spring_coils;
 pub mod spring_stress;
 pub mod surge;
 
@@ -40,6 +41,9 @@ pub(super) const CHECKS: &[Added<&Check>] = &[
             &half_loop::CHECK,
             &setting::CHECK,
             &spring_stress::CHECK,
+            &spring_coils::COILS,
+            &spring_coils::WIRE,
+            &spring_coils::INDEX,
             &surge::CHECK,
             &buckling::CHECK,
         ],

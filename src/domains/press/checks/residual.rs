@@ -69,9 +69,9 @@ fn residual_note(of: &dyn ForceBalanced, written: &AsWritten<'_>, force: f64) ->
     let motion = of.residual_of_motion().value;
     if written.rolled.is_none() || written.foreign || motion >= USEFUL * balance.without_cam {
         return if balance.mean {
+            let longer = of.remedy_of_mean().map_or_else(String::new, |remedy| format!("{remedy} in both; "));
             format!(
-                "{without}; balanced in neither direction of the bed; a longer buffer.column leaves less in both, --balance braking balances one and \
-                 leaves about twice as much in the other"
+                "{without}; balanced in neither direction of the bed; {longer}--balance braking balances one and leaves about twice as much in the other"
             )
         } else {
             without

@@ -129,7 +129,7 @@ pub(super) fn sections(conoid: &Conoid, found: &DrawingEvidence<'_>) -> Vec<Sect
     ]);
     sections.extend(wheel::section(conoid));
     let laws: Vec<_> =
-        conoid.speeds.iter().zip(&conoid.sections).map(|(rpm, of)| (*rpm, of.law().bottom_law.of_yoke())).collect();
+        conoid.speeds.iter().zip(&conoid.sections).map(|(rpm, of)| (*rpm, of.law().bottom_law)).collect();
     let sampling = PressCams::of(&conoid.machine).scatter;
     sections.extend(other_cams::of_conoid(&sampling, &conoid.cylinder, conoid.data.shift, &laws));
     sections

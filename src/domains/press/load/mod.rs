@@ -76,6 +76,11 @@ pub trait ForceBalanced {
         Vec::new()
     }
 
+    /// A change that leaves less in both directions where the forces balance in neither.
+    fn remedy_of_mean(&self) -> Option<String> {
+        None
+    }
+
     /// A speed and a tolerance that would keep the bottom off the piston where an outline within a tolerance (m) may miss the motion.
     fn as_cut(&self, _tolerance: f64) -> Option<AsCut> {
         None

@@ -1,12 +1,11 @@
 //! The work that the camshaft gives to the follower of a press: air, preload and inertia together.
 
-use crate::domains::press::buffer::bottom_law::BottomLaw;
+use crate::domains::press::buffer::crank_law::CrankLaw;
 use crate::domains::press::buffer::{Cylinder, camshaft};
 use crate::domains::press::motion::Reversal;
 use crate::motion::counter_torque::{Work, WorkJet, merged};
 use crate::motion::{Jet, Motion, Piece};
 use crate::numeric::quadrature;
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Panels over which the work on a blend is integrated: its force is smooth there, and eight points are exact to degree 15.
@@ -46,7 +45,7 @@ fn divided(reversal: &Reversal) -> (Vec<Piece>, Vec<(usize, bool)>) {
 pub struct ShaftWork {
     reversal: Arc<Reversal>,
     /// Its law.
-    law: BottomLaw,
+    law: CrankLaw,
     cylinder: Cylinder,
     /// Force on the follower in addition to the air, N.
     preload: f64,
@@ -61,10 +60,13 @@ pub struct ShaftWork {
 
 impl ShaftWork {
     /// The work on a follower with this preload (N) and mass (kg) on its path, on a cam that turns at this speed (rad/s). `None` for a
-    /// bed that is not moved by a yoke, and for air with a loop: work is left over at the end of the turn.
+    /// bed whose return does not mirror its outward motion, and for air with a loop: work is left over at the end of the turn.
     #[must_use]
     pub fn new(cylinder: Cylinder, reversal: Arc<Reversal>, preload: f64, mass: f64, speed: f64) -> Option<Self> {
-        let law = *reversal.law().bottom_law.of_yoke().filter(|law| law.level.is_none())?;
+        let law = reversal.law().bottom_law;
+        if !law.is_symmetric() {
+            return None;
+        }
         let inertia = mass * speed * speed;
         let (divided, shown) = divided(&reversal);
         let idle = preload == 0.0 && inertia == 0.0;
@@ -79,7 +81,7 @@ impl ShaftWork {
         let origins = all.iter().map(origin).collect();
         let mut work = Self { reversal, law, cylinder, preload, inertia, pieces, origins, blended: 0.0 };
         if let Some(from) = work.reversal.law_begins().filter(|from| *from > 0.0) {
-            let closed = camshaft::work(&work.law, &work.cylinder, from).value;
+            let closed = camshaft::work_of(&work.law, &work.cylinder, from).value;
             work.blended = work.by_quadrature(from) - closed;
         }
         Some(work)
@@ -101,7 +103,7 @@ impl ShaftWork {
         let count = f64::from(self.reversal.law().lobes.max(1));
         let crank = self.reversal.crank_in(piece, angle);
         if self.reversal.follows_law(piece) {
-            let work = camshaft::work(&self.law, &self.cylinder, crank);
+            let work = camshaft::work_of(&self.law, &self.cylinder, crank);
             return WorkJet {
                 energy: self.blended + work.value,
                 torque: count * work.torque,
@@ -110,10 +112,11 @@ impl ShaftWork {
             };
         }
         // A blend about the start or the end of the reversal.
-        let (crank, bottom) = (crank.clamp(0.0, PI), self.reversal.bottom(piece, angle));
+        let whole = self.law.angle();
+        let (crank, bottom) = (crank.clamp(0.0, whole), self.reversal.bottom(piece, angle));
         let [force, slope, second] = self.air_force(crank, bottom, count);
         WorkJet {
-            energy: self.by_quadrature(crank.min(PI - crank)),
+            energy: self.by_quadrature(crank.min(whole - crank)),
             torque: force * bottom.ds,
             torque_slope: slope * bottom.ds + force * bottom.dds,
             torque_second: second * bottom.ds + 2.0 * slope * bottom.dds + force * bottom.ddds,
@@ -123,12 +126,12 @@ impl ShaftWork {
     /// Force of the air with its first two derivatives by the cam angle, N: U (ρ − 1), ρ = (L/l)^k, l the length of the air.
     fn air_force(&self, crank: f64, bottom: Jet, count: f64) -> [f64; 3] {
         let law = &self.law;
-        let (k, unit, r) = (law.exponent, self.cylinder.unit_force(), law.stroke);
-        let (x, x1) = (r * libm::sin(crank), r * libm::cos(crank) * count);
-        let ratio = law.pressure_ratio(x, bottom.s);
-        let length = law.column * libm::exp(-libm::log(ratio) / k);
+        let (k, unit) = (law.exponent(), self.cylinder.unit_force());
+        let [_, x1, x2] = law.travel(crank);
+        let ratio = law.pressure_ratio(crank, bottom.s);
+        let length = law.column() * libm::exp(-libm::log(ratio) / k);
         // l' = −(x' + Δx'); ρ' = −k ρ l'/l.
-        let (first, second) = (-(x1 + bottom.ds), count * count * x - bottom.dds);
+        let (first, second) = (-(count * x1 + bottom.ds), -(count * count * x2 + bottom.dds));
         let share = first / length;
         let force = unit * (ratio - 1.0);
         let slope = -unit * k * ratio * share;

@@ -65,10 +65,10 @@ const MODEL: Field<EfficiencyModel> = Field::words(
 );
 const BALANCE: Field<ExactOn> = Field::words(
     "balance",
-    "where the forces balance: \"braking\", exact while the bed is braked, or \"level\", half of the friction left in each direction of the bed; --balance replaces it",
+    "where the forces balance: \"braking\" or \"return\", exact in that direction of the bed, or \"level\" (also \"mean\"), half of the friction left in each; --balance replaces it",
     Optional("level"),
-    &["braking", "level"],
-    &[ExactOn::Braking, ExactOn::Mean],
+    &["braking", "return", "level", "mean"],
+    &[ExactOn::Braking, ExactOn::Return, ExactOn::Mean, ExactOn::Mean],
 );
 const ROLLER_RADIUS: Field<f64> = Field::quantity(
     "roller_radius",

@@ -18,7 +18,7 @@ use crate::document::{Input, NamedChoice};
 use crate::domains::press::buffer::Cylinder;
 use crate::domains::press::cams;
 use crate::domains::press::checks::{half_loop, scatter, setting};
-use crate::domains::press::machine::{PressCams, only_under_a_yoke};
+use crate::domains::press::machine::PressCams;
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::refusal::Refusal;
@@ -32,13 +32,7 @@ pub const KIND: Kind = Kind { command: "scatter", noun: "scatter of a press", ke
 pub(super) fn cam_of(machine: &Machine, rpm: f64) -> Result<(FrozenBuffer, Cylinder), Refusal> {
     let press = machine.press()?;
     let (law, cylinder) = (press.rotary_law(rpm)?, press.cylinder());
-    let law = law.of_yoke().ok_or_else(|| {
-        only_under_a_yoke(
-            "the scatter is found",
-            "the bed comes to one place with two forces, and nothing has a closed form",
-        )
-    })?;
-    Ok((FrozenBuffer::of_cam(law, &cylinder), cylinder))
+    Ok((FrozenBuffer::of_law(&law, &cylinder), cylinder))
 }
 
 /// Force that 19 of 20 drawn presses stay below with the screw set as the file says, N, and that rule; `None` where no press can be drawn.
@@ -109,7 +103,11 @@ fn fault_of(cam: &FrozenBuffer, typed: &TypedFault, cylinder: &Cylinder) -> Resu
 pub(in crate::domains::press) fn lost_in(reversal: &LossyReversal) -> LossReport {
     let ([on_way_in, back], half_loop) =
         ([BedWay::In, BedWay::Back].map(|way| reversal.worst(way)), reversal.largest_half_loop());
+    let fixed = reversal.with_fixed_bottom().ok();
+    let of_fixed = |way: BedWay| fixed.as_ref().map(|fixed| fixed.worst(way).value);
     LossReport {
+        residual_in_fixed_bottom_n: of_fixed(BedWay::In),
+        residual_back_fixed_bottom_n: of_fixed(BedWay::Back),
         residual_in_n: on_way_in.value,
         residual_in_at_mm: MILLIMETRES * on_way_in.at,
         residual_back_n: back.value,
@@ -200,7 +198,9 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
 /// What checks judge, in their order.
 fn measures_of(report: &ScatterReport<'_>, variable: f64, useful: [Option<f64>; 2]) -> Vec<Measure> {
     let half_loop = report.losses.as_ref();
-    let half_loop = half_loop.map(|lost| half_loop::measure(lost.half_loop_n, report.residual_fixed_bottom_max_n));
+    let half_loop = half_loop.map(|lost| {
+        half_loop::measure(lost.half_loop_n, report.residual_fixed_bottom_max_n, lost.residual_fixed_bottom_n())
+    });
     std::iter::once(scatter::measure(report.percentiles))
         .chain(half_loop)
         .chain([setting::measure(variable, useful)])

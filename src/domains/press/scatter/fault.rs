@@ -9,9 +9,11 @@
 //!
 //! with U = 2 p0 F, d = ΔL/L and ε = Δe/L. Air that is left in the cylinder keeps p (v/mass)^κ.
 
+use super::bed_path::BedPath;
 use super::error::ScatterError;
 use crate::domains::press::buffer::Cylinder;
 use crate::domains::press::buffer::bottom_law::{BottomLaw, column_for};
+use crate::domains::press::buffer::crank_law::{CrankLaw, LinkageLaw};
 use crate::domains::press::buffer::level_air::LevelAir;
 use crate::numeric::extremum::{self, Extremum};
 use crate::numeric::root;
@@ -70,10 +72,10 @@ pub struct FrozenBuffer {
     pub exponent: f64,
     /// L, m.
     pub column: f64,
-    /// A, 1/m.
-    pub loading: f64,
-    /// r, m.
-    pub stroke: f64,
+    /// How the bed moves.
+    pub path: BedPath,
+    /// Load at which the air is shortest: the largest one of a cam.
+    peak_load: f64,
     /// Air with a loop that the cam levels. Forces are then the mean of both ways: the half of their difference no screw can change.
     pub level: Option<LevelAir>,
 }
@@ -86,22 +88,43 @@ impl FrozenBuffer {
             unit_force: cylinder.unit_force(),
             exponent: law.exponent,
             column: law.column,
-            loading: law.loading,
-            stroke: law.stroke,
+            path: BedPath::Yoke { loading: law.loading, stroke: law.stroke },
+            peak_load: law.loading * law.stroke,
             level: law.level,
+        }
+    }
+
+    /// That of a cam for the law of any bed.
+    #[must_use]
+    pub fn of_law(law: &CrankLaw, cylinder: &Cylinder) -> Self {
+        match law {
+            CrankLaw::Yoke(law) => Self::of_cam(law, cylinder),
+            CrankLaw::Linkage(law) => Self::of_linkage(law, cylinder),
+        }
+    }
+
+    fn of_linkage(law: &LinkageLaw, cylinder: &Cylinder) -> Self {
+        Self {
+            unit_force: cylinder.unit_force(),
+            exponent: law.exponent,
+            column: law.column,
+            path: BedPath::Linkage(*law),
+            peak_load: law.loading * law.end.largest_deceleration().value,
+            level: None,
         }
     }
 
     /// The same cylinder with a fixed bottom, its column by (7).
     #[must_use]
     pub fn with_fixed_bottom(&self) -> Self {
-        Self { column: column_for(self.stroke, self.end_load(), self.exponent), level: None, ..*self }
+        let column = column_for(self.path.stroke(), self.end_load(), self.exponent);
+        Self { column, level: None, peak_load: self.end_load(), ..*self }
     }
 
-    /// `u_r` = A r.
+    /// Load at the dead point: `u_r` = A r under a yoke.
     #[must_use]
     pub fn end_load(&self) -> f64 {
-        self.loading * self.stroke
+        self.path.end_load()
     }
 
     /// w of a cam at a load u.
@@ -126,6 +149,11 @@ impl FrozenBuffer {
     #[must_use]
     pub fn end_length(&self) -> f64 {
         libm::exp(-libm::log1p(self.end_load()) / self.exponent)
+    }
+
+    /// w where the air is shortest.
+    pub(super) fn shortest_length(&self) -> f64 {
+        libm::exp(-libm::log1p(self.peak_load) / self.exponent)
     }
 
     /// Exponent of the air on its way back in a machine that differs, where the cam levels a loop: never below that of the way in.
@@ -171,6 +199,14 @@ impl FrozenBuffer {
     /// of the bed (N) both ways.
     #[must_use]
     pub fn largest_at(&self, fault: &Fault, at: &[Station], friction: f64) -> f64 {
+        if let BedPath::Linkage(law) = &self.path {
+            let size = |station: &Station| {
+                let way = if station.angle > law.end.dead() { -1.0 } else { 1.0 };
+                let phase = self.unit_force * fault.phase * station.phase;
+                (self.residual(fault, station.load, station.length) + phase - way * friction).abs()
+            };
+            return at.iter().map(size).fold(0.0, f64::max);
+        }
         if self.level.is_some() {
             let phase = |station: &Station| (self.unit_force * fault.phase * station.phase - friction).abs();
             let size = |at: &Station| self.residual(fault, at.load, at.length).abs() + phase(at);
@@ -190,7 +226,7 @@ impl FrozenBuffer {
     /// Refuses a machine whose column is used up.
     pub(super) fn fits(&self, fault: &Fault) -> Result<(), ScatterError> {
         let [s, t] = self.air(fault);
-        let left = self.end_length() + t;
+        let left = self.shortest_length() + t;
         if left > 0.0 && s > 0.0 {
             return Ok(());
         }
@@ -213,7 +249,7 @@ impl FrozenBuffer {
         let scale = fault.ambient * fault.closing * kappa / (k * fault.square);
         let level = libm::log(scale) + kappa * libm::log(s);
         let slope = |w: f64| (kappa + 1.0) * libm::log(w + t) - (k + 1.0) * libm::log(w) - level;
-        let end = self.end_length();
+        let end = self.shortest_length();
         let turn = Some((k + 1.0) * t / (kappa - k)).filter(|turn| *turn > end && *turn < 1.0);
         let parts = [Some(end), turn, Some(1.0)];
         let edges: Vec<f64> = parts.into_iter().flatten().collect();
@@ -224,8 +260,8 @@ impl FrozenBuffer {
         let places = [1.0, end].into_iter().chain(stationary);
         let mut found: Vec<Extremum> = places
             .map(|w| {
-                let load = if w == end { self.end_load() } else { self.load(w) };
-                Extremum { at: load / self.loading, value: self.residual(fault, load, w) }
+                let load = if w == end { self.peak_load } else { self.load(w) };
+                Extremum { at: self.path.overrun_of(load), value: self.residual(fault, load, w) }
             })
             .collect();
         found.sort_by(|a, b| a.value.total_cmp(&b.value));
@@ -242,7 +278,7 @@ impl FrozenBuffer {
             let value = |at: f64| sign * self.residual(fault, load(at), self.length(load(at)));
             let slope = |at: f64| sign * self.slope(fault, load(at)) * self.end_load() * libm::cos(at);
             let found = extremum::largest(value, slope, (0.0, FRAC_PI_2), CELLS);
-            Extremum { at: self.stroke * libm::sin(found.at), value: sign * found.value }
+            Extremum { at: self.path.stroke() * libm::sin(found.at), value: sign * found.value }
         };
         [of(-1.0), of(1.0)]
     }
@@ -258,17 +294,20 @@ impl FrozenBuffer {
         }
         let of = |way: f64, sign: f64| {
             let value = |at: f64| {
-                let (load, phase) = (self.end_load() * libm::sin(at), way * fault.phase * self.phase_force(at)[0]);
+                let (load, phase) = (self.path.load_at(at), way * fault.phase * self.phase_force(at)[0]);
                 sign * (self.residual(fault, load, self.length(load)) + phase)
             };
             let slope = |at: f64| {
-                let load = self.end_load() * libm::sin(at);
-                let by_load = self.slope(fault, load) * self.end_load() * libm::cos(at);
+                let by_load = self.slope(fault, self.path.load_at(at)) * self.path.load_slope(at);
                 sign * (by_load + way * fault.phase * self.phase_force(at)[1])
             };
-            let found = extremum::largest(value, slope, (0.0, FRAC_PI_2), CELLS);
-            Extremum { at: self.stroke * libm::sin(found.at), value: sign * found.value }
+            let found = extremum::largest(value, slope, (0.0, self.path.reach()), CELLS);
+            Extremum { at: self.path.overrun_at(found.at), value: sign * found.value }
         };
+        if let BedPath::Linkage(_) = self.path {
+            let (above, below) = (of(1.0, 1.0), of(1.0, -1.0));
+            return Ok(if above.value > -below.value { above } else { below });
+        }
         let all = [of(1.0, 1.0), of(1.0, -1.0), of(-1.0, 1.0), of(-1.0, -1.0)];
         Ok(all.into_iter().fold(largest, |best, next| if next.value.abs() > best.value.abs() { next } else { best }))
     }
@@ -285,22 +324,37 @@ impl FrozenBuffer {
         self.unit_force * (fault.square - fault.ambient * pressure * fault.exponent * fall / (w + t))
     }
 
+    /// The force of a phase error under a linkage, N a radian of the crank, and its slope by the crank angle: the bottom of a cam that is ahead
+    /// stands Δx' a radian nearer, −U k (1 + u)^(1+p) Δx'/L.
+    fn phase_force_of_linkage(&self, law: &LinkageLaw, angle: f64) -> [f64; 2] {
+        let (k, p) = (self.exponent, 1.0 / self.exponent);
+        let (load, slope) = (self.path.load_at(angle), self.path.load_slope(angle));
+        let [_, first, second, ..] = law.at(angle);
+        let scale = -self.unit_force * k / self.column;
+        let log = libm::log1p(load);
+        let (power, growth) = (libm::exp((1.0 + p) * log), (1.0 + p) * libm::exp(p * log) * slope);
+        [scale * power * first, scale * (growth * first + power * second)]
+    }
+
     /// Residual force on the way in for a cam that is ahead, N a radian of the crank, to first order, and its slope by the crank angle;
-    /// opposite on the way back: U k (r/L) cos φ [(1+u)^(1+p) − c], c = L A/k.
+    /// opposite on the way back: U k (r/L) cos φ [(1+u)^(1+p) − c], c = L A/k. Under a linkage that of the whole reversal, with its sign.
     #[must_use]
     pub fn phase_force(&self, angle: f64) -> [f64; 2] {
+        if let BedPath::Linkage(law) = &self.path {
+            return self.phase_force_of_linkage(law, angle);
+        }
         let (k, (sin, cos)) = (self.exponent, (libm::sin(angle), libm::cos(angle)));
         let power = 1.0 + 1.0 / k;
         let load = self.end_load() * sin;
         if let Some(air) = &self.level {
             // The mean of both ways: −dP/dw = 2 (1 + u)'/w', which is −1/w' of the mean.
             let [_, first, second, ..] = air.derivatives(load);
-            let (grown, growth) = (-1.0 / first - self.column * self.loading, second / (first * first));
-            let scale = self.unit_force * self.stroke / self.column;
+            let (grown, growth) = (-1.0 / first - self.column * self.path.loading(), second / (first * first));
+            let scale = self.unit_force * self.path.stroke() / self.column;
             return [scale * cos * grown, scale * (cos * cos * growth * self.end_load() - sin * grown)];
         }
-        let grown = libm::exp(power * libm::log1p(load)) - self.column * self.loading / k;
-        let scale = self.unit_force * k * self.stroke / self.column;
+        let grown = libm::exp(power * libm::log1p(load)) - self.column * self.path.loading() / k;
+        let scale = self.unit_force * k * self.path.stroke() / self.column;
         let growth = power * libm::exp((power - 1.0) * libm::log1p(load)) * self.end_load() * cos;
         [scale * cos * grown, scale * (cos * growth - sin * grown)]
     }
@@ -319,44 +373,50 @@ pub struct Station {
     pub phase: f64,
 }
 
-/// Steps of half a degree in the braking half.
+/// Steps of half a degree in the braking half; as many in the whole reversal under a linkage.
 pub const STEPS: u32 = 180;
 
 impl FrozenBuffer {
     /// A place of the way in, rad of the crank, of a cam.
     #[must_use]
     pub fn station_of_cam(&self, angle: f64) -> Station {
-        let load = self.load_at(angle);
+        let load = self.path.load_at(angle);
         Station { angle, load, length: self.length(load), phase: self.phase_force(angle)[0] / self.unit_force }
     }
 
     /// That of a fixed bottom, w = 1 − x/L.
     #[must_use]
     pub fn station_of_fixed_bottom(&self, angle: f64) -> Station {
-        let load = self.load_at(angle);
-        Station { angle, load, length: 1.0 - load / (self.loading * self.column), phase: 0.0 }
+        let load = self.path.load_at(angle);
+        let shorter = match self.path {
+            BedPath::Yoke { .. } => load / (self.path.loading() * self.column),
+            BedPath::Linkage(_) => self.path.overrun_at(angle) / self.column,
+        };
+        Station { angle, load, length: 1.0 - shorter, phase: 0.0 }
     }
 
-    fn load_at(&self, angle: f64) -> f64 {
-        if angle == FRAC_PI_2 { self.end_load() } else { self.end_load() * libm::sin(angle) }
+    /// The crank angles of the stations, rad.
+    fn angles(&self) -> impl Iterator<Item = f64> {
+        let reach = self.path.reach();
+        let between = move |step: u32| if step == STEPS { reach } else { reach * f64::from(step) / f64::from(STEPS) };
+        let turning = match self.path {
+            BedPath::Yoke { .. } => None,
+            BedPath::Linkage(_) => Some([self.path.dead(), self.path.peak()]),
+        };
+        (0..=STEPS).map(between).chain(turning.into_iter().flatten())
     }
 
     /// The stations φ = 0, ½ … 90° of a cam.
     #[must_use]
     pub fn stations_of_cam(&self) -> Vec<Station> {
-        braking().map(|angle| self.station_of_cam(angle)).collect()
+        self.angles().map(|angle| self.station_of_cam(angle)).collect()
     }
 
     /// Those of a fixed bottom.
     #[must_use]
     pub fn stations_of_fixed_bottom(&self) -> Vec<Station> {
-        braking().map(|angle| self.station_of_fixed_bottom(angle)).collect()
+        self.angles().map(|angle| self.station_of_fixed_bottom(angle)).collect()
     }
-}
-
-/// The crank angles of the stations, rad.
-fn braking() -> impl Iterator<Item = f64> {
-    (0..=STEPS).map(|step| if step == STEPS { FRAC_PI_2 } else { FRAC_PI_2 * f64::from(step) / f64::from(STEPS) })
 }
 
 impl FrozenBuffer {
@@ -365,7 +425,7 @@ impl FrozenBuffer {
     pub fn largest_phase_force(&self) -> Extremum {
         let of = |sign: f64| {
             let value = |at: f64| sign * self.phase_force(at)[0];
-            extremum::largest(value, |at| sign * self.phase_force(at)[1], (0.0, FRAC_PI_2), CELLS)
+            extremum::largest(value, |at| sign * self.phase_force(at)[1], (0.0, self.path.reach()), CELLS)
         };
         let (with, against) = (of(1.0), of(-1.0));
         if with.value > against.value { with } else { against }

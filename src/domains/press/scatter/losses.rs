@@ -10,10 +10,11 @@
 //!
 //! The mean of both ways is curable by cam or screw, half of their difference h, the loop, by neither.
 
+use super::bed_path::BedPath;
 use super::error::ScatterError;
 use super::fault::{Fault, FrozenBuffer};
 use crate::numeric::extremum::{self, Extremum};
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 /// What a press loses.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -64,6 +65,8 @@ const NEWTON: u32 = 60;
 #[derive(Debug, Clone)]
 pub struct LossyReversal {
     cam: FrozenBuffer,
+    /// The bottom is fixed, w = 1 − x/L, and not that of the cam.
+    fixed: bool,
     fault: Fault,
     losses: Losses,
     /// f where the steps begin, in and back; empty without a leak.
@@ -87,25 +90,41 @@ impl LossyReversal {
     /// # Errors
     /// When the air would give work, the column is used up, or the train gives way faster than the bed comes.
     pub fn new(cam: &FrozenBuffer, fault: &Fault, losses: &Losses) -> Result<Self, ScatterError> {
+        Self::of(cam, false, fault, losses)
+    }
+
+    /// The same press with fixed bottoms, their column by (7): no train gives way and nothing has play.
+    ///
+    /// # Errors
+    /// As [`LossyReversal::new`].
+    pub fn with_fixed_bottom(&self) -> Result<Self, ScatterError> {
+        let losses = Losses { train_stiffness: None, is_compensated: false, play: 0.0, ..self.losses };
+        let fault = Fault { phase: 0.0, lead: 0.0, column: 0.0, ..self.fault };
+        Self::of(&self.cam.with_fixed_bottom(), true, &fault, &losses)
+    }
+
+    fn of(cam: &FrozenBuffer, fixed: bool, fault: &Fault, losses: &Losses) -> Result<Self, ScatterError> {
         cam.fits(fault)?;
         if let Some(expansion) = losses.expansion_exponent.filter(|expansion| *expansion < fault.exponent) {
             return Err(ScatterError::ExpansionBelowCompression { expansion, compression: fault.exponent });
         }
-        let per_overrun = fault.square * cam.unit_force * cam.loading;
+        let per_overrun = fault.square * cam.unit_force * cam.path.loading();
         if let Some(stiffness) = losses.train_stiffness.filter(|stiffness| *stiffness <= per_overrun) {
             return Err(ScatterError::TrainTooSoft { stiffness, needed: per_overrun });
         }
         let mut reversal = Self {
             cam: *cam,
+            fixed,
             fault: *fault,
             losses: *losses,
             air: [Vec::new(), Vec::new()],
             dead: [1.0, fault.air, 1.0],
         };
-        let at_dead = if losses.leak > 0.0 { reversal.leak_through(BedWay::In, fault.air) } else { fault.air };
-        let pressure = reversal.pressure_of(BedWay::In, FRAC_PI_2, at_dead);
-        reversal.dead = [pressure, at_dead, reversal.length(FRAC_PI_2, pressure)];
-        if losses.leak > 0.0 {
+        let (dead, leaks) = (cam.path.dead(), losses.leak > 0.0);
+        let at_dead = if leaks { reversal.leak_through(BedWay::In, fault.air) } else { fault.air };
+        let pressure = reversal.pressure_of(BedWay::In, dead, at_dead);
+        reversal.dead = [pressure, at_dead, reversal.length(dead, pressure)];
+        if leaks {
             reversal.leak_through(BedWay::Back, at_dead);
         }
         Ok(reversal)
@@ -122,20 +141,23 @@ impl LossyReversal {
         let (cam, longer) = (&self.cam, self.fault.column / self.cam.column);
         // A cam that is cut for its train stands higher by what the train gives way at its own speed; the screw takes the play.
         let cut = self.losses.train_stiffness.filter(|_| self.losses.is_compensated);
-        let (higher, play) =
-            cut.map_or((0.0, self.losses.play), |stiffness| (cam.unit_force * self.load(angle) / stiffness, 0.0));
+        let (higher, play) = cut
+            .map_or((0.0, self.losses.play), |stiffness| (cam.unit_force * cam.path.load_at(angle) / stiffness, 0.0));
         let shift = longer + (play - self.fault.lead - higher) / cam.column;
         let give = self
             .losses
             .train_stiffness
             .map_or(0.0, |stiffness| self.fault.ambient * cam.unit_force / (stiffness * cam.column));
-        [cam.length(self.load(angle)) + shift, give]
+        [self.undisturbed(angle) + shift, give]
     }
 
-    /// u at a crank angle in the reversal.
-    fn load(&self, angle: f64) -> f64 {
-        let braking = if angle > FRAC_PI_2 { PI - angle } else { angle };
-        if braking == FRAC_PI_2 { self.cam.end_load() } else { self.cam.end_load() * libm::sin(braking) }
+    /// w at a crank angle in the reversal.
+    fn undisturbed(&self, angle: f64) -> f64 {
+        if self.fixed {
+            self.cam.station_of_fixed_bottom(angle).length
+        } else {
+            self.cam.length(self.cam.path.load_at(angle))
+        }
     }
 
     /// P̂ with the share f of the air left: (K/W)^κ, where a train gives way by Newton's steps from the ambient pressure.
@@ -174,7 +196,7 @@ impl LossyReversal {
 
     /// df/dφ.
     fn rate(&self, way: BedWay, angle: f64, air: f64) -> f64 {
-        -self.losses.leak / self.cam.end_load() * (self.pressure_of(way, angle, air) - 1.0)
+        -self.losses.leak / self.cam.path.load_by_dead() * (self.pressure_of(way, angle, air) - 1.0)
     }
 
     /// f after a step of Runge and Kutta.
@@ -189,7 +211,7 @@ impl LossyReversal {
 
     /// Integrates a way, and returns f at its end.
     fn leak_through(&mut self, way: BedWay, from: f64) -> f64 {
-        let (start, step) = (Self::start(way), FRAC_PI_2 / f64::from(STEPS));
+        let (start, step) = self.steps(way);
         let mut all = vec![from];
         let mut air = from;
         for index in 0..STEPS {
@@ -201,8 +223,15 @@ impl LossyReversal {
         air
     }
 
-    fn start(way: BedWay) -> f64 {
-        if way == BedWay::In { 0.0 } else { FRAC_PI_2 }
+    /// Crank angles of a way, rad.
+    fn range(&self, way: BedWay) -> (f64, f64) {
+        if way == BedWay::In { (0.0, self.cam.path.dead()) } else { (self.cam.path.dead(), self.cam.path.whole()) }
+    }
+
+    /// Where a way starts, and a step of it.
+    fn steps(&self, way: BedWay) -> (f64, f64) {
+        let (start, end) = self.range(way);
+        (start, (end - start) / f64::from(STEPS))
     }
 
     /// f at a crank angle.
@@ -210,7 +239,7 @@ impl LossyReversal {
     pub fn air(&self, way: BedWay, angle: f64) -> f64 {
         let [of_in, of_back] = &self.air;
         let all = if way == BedWay::In { of_in } else { of_back };
-        let (start, step) = (Self::start(way), FRAC_PI_2 / f64::from(STEPS));
+        let (start, step) = self.steps(way);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a step of the list")]
         let index = (((angle - start) / step).floor().max(0.0) as usize).min(STEPS as usize);
         let Some(air) = all.get(index) else { return self.fault.air };
@@ -228,11 +257,21 @@ impl LossyReversal {
     /// Residual force on a way at the crank angle of the way in that has the same overrun, N.
     #[must_use]
     pub fn residual(&self, way: BedWay, braking: f64) -> f64 {
-        let (angle, sign) = if way == BedWay::In { (braking, 1.0) } else { (PI - braking, -1.0) };
+        self.residual_at(way, if way == BedWay::In { braking } else { self.cam.path.returning(braking) })
+    }
+
+    /// That at a crank angle of the way itself.
+    fn residual_at(&self, way: BedWay, angle: f64) -> f64 {
+        let sign = if way == BedWay::In { 1.0 } else { -1.0 };
         let (cam, fault, losses) = (&self.cam, &self.fault, &self.losses);
         let air = fault.ambient * (self.pressure(way, angle) - 1.0);
-        let force = cam.unit_force * (fault.square * self.load(angle) - (1.0 + sign * losses.piston_friction) * air);
-        force + sign * (fault.phase * cam.phase_force(braking)[0] - losses.bed_friction)
+        let force =
+            cam.unit_force * (fault.square * cam.path.load_at(angle) - (1.0 + sign * losses.piston_friction) * air);
+        let phase = match cam.path {
+            BedPath::Yoke { .. } => sign * cam.phase_force(if way == BedWay::In { angle } else { PI - angle })[0],
+            BedPath::Linkage(_) => cam.phase_force(angle)[0],
+        };
+        force + fault.phase * phase - sign * losses.bed_friction
     }
 
     /// The mean of both ways, and h, N, at a crank angle of the way in.
@@ -242,12 +281,11 @@ impl LossyReversal {
         [0.5 * (on_way_in + back), 0.5 * (back - on_way_in)]
     }
 
-    /// The value of a force of largest size over the stroke, N, signed, and the overrun, m.
-    fn largest(&self, force: impl Fn(f64) -> f64) -> Extremum {
+    /// The value of a force of largest size over a way by its crank angle, N, signed, and the overrun, m.
+    fn largest(&self, range: (f64, f64), force: impl Fn(f64) -> f64) -> Extremum {
         let of = |sign: f64| {
-            let found =
-                extremum::largest_without_slope(|at| sign * force(at), (0.0, FRAC_PI_2), CELLS, extremum::TO_ROUNDING);
-            Extremum { at: self.cam.stroke * libm::sin(found.at), value: sign * found.value }
+            let found = extremum::largest_without_slope(|at| sign * force(at), range, CELLS, extremum::TO_ROUNDING);
+            Extremum { at: self.cam.path.overrun_at(found.at), value: sign * found.value }
         };
         let (above, below) = (of(1.0), of(-1.0));
         if above.value.abs() >= below.value.abs() { above } else { below }
@@ -256,19 +294,22 @@ impl LossyReversal {
     /// The residual force of a way of largest size, N, signed, and the overrun, m.
     #[must_use]
     pub fn worst(&self, way: BedWay) -> Extremum {
-        self.largest(|braking| self.residual(way, braking))
+        match self.cam.path {
+            BedPath::Yoke { .. } => self.largest(self.range(BedWay::In), |braking| self.residual(way, braking)),
+            BedPath::Linkage(_) => self.largest(self.range(way), |angle| self.residual_at(way, angle)),
+        }
     }
 
     /// The largest h, N, and the overrun, m.
     #[must_use]
     pub fn largest_half_loop(&self) -> Extremum {
-        self.largest(|braking| self.mean_and_half_loop(braking)[1])
+        self.largest(self.range(BedWay::In), |braking| self.mean_and_half_loop(braking)[1])
     }
 
     /// Share of the air that is left at the end of the reversal.
     #[must_use]
     pub fn air_left(&self) -> f64 {
-        if self.losses.leak > 0.0 { self.air(BedWay::Back, PI) } else { self.fault.air }
+        if self.losses.leak > 0.0 { self.air(BedWay::Back, self.cam.path.whole()) } else { self.fault.air }
     }
 
     /// Work that the air takes from the bed in a reversal, J: U L ∮ (P̂ − 1)(−dw), by Simpson's rule over each way.
@@ -276,18 +317,19 @@ impl LossyReversal {
     pub fn work_lost(&self) -> f64 {
         let cam = &self.cam;
         let power = |way: BedWay, angle: f64| {
-            let load = self.load(angle);
-            let fall = cam.fall(load) * cam.end_load() * libm::cos(angle);
+            let fall =
+                if self.fixed { 1.0 / (cam.path.loading() * cam.column) } else { cam.fall(cam.path.load_at(angle)) };
+            let fall = fall * cam.path.load_slope(angle);
             (self.pressure(way, angle) - 1.0) * fall
         };
-        let step = FRAC_PI_2 / f64::from(STEPS);
         let of = |way: BedWay| {
+            let (start, step) = self.steps(way);
             let weight = |index: u32| match index {
                 0 | STEPS => 1.0,
                 index if index % 2 == 1 => 4.0,
                 _ => 2.0,
             };
-            let at = |index: u32| Self::start(way) + step * f64::from(index);
+            let at = |index: u32| start + step * f64::from(index);
             (0..=STEPS).map(|index| weight(index) * power(way, at(index))).sum::<f64>() * step / 3.0
         };
         (self.fault.ambient * cam.unit_force * cam.column * (of(BedWay::In) + of(BedWay::Back))).max(0.0)

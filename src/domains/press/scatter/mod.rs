@@ -1,6 +1,7 @@
 //! What is left of a press cam in practice: machines that differ from the one the cam was cut for, and what the screw takes back.
 
 pub mod analysis;
+pub mod bed_path;
 mod card;
 pub mod error;
 pub mod fault;

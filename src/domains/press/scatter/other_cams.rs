@@ -9,7 +9,7 @@ use super::monte_carlo::Sampling;
 use super::parameter::{HalfWidths, Parameter};
 use super::propagation::{self, Corners, Estimate};
 use crate::domains::press::buffer::Cylinder;
-use crate::domains::press::buffer::bottom_law::BottomLaw;
+use crate::domains::press::buffer::crank_law::CrankLaw;
 use crate::domains::press::machine::Shift;
 use crate::report::{Section, shown};
 use serde::Serialize;
@@ -53,19 +53,13 @@ fn without(half_widths: &HalfWidths, parameters: &[Parameter]) -> HalfWidths {
     left
 }
 
-/// The section of a conoid with the laws of its sections at their speeds, rpm; `None` where a linkage moves the bed, or a band reaches a press that
-/// cannot be.
+/// The section of a conoid with the laws of its sections at their speeds, rpm; `None` where a band reaches a press that cannot be.
 #[must_use]
-pub fn of_conoid(
-    sampling: &Sampling,
-    cylinder: &Cylinder,
-    shift: Shift,
-    laws: &[(f64, Option<&BottomLaw>)],
-) -> Option<Section> {
+pub fn of_conoid(sampling: &Sampling, cylinder: &Cylinder, shift: Shift, laws: &[(f64, CrankLaw)]) -> Option<Section> {
     let followed = followed(shift);
     let sampling = Sampling { half_widths: without(&sampling.half_widths, followed), ..*sampling };
-    let at = |(rpm, law): &(f64, Option<&BottomLaw>)| {
-        let cam = FrozenBuffer::of_cam((*law)?, cylinder);
+    let at = |(rpm, law): &(f64, CrankLaw)| {
+        let cam = FrozenBuffer::of_law(law, cylinder);
         let bands = bands_of(&cam, &sampling, false).ok()?;
         let Estimate { as_built, reset, fixed } =
             propagation::estimate(&cam, &sampling.half_widths, sampling.distribution);
@@ -217,14 +211,14 @@ impl FrozenPlate<'_> {
 pub fn of_plate(
     sampling: &Sampling,
     cylinder: &Cylinder,
-    law: &BottomLaw,
+    law: &CrankLaw,
     stations: &[PlateStation],
 ) -> Option<Section> {
-    let buffer = FrozenBuffer::of_cam(law, cylinder);
+    let buffer = FrozenBuffer::of_law(law, cylinder);
     let half_widths = without(&sampling.half_widths, &[Parameter::Phase]);
     let shortest = stations.iter().map(|station| station.at.length).fold(f64::INFINITY, f64::min);
     let most = half_widths.get(4).zip(half_widths.get(5)).map_or(0.0, |(column, lead)| column + lead);
-    if !(law.column * shortest > most) {
+    if !(law.column() * shortest > most) {
         return None;
     }
     let plate = FrozenPlate { buffer, stations, half_widths, sampling };

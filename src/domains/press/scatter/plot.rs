@@ -6,7 +6,6 @@ use super::tables::{PercentileRow, PlaceRow, SettingRow};
 use crate::geometry::MILLIMETRES;
 use crate::report::plot::{self, Plot, PlotCurve, PlotPanel};
 use crate::report::shown;
-use std::f64::consts::FRAC_PI_2;
 
 /// Points of a curve of a distribution.
 const POINTS: usize = 200;
@@ -22,7 +21,7 @@ pub(super) fn of(
     (places, settings, samples): (&[PlaceRow], &[SettingRow], &Samples),
     percentiles: &[PercentileRow],
 ) -> Plot {
-    let braking = || places.iter().filter(|place| place.angle <= FRAC_PI_2);
+    let braking = || places.iter().filter(|place| !place.back);
     let effect = |(index, parameter): (usize, Parameter)| {
         let points = braking().map(|place| [MILLIMETRES * place.x, place.effects.get(index).copied().unwrap_or(0.0)]);
         curve(&parameter.name().replace('_', " "), index, true, points.collect())

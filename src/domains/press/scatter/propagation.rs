@@ -1,5 +1,6 @@
 //! How far the bands of all parameters together move the residual force: the worst case exactly, the standard deviation to first order.
 
+use super::bed_path::BedPath;
 use super::error::ScatterError;
 use super::fault::{Fault, FrozenBuffer, Station};
 use super::monte_carlo::Distribution;
@@ -40,7 +41,7 @@ impl Corners {
     /// Least and largest residual force at a crank angle, N.
     #[must_use]
     pub fn at(&self, cam: &FrozenBuffer, angle: f64) -> [f64; 2] {
-        let load = cam.end_load() * libm::sin(angle);
+        let load = cam.path.load_at(angle);
         let (length, phase) = (cam.length(load), (self.phase * cam.phase_force(angle)[0]).abs());
         [cam.residual(&self.strong, load, length) - phase, cam.residual(&self.weak, load, length) + phase]
     }
@@ -50,14 +51,32 @@ impl Corners {
     /// # Errors
     /// When a column is used up.
     pub fn worst(&self, cam: &FrozenBuffer) -> Result<[Extremum; 2], ScatterError> {
+        if let BedPath::Linkage(_) = cam.path {
+            return self.worst_of_linkage(cam);
+        }
         let phase = |at: f64| {
-            let angle = if at >= cam.stroke { FRAC_PI_2 } else { libm::asin(at / cam.stroke) };
+            let angle = if at >= cam.path.stroke() { FRAC_PI_2 } else { libm::asin(at / cam.path.stroke()) };
             // At the end of the stroke the bed stands still, and the phase does not matter.
             if angle == FRAC_PI_2 { 0.0 } else { (self.phase * cam.phase_force(angle)[0]).abs() }
         };
         let ([strong, _], [_, weak]) = (cam.extremes(&self.strong)?, cam.extremes(&self.weak)?);
         let with = |found: Extremum, sign: f64| Extremum { value: found.value + sign * phase(found.at), ..found };
         Ok([with(strong, -1.0), with(weak, 1.0)])
+    }
+
+    /// Those at the stations: of one load a linkage has two places, where the phase counts differently.
+    fn worst_of_linkage(&self, cam: &FrozenBuffer) -> Result<[Extremum; 2], ScatterError> {
+        cam.fits(&self.strong)?;
+        cam.fits(&self.weak)?;
+        let mut worst = [Extremum { at: 0.0, value: 0.0 }; 2];
+        for station in cam.stations_of_cam() {
+            for ((found, value), sign) in worst.iter_mut().zip(self.at(cam, station.angle)).zip([-1.0, 1.0]) {
+                if sign * value > sign * found.value {
+                    *found = Extremum { at: cam.path.overrun_at(station.angle), value };
+                }
+            }
+        }
+        Ok(worst)
     }
 }
 
@@ -97,7 +116,7 @@ fn left_by(cam: &FrozenBuffer, fault: &Fault, screw: f64, rules: &[ScrewRule]) -
 /// What a phase error leaves, which no screw changes.
 fn left_by_phase(cam: &FrozenBuffer, half_width: f64, rules: &[ScrewRule]) -> LeftBy {
     let found = cam.largest_phase_force();
-    let left = Extremum { at: cam.stroke * libm::sin(found.at), value: half_width * found.value };
+    let left = Extremum { at: cam.path.overrun_at(found.at), value: half_width * found.value };
     (left, rules.iter().map(|_| (0.0, left)).collect())
 }
 
@@ -147,21 +166,21 @@ pub fn bands(
     Parameter::ALL.into_iter().zip(half_widths).map(one).collect()
 }
 
-/// S, N for one of a parameter in SI: its largest effect over the stroke, which is that at its end but for the phase.
+/// S, N for one of a parameter in SI: its largest effect over the stroke, which is that at the largest load but for the phase.
 #[must_use]
 pub fn sensitivity(cam: &FrozenBuffer, parameter: Parameter) -> f64 {
     if parameter == Parameter::Phase {
         return cam.largest_phase_force().value;
     }
-    parameter.first_order(cam, FRAC_PI_2).abs()
+    parameter.first_order(cam, cam.path.peak()).abs()
 }
 
-/// Variance at the end of the stroke as built of one band, N², to first order. The phase and the error of the screw have none.
+/// Variance at the largest load as built of one band, N², to first order. The phase and the error of the screw have none.
 fn variance_of(cam: &FrozenBuffer, (parameter, half_width): (Parameter, f64), distribution: Distribution) -> f64 {
     if matches!(parameter, Parameter::Phase | Parameter::Screw) {
         return 0.0;
     }
-    let effect = half_width * parameter.first_order(cam, FRAC_PI_2);
+    let effect = half_width * parameter.first_order(cam, cam.path.peak());
     effect * effect * distribution.variance(parameter)
 }
 
@@ -221,20 +240,20 @@ pub fn estimate(cam: &FrozenBuffer, half_widths: &HalfWidths, distribution: Dist
         };
         libm::sqrt(Parameter::ALL.into_iter().zip(half_widths).map(square).sum())
     };
-    let angles = || (0..=COARSE).map(|step| FRAC_PI_2 * f64::from(step) / f64::from(COARSE));
-    let end = cam.station_of_cam(FRAC_PI_2);
+    let angles = || (0..=COARSE).map(|step| cam.path.reach() * f64::from(step) / f64::from(COARSE));
+    let end = cam.station_of_cam(cam.path.dead());
     let largest = angles().map(|at| deviation(cam, &cam.station_of_cam(at), Some(&end))).fold(0.0, f64::max);
     let none = Fault::none(cam.exponent);
     let left = |at: &Station| fixed.residual(&none, at.load, at.length);
     let mut worst = (0.0, fixed.station_of_fixed_bottom(0.0));
     for at in angles().map(|at| fixed.station_of_fixed_bottom(at)) {
-        if left(&at) > worst.0 {
-            worst = (left(&at), at);
+        if left(&at).abs() > worst.0 {
+            worst = (left(&at).abs(), at);
         }
     }
-    let end_of_fixed = fixed.station_of_fixed_bottom(FRAC_PI_2);
+    let end_of_fixed = fixed.station_of_fixed_bottom(cam.path.dead());
     Estimate {
-        as_built: BOTH_SIDES * deviation(cam, &end, None),
+        as_built: BOTH_SIDES * deviation(cam, &cam.station_of_cam(cam.path.peak()), None),
         reset: BOTH_SIDES * largest,
         fixed: worst.0 + ONE_SIDE * deviation(&fixed, &worst.1, Some(&end_of_fixed)),
     }

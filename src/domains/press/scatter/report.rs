@@ -41,6 +41,11 @@ pub struct LossReport {
     pub residual_in_at_mm: f64,
     pub residual_back_n: f64,
     pub residual_back_at_mm: f64,
+    /// What fixed bottoms leave in the same losses, their column by (7).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual_in_fixed_bottom_n: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual_back_fixed_bottom_n: Option<f64>,
     /// Half of what the way back leaves more.
     pub half_loop_n: f64,
     pub half_loop_at_mm: f64,
@@ -51,10 +56,20 @@ pub struct LossReport {
 }
 
 impl LossReport {
+    /// What fixed bottoms leave in the same losses in the worse direction, N, at least 0.
+    #[must_use]
+    pub fn residual_fixed_bottom_n(&self) -> Option<f64> {
+        let both = self.residual_in_fixed_bottom_n.zip(self.residual_back_fixed_bottom_n);
+        both.map(|(on_way_in, back)| on_way_in.abs().max(back.abs()))
+    }
+
     /// The values in words.
     #[must_use]
     pub fn words(&self) -> Vec<String> {
-        vec![
+        let fixed = self.residual_in_fixed_bottom_n.zip(self.residual_back_fixed_bottom_n).map(|(on_way_in, back)| {
+            format!("a fixed bottom with these losses: {} N on the way in, {} N back", shown(on_way_in), shown(back))
+        });
+        let cam = [
             format!(
                 "with its losses {} N at x = {} mm on the way in, {} N at x = {} mm back",
                 shown(self.residual_in_n),
@@ -69,7 +84,8 @@ impl LossReport {
                 shown(self.work_lost_j),
                 shown(100.0 * self.air_left)
             ),
-        ]
+        ];
+        cam.into_iter().chain(fixed).collect()
     }
 }
 

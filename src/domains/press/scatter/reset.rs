@@ -63,7 +63,7 @@ impl FrozenBuffer {
             return Ok(end);
         }
         // The air at the end of the stroke is multiplied, so that it never is used up.
-        let left = self.end_length() + (end - fault.lead) / self.column;
+        let left = self.shortest_length() + (end - fault.lead) / self.column;
         let column = |doublings: u32| {
             let share = libm::exp2(f64::from(doublings) / 16.0 * if sum > 0.0 { -1.0 } else { 1.0 });
             end + self.column * left * (share - 1.0)

@@ -28,8 +28,8 @@ struct CamScatter {
     useful: UsefulRange,
 }
 
-/// The section for a cam that is cut for a speed, rpm; `None` where a linkage moves the bed, or a band reaches a press that cannot be:
-/// `camgen scatter` says why.
+/// The section for a cam that is cut for a speed, rpm; `None` where a band reaches a press that cannot be: `camgen scatter` says
+/// why.
 #[must_use]
 pub fn of_cam(machine: &Machine, rpm: f64) -> Option<Section> {
     let values = values(machine, rpm).ok()?;

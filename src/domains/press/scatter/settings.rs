@@ -1,5 +1,6 @@
 //! The screw for forme and speed: one variable, v = (n/n_c)² (m/m_c)/(p0'/p0), gives the setting and what it leaves.
 
+use super::bed_path::BedPath;
 use super::error::ScatterError;
 use super::fault::{Fault, FrozenBuffer};
 use crate::numeric::extremum::Extremum;
@@ -24,16 +25,48 @@ pub struct Setting {
 /// place x = L − (k L^k/(v A))^(1/(k+1)), and the end.
 #[must_use]
 pub fn extremes_of_fixed(cam: &FrozenBuffer, column: f64, variable: f64) -> [Extremum; 2] {
-    let (k, load) = (cam.exponent, variable * cam.loading);
+    if let BedPath::Linkage(_) = cam.path {
+        return searched(&bed_places(cam), cam, column, variable);
+    }
+    let (k, load) = (cam.exponent, variable * cam.path.loading());
     let residual = |x: f64| load * x - libm::expm1(-k * libm::log1p(-x / column));
     let still = libm::exp((libm::log(k / load) + k * libm::log(column)) / (k + 1.0));
-    let place = (column - still).clamp(0.0, cam.stroke);
+    let place = (column - still).clamp(0.0, cam.path.stroke());
     let still = Extremum { at: 0.0, value: 0.0 };
-    let found = [place, cam.stroke].map(|at| Extremum { at, value: cam.unit_force * residual(at) });
+    let found = [place, cam.path.stroke()].map(|at| Extremum { at, value: cam.unit_force * residual(at) });
     let pick = |beyond: fn(f64, f64) -> bool| {
         found.into_iter().fold(still, |best, next| if beyond(next.value, best.value) { next } else { best })
     };
     [pick(|next, best| next < best), pick(|next, best| next > best)]
+}
+
+/// Places of a reversal under a linkage at which a fixed bottom is looked at; the top between three of them is that of their parabola.
+const PLACES: u32 = 720;
+
+/// Overrun, m, and load at places of a reversal.
+fn bed_places(cam: &FrozenBuffer) -> Vec<[f64; 2]> {
+    let angle = |place: u32| cam.path.whole() * f64::from(place) / f64::from(PLACES);
+    (0..=PLACES).map(angle).map(|angle| [cam.path.overrun_at(angle), cam.path.load_at(angle)]).collect()
+}
+
+/// Least and largest residual force of a fixed bottom of a column (m) at a variable v, N, over these places.
+fn searched(bed: &[[f64; 2]], cam: &FrozenBuffer, column: f64, variable: f64) -> [Extremum; 2] {
+    let left = |[x, load]: &[f64; 2]| variable * load - libm::expm1(-cam.exponent * libm::log1p(-x / column));
+    let values: Vec<f64> = bed.iter().map(left).collect();
+    let extreme = |sign: f64| {
+        let beyond = |best: (usize, f64), next: (usize, f64)| if sign * next.1 > sign * best.1 { next } else { best };
+        let (index, value) = values.iter().copied().enumerate().fold((0, 0.0), beyond);
+        let around = index.checked_sub(1).and_then(|before| values.get(before..=index + 1));
+        let value = match around {
+            Some(&[before, at, after]) if (before - 2.0 * at + after) != 0.0 => {
+                let slope = 0.5 * (after - before);
+                at - 0.5 * slope * slope / (before - 2.0 * at + after)
+            }
+            _ => value,
+        };
+        Extremum { at: bed.get(index).map_or(0.0, |[x, _]| *x), value: cam.unit_force * value }
+    };
+    [extreme(-1.0), extreme(1.0)]
 }
 
 /// Halvings of the air at the end of the stroke, and doublings of the column, in which a fixed bottom is bracketed.
@@ -42,16 +75,21 @@ const REACH: i32 = 200;
 /// Column of a fixed bottom that leaves least at a variable v, m, and what it leaves, N.
 #[must_use]
 pub fn level_of_fixed(cam: &FrozenBuffer, variable: f64) -> (f64, f64) {
-    let beyond = |octave: f64| cam.stroke * (1.0 + libm::exp2(octave));
+    let beyond = |octave: f64| cam.path.stroke() * (1.0 + libm::exp2(octave));
+    let bed = if let BedPath::Linkage(_) = cam.path { bed_places(cam) } else { Vec::new() };
+    let extremes = |column: f64| match cam.path {
+        BedPath::Yoke { .. } => extremes_of_fixed(cam, column, variable),
+        BedPath::Linkage(_) => searched(&bed, cam, column, variable),
+    };
     let sum = |octave: f64| {
-        let [least, largest] = extremes_of_fixed(cam, beyond(octave), variable);
+        let [least, largest] = extremes(beyond(octave));
         least.value + largest.value
     };
     // A short column stops the bed early, a long one hardly brakes it.
     let low = (1..REACH).map(|octave| f64::from(-octave)).find(|octave| sum(*octave) < 0.0).unwrap_or(-1.0);
     let high = (1..REACH).map(f64::from).find(|octave| sum(*octave) > 0.0).unwrap_or(1.0);
     let column = beyond(root::bracketed(sum, low, high, 0.0).unwrap_or(0.0));
-    let [least, largest] = extremes_of_fixed(cam, column, variable);
+    let [least, largest] = extremes(column);
     (column, largest.value.max(-least.value))
 }
 

@@ -1,5 +1,6 @@
 //! The tables of the scatter of a press.
 
+use super::bed_path::BedPath;
 use super::error::ScatterError;
 use super::fault::{FrozenBuffer, STEPS};
 use super::losses::LossyReversal;
@@ -14,7 +15,7 @@ use crate::geometry::MILLIMETRES;
 use crate::report::shown;
 use crate::table::{ListedColumn, Table, WordColumn};
 use serde::Serialize;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 /// Cubic millimetres in a cubic metre.
 const CUBIC: f64 = MILLIMETRES * MILLIMETRES * MILLIMETRES;
@@ -217,6 +218,8 @@ pub fn of_settings(rows: &[SettingRow]) -> Listing {
 pub struct PlaceRow {
     /// Crank angle from the start of the reversal, rad.
     pub angle: f64,
+    /// The bed is on its way back.
+    pub back: bool,
     /// Overrun, m.
     pub x: f64,
     /// Residual force of the true machine: the mean of both ways, N.
@@ -255,17 +258,20 @@ const CURVES: &[ListedColumn<PlaceRow>] = &[
 pub fn places(cam: &FrozenBuffer, reversal: &LossyReversal, half_widths: &HalfWidths) -> Vec<PlaceRow> {
     let corners = Corners::of(cam, half_widths);
     let at = |step: u32| {
-        let angle = FRAC_PI_2 * f64::from(step) / f64::from(STEPS);
-        let (braking, way) = if step <= STEPS { (angle, 1.0) } else { (PI - angle, -1.0) };
-        let sin = if step == STEPS { 1.0 } else { libm::sin(braking) };
+        let angle = 0.5 * cam.path.whole() * f64::from(step) / f64::from(STEPS);
+        let back = angle > cam.path.dead();
+        let (braking, way) = match cam.path {
+            BedPath::Yoke { .. } if back => (PI - angle, -1.0),
+            _ => (angle, 1.0),
+        };
         let [strong, weak] = corners.at(cam, braking);
-        let [mean, half_loop] = reversal.mean_and_half_loop(braking);
+        let [mean, half_loop] = reversal.mean_and_half_loop(if back { cam.path.outgoing(angle) } else { angle });
         let mut effects = [0.0; Parameter::ALL.len()];
         for ((effect, parameter), half_width) in effects.iter_mut().zip(Parameter::ALL).zip(half_widths) {
             let sign = if parameter == Parameter::Phase { way } else { 1.0 };
             *effect = sign * half_width * parameter.first_order(cam, braking);
         }
-        PlaceRow { angle, x: cam.stroke * sin, mean, half_loop, weak, strong, effects }
+        PlaceRow { angle, back, x: cam.path.overrun_at(braking), mean, half_loop, weak, strong, effects }
     };
     (0..=2 * STEPS).map(at).collect()
 }
@@ -273,7 +279,7 @@ pub fn places(cam: &FrozenBuffer, reversal: &LossyReversal, half_widths: &HalfWi
 /// The table of the places, in the order of the crank.
 #[must_use]
 pub fn of_places(rows: &[PlaceRow]) -> Listing {
-    let way = |row: &PlaceRow| if row.angle > FRAC_PI_2 { "back" } else { "in" }.to_owned();
+    let way = |row: &PlaceRow| if row.back { "back" } else { "in" }.to_owned();
     let more_words = vec![WordColumn { name: "way", before: "mean_n", words: rows.iter().map(way).collect() }];
     ("-curves", Table { more_words, ..Table::listed(CURVES, rows) })
 }

@@ -2,15 +2,18 @@
 
 use super::Wedge;
 use crate::body::ROUNDING_OF_BALANCE;
-use crate::domains::press::load::RunUp;
-use crate::domains::press::machine::PressCams;
+use crate::domains::press::buffer::bottom_law::ColumnRule;
+use crate::domains::press::buffer::place_law::PlaceLaw;
+use crate::domains::press::checks::column;
+use crate::domains::press::load::{RunUp, USEFUL};
+use crate::domains::press::machine::{AirColumn, Press, PressCams};
 use crate::domains::press::motion::equation_18::{BedDirection, ExactOn, Mechanism};
 use crate::domains::press::motion::{Transition, WedgeMotion};
 use crate::domains::press::scatter::fault::{STEPS, Station};
 use crate::domains::press::scatter::other_cams::{PlateStation, of_plate};
+use crate::geometry::MILLIMETRES;
 use crate::profile::{Worst, extremes};
-use crate::report::Section;
-use std::f64::consts::FRAC_PI_2;
+use crate::report::{Section, shown};
 
 /// Steps in which friction angle (rad), efficiency and roller arm (m) are reported.
 const ANGLE_STEP: f64 = 0.1;
@@ -18,6 +21,8 @@ const EFFICIENCY_STEPS: f64 = 100.0;
 const ARM_STEP_MM: f64 = 10.0;
 /// A roller arm so many times as long is looked at.
 const LONGEST_ARM: f64 = 4.0;
+/// Columns that are looked at, over that of the plate.
+const LONGER_COLUMNS: [f64; 7] = [1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0];
 
 impl Wedge {
     /// The direction of the bed in which the forces are not to balance; `None` where they are in both.
@@ -52,16 +57,17 @@ impl Wedge {
         }))
     }
 
-    /// The section on presses that differ; `None` under a linkage.
+    /// The section on presses that differ.
     pub(super) fn scatter(&self) -> Option<Section> {
-        let law = self.mechanism().bottom_law.by_crank().of_yoke()?;
+        let law = self.mechanism().bottom_law.by_crank();
         let motion = self.motion.motion();
         let station = |step: u32| {
-            let angle = FRAC_PI_2 * f64::from(step) / f64::from(STEPS);
-            let x = if step == STEPS { law.stroke } else { law.stroke * libm::sin(angle) };
+            let angle = 0.5 * law.angle() * f64::from(step) / f64::from(STEPS);
+            let [x, deceleration] = law.bed(angle);
+            let x = if step == STEPS { law.stroke() } else { x };
             let [bottom, slope, ..] = motion.at(x, false);
-            let (load, length) = (law.loading * x, (law.column - x - bottom) / law.column);
-            let air = libm::expm1(-law.exponent * libm::log(length));
+            let (load, length) = (law.loading() * deceleration, (law.column() - x - bottom) / law.column());
+            let air = libm::expm1(-law.exponent() * libm::log(length));
             let factors = [BedDirection::Braking, BedDirection::Return]
                 .map(|way| (load - self.mechanism().residual(x, bottom, slope, way)) / air);
             PlateStation { at: Station { angle, load, length, phase: 0.0 }, factors }
@@ -76,19 +82,11 @@ impl Wedge {
     pub(super) fn worth_while(&self) -> Vec<String> {
         let data = self.data;
         let Some(way) = self.other_direction() else { return Vec::new() };
-        let (unit, limit) = (self.cylinder.unit_force(), self.residual_fixed_bottom());
-        // The law alone is solved: the outline does not change what it leaves.
+        let limit = self.residual_fixed_bottom();
         let with = |change: &dyn Fn(&mut Mechanism)| {
             let mut mechanism = *self.mechanism();
             change(&mut mechanism);
-            let Ok(motion) =
-                WedgeMotion::new(mechanism, self.solver, self.machine.transition(), self.data.roller_radius)
-            else {
-                return false;
-            };
-            let negligible = ROUNDING_OF_BALANCE * self.inertia_max();
-            let left = |piece: usize, x: f64| unit * motion.residual(piece, x, way);
-            extremes::largest_size_of_motion(&motion, (&self.acting(), negligible), left).value < limit
+            self.left_by(mechanism, &[way]).is_some_and(|left| left < limit)
         };
         let degrees = |steps: f64| (steps * ANGLE_STEP * 1e6).round() / 1e6;
         let friction = |steps: f64| with(&|mechanism| mechanism.friction_angle = degrees(steps).to_radians());
@@ -105,6 +103,41 @@ impl Wedge {
             longer.map(|steps| format!("translating.roller_arm = \"{} mm\"", steps * ARM_STEP_MM)),
         ];
         remedies.into_iter().flatten().collect()
+    }
+}
+
+impl Wedge {
+    /// The largest residual force of another mechanism in these directions, N; `None` where (18) has no solution. The law alone is solved: the
+    /// outline does not change what it leaves.
+    fn left_by(&self, mechanism: Mechanism, ways: &[BedDirection]) -> Option<f64> {
+        let unit = self.cylinder.unit_force();
+        let motion =
+            WedgeMotion::new(mechanism, self.solver, self.machine.transition(), self.data.roller_radius).ok()?;
+        let negligible = ROUNDING_OF_BALANCE * self.inertia_max();
+        let left = |way: &BedDirection| {
+            let left = |piece: usize, x: f64| unit * motion.residual(piece, x, *way);
+            extremes::largest_size_of_motion(&motion, (&self.acting(), negligible), left).value
+        };
+        Some(ways.iter().map(left).fold(0.0, f64::max))
+    }
+
+    /// A longer air column that leaves less in both directions: the shortest that is useful, else the best one that fits the press.
+    pub(super) fn longer_column(&self) -> Option<String> {
+        let press = self.machine.press().ok()?;
+        let (own, ways) = (self.mechanism().bottom_law.column(), [BedDirection::Braking, BedDirection::Return]);
+        let (now, useful) = (self.left_by(*self.mechanism(), &ways)?, USEFUL * self.residual_fixed_bottom());
+        let longest = PressCams::of(&self.machine).largest_column.unwrap_or(column::CUSTOMARY);
+        let longer = LONGER_COLUMNS.iter().map(|times| (1e3 * times * own).round() / 1e3);
+        let tried = longer.take_while(|column| *column <= longest).filter_map(|column| {
+            let press = Press { column: AirColumn::Of(ColumnRule::Length(column)), ..*press };
+            let bottom_law = PlaceLaw::new(press.bottom_law(self.rpm))?;
+            let left = self.left_by(Mechanism { bottom_law, ..*self.mechanism() }, &ways)?;
+            (left < now).then_some((column, left))
+        });
+        let tried: Vec<(f64, f64)> = tried.collect();
+        let best = tried.iter().find(|(_, left)| *left < useful);
+        let (column, left) = best.or_else(|| tried.iter().min_by(|a, b| a.1.total_cmp(&b.1)))?;
+        Some(format!("buffer.column = \"{} mm\" leaves {} N", shown(MILLIMETRES * column), shown(*left)))
     }
 }
 

@@ -61,6 +61,10 @@ impl ForceBalanced for Wedge {
         self.worth_while()
     }
 
+    fn remedy_of_mean(&self) -> Option<String> {
+        self.longer_column()
+    }
+
     fn least_air(&self) -> Option<Worst> {
         Some(self.air())
     }

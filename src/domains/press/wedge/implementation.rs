@@ -42,8 +42,8 @@ impl Wedge {
         if !(self.thinnest > 0.0) {
             let [thinnest, x, least] =
                 [self.thinnest, self.thinnest_at, self.height - self.thinnest].map(|length| MILLIMETRES * length);
-            let refusal =
-                Refusal::new(format!("the plate would be {thinnest:.3} mm high")).at(format!("x = {x:.3} mm"));
+            let refusal = Refusal::new(format!("the flanks of the plate would cross by {:.3} mm", -thinnest))
+                .at(format!("x = {x:.3} mm"));
             let remedy = format!("translating.plate_height must exceed {least:.3} mm");
             return Err(DrawError::NoOutline(refusal.remedy(remedy).to_string()));
         }

@@ -45,7 +45,7 @@ pub enum ExactOn {
 
 impl NamedChoice for ExactOn {
     const ALL: &'static [(&'static str, Self)] =
-        &[("braking", Self::Braking), ("return", Self::Return), ("mean", Self::Mean)];
+        &[("braking", Self::Braking), ("return", Self::Return), ("mean", Self::Mean), ("level", Self::Mean)];
 }
 
 /// A direction of the bed's motion.
