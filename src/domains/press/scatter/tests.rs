@@ -387,11 +387,14 @@ fn drawn_presses_and_settings_under_a_linkage() {
         let v = Fault { square: 0.7, ..Fault::none(1.35) };
         assert!((largest(&v, Some(column)) / left - 1.0).abs() < 5e-5, "{name}: {left}");
         assert!(left <= largest(&v, Some(column + 1e-5)) + 0.1 && left <= largest(&v, Some(column - 1e-5)) + 0.1);
-        let useful = settings::useful(&cam).expect("possible");
-        let [least, _] = useful;
-        let least = least.expect("a slow press");
-        let setting = settings::setting(&cam, least).expect("possible");
-        assert!((setting.residual.value.abs() / setting.fixed_residual - 1.0).abs() < 1e-6, "{name}: {setting:?}");
+        // Where both leave as much the range ends; where there is no such speed the cam leaves less down to the slowest.
+        let [least, _] = settings::useful(&cam).expect("possible");
+        let setting = settings::setting(&cam, least.unwrap_or(0.02)).expect("possible");
+        let share = setting.residual.value.abs() / setting.fixed_residual;
+        assert!(
+            if least.is_some() { (share - 1.0).abs() < 1e-6 } else { share < 1.0 },
+            "{name}: {least:?} {setting:?}"
+        );
     }
 }
 
