@@ -82,6 +82,7 @@ impl<const N: usize, T: SeriesCoefficient> PowerSeries<N, T> {
     }
 
     /// Coefficients computed one by one, each from its index and those before it.
+    #[inline]
     fn grown(next: impl Fn(usize, &[T]) -> T) -> Self {
         let mut made = [T::constant(0.0); N];
         for n in 0..N {
@@ -95,6 +96,7 @@ impl<const N: usize, T: SeriesCoefficient> PowerSeries<N, T> {
 
     /// √ of a series with positive value.
     #[must_use]
+    #[inline]
     pub fn sqrt(self) -> Self {
         Self::grown(|n, own| root(self.0[n], own))
     }
@@ -141,6 +143,7 @@ impl PowerSeries<3> {
 
 impl<const N: usize, T: SeriesCoefficient> Neg for PowerSeries<N, T> {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         Self(self.0.map(|coefficient| -coefficient))
     }
@@ -148,6 +151,7 @@ impl<const N: usize, T: SeriesCoefficient> Neg for PowerSeries<N, T> {
 
 impl<const N: usize, T: SeriesCoefficient> Add for PowerSeries<N, T> {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
         Self(array::from_fn(|n| self.0[n] + other.0[n]))
     }
@@ -155,6 +159,7 @@ impl<const N: usize, T: SeriesCoefficient> Add for PowerSeries<N, T> {
 
 impl<const N: usize, T: SeriesCoefficient> Sub for PowerSeries<N, T> {
     type Output = Self;
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -162,6 +167,7 @@ impl<const N: usize, T: SeriesCoefficient> Sub for PowerSeries<N, T> {
 
 impl<const N: usize, T: SeriesCoefficient> Mul for PowerSeries<N, T> {
     type Output = Self;
+    #[inline]
     fn mul(self, other: Self) -> Self {
         Self(array::from_fn(|n| product(&self.0, &other.0, n)))
     }
@@ -169,6 +175,7 @@ impl<const N: usize, T: SeriesCoefficient> Mul for PowerSeries<N, T> {
 
 impl<const N: usize, T: SeriesCoefficient> Div for PowerSeries<N, T> {
     type Output = Self;
+    #[inline]
     fn div(self, other: Self) -> Self {
         Self::grown(|n, own| {
             let below = other.0.iter().take(n + 1).rev();
@@ -179,6 +186,7 @@ impl<const N: usize, T: SeriesCoefficient> Div for PowerSeries<N, T> {
 
 impl<const N: usize, T: SeriesCoefficient> Add<T> for PowerSeries<N, T> {
     type Output = Self;
+    #[inline]
     fn add(self, number: T) -> Self {
         self + Self::constant(number)
     }
@@ -186,6 +194,7 @@ impl<const N: usize, T: SeriesCoefficient> Add<T> for PowerSeries<N, T> {
 
 impl<const N: usize, T: SeriesCoefficient> Sub<T> for PowerSeries<N, T> {
     type Output = Self;
+    #[inline]
     fn sub(self, number: T) -> Self {
         self - Self::constant(number)
     }
@@ -193,6 +202,7 @@ impl<const N: usize, T: SeriesCoefficient> Sub<T> for PowerSeries<N, T> {
 
 impl<const N: usize, T: SeriesCoefficient> Mul<T> for PowerSeries<N, T> {
     type Output = Self;
+    #[inline]
     fn mul(self, factor: T) -> Self {
         Self(self.0.map(|coefficient| coefficient * factor))
     }

@@ -12,7 +12,7 @@ use crate::domains::press::buffer::{Cylinder, PlainBuffer};
 use crate::domains::press::checks::column;
 use crate::domains::press::machine::{Press, only_under_a_yoke};
 use crate::domains::press::scatter::fault::FrozenBuffer;
-use crate::domains::press::scatter::settings::{extremes_of_fixed, level_of_fixed};
+use crate::domains::press::scatter::settings::{FixedBottom, extremes_of_fixed};
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::refusal::{Refusal, WorkBound};
@@ -221,7 +221,7 @@ fn column_by(frozen: &FrozenBuffer, reset: Reset) -> f64 {
             // The air of `end` is too weak in the middle: half of that is put on at its end.
             column_for(stroke, load + 0.5 * worst, exponent)
         }
-        Reset::Level => level_of_fixed(frozen, 1.0).0,
+        Reset::Level => FixedBottom::new(frozen).level(1.0).0,
     }
 }
 

@@ -18,7 +18,7 @@
 
 use super::PlainBuffer;
 use super::bottom_law::{BottomLaw, ColumnRule, SERIES_LIMIT, column_for, g_minus_one};
-use crate::domains::press::bed_motion::StrokeEnd;
+use crate::domains::press::bed_motion::{Overrun, StrokeEnd};
 use crate::numeric::extremum::{self, Extremum};
 use crate::numeric::root;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -72,7 +72,11 @@ impl LinkageLaw {
     /// Δx and its first four derivatives by the crank angle in [0, φ_b], m.
     #[must_use]
     pub fn at(&self, angle: f64) -> [f64; 5] {
-        let bed = self.end.at(angle);
+        self.of_bed(&self.end.at(angle))
+    }
+
+    /// Those where the bed is in this state.
+    fn of_bed(&self, bed: &Overrun) -> [f64; 5] {
         let ([x, x1, x2, x3, x4, ..], [a, a1, a2, a3, a4]) = (bed.x, bed.deceleration());
         let (p, loading, c) = (1.0 / self.exponent, self.loading, 1.0 + self.start_slope);
         let (u, share) = (loading * a, c / self.end.start_ratio());
@@ -108,7 +112,7 @@ impl LinkageLaw {
     #[must_use]
     pub fn travels(&self, angle: f64) -> ([f64; 3], [f64; 2], [f64; 3]) {
         let bed = self.end.at(angle);
-        let ([x, x1, x2, ..], [a, a1, ..], [value, first, second, ..]) = (bed.x, bed.deceleration(), self.at(angle));
+        let ([x, x1, x2, ..], [a, a1, ..], [value, first, second, ..]) = (bed.x, bed.deceleration(), self.of_bed(&bed));
         ([x, x1, x2], [a, a1], [value, first, second])
     }
 

@@ -76,20 +76,11 @@ impl BedPath {
         }
     }
 
-    /// Load at the dead point: `u_r` = A r under a yoke.
-    #[must_use]
-    pub fn end_load(&self) -> f64 {
-        match self {
-            Self::Yoke { loading, stroke } => loading * stroke,
-            Self::Linkage(law) => law.loading * law.end.at(law.end.dead()).deceleration()[0],
-        }
-    }
-
     /// The leak whose share is lost by the dead point: the load integrated up to there, A x'(0).
     #[must_use]
     pub fn load_by_dead(&self) -> f64 {
         match self {
-            Self::Yoke { .. } => self.end_load(),
+            Self::Yoke { .. } => self.loading() * self.stroke(),
             Self::Linkage(law) => law.loading * law.end.at(0.0).x[1],
         }
     }
@@ -98,9 +89,9 @@ impl BedPath {
     #[must_use]
     pub fn load_at(&self, angle: f64) -> f64 {
         match self {
-            Self::Yoke { .. } => {
-                let braking = if angle > FRAC_PI_2 { PI - angle } else { angle };
-                if braking == FRAC_PI_2 { self.end_load() } else { self.end_load() * libm::sin(braking) }
+            Self::Yoke { loading, stroke } => {
+                let (end, braking) = (loading * stroke, if angle > FRAC_PI_2 { PI - angle } else { angle });
+                if braking == FRAC_PI_2 { end } else { end * libm::sin(braking) }
             }
             Self::Linkage(law) => law.loading * law.end.at(angle).deceleration()[0].max(0.0),
         }
@@ -110,7 +101,7 @@ impl BedPath {
     #[must_use]
     pub fn load_slope(&self, angle: f64) -> f64 {
         match self {
-            Self::Yoke { .. } => self.end_load() * libm::cos(angle),
+            Self::Yoke { .. } => self.loading() * self.stroke() * libm::cos(angle),
             Self::Linkage(law) => law.loading * law.end.at(angle).deceleration()[1],
         }
     }

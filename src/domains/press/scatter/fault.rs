@@ -74,6 +74,8 @@ pub struct FrozenBuffer {
     pub column: f64,
     /// How the bed moves.
     pub path: BedPath,
+    /// Load at the dead point.
+    end_load: f64,
     /// Load at which the air is shortest: the largest one of a cam.
     peak_load: f64,
     /// Air with a loop that the cam levels. Forces are then the mean of both ways: the half of their difference no screw can change.
@@ -89,6 +91,7 @@ impl FrozenBuffer {
             exponent: law.exponent,
             column: law.column,
             path: BedPath::Yoke { loading: law.loading, stroke: law.stroke },
+            end_load: law.loading * law.stroke,
             peak_load: law.loading * law.stroke,
             level: law.level,
         }
@@ -109,6 +112,7 @@ impl FrozenBuffer {
             exponent: law.exponent,
             column: law.column,
             path: BedPath::Linkage(*law),
+            end_load: law.loading * law.end.at(law.end.dead()).deceleration()[0],
             peak_load: law.loading * law.end.largest_deceleration().value,
             level: None,
         }
@@ -124,7 +128,7 @@ impl FrozenBuffer {
     /// Load at the dead point: `u_r` = A r under a yoke.
     #[must_use]
     pub fn end_load(&self) -> f64 {
-        self.path.end_load()
+        self.end_load
     }
 
     /// w of a cam at a load u.
@@ -199,14 +203,6 @@ impl FrozenBuffer {
     /// of the bed (N) both ways.
     #[must_use]
     pub fn largest_at(&self, fault: &Fault, at: &[Station], friction: f64) -> f64 {
-        if let BedPath::Linkage(law) = &self.path {
-            let size = |station: &Station| {
-                let way = if station.angle > law.end.dead() { -1.0 } else { 1.0 };
-                let phase = self.unit_force * fault.phase * station.phase;
-                (self.residual(fault, station.load, station.length) + phase - way * friction).abs()
-            };
-            return at.iter().map(size).fold(0.0, f64::max);
-        }
         if self.level.is_some() {
             let phase = |station: &Station| (self.unit_force * fault.phase * station.phase - friction).abs();
             let size = |at: &Station| self.residual(fault, at.load, at.length).abs() + phase(at);
@@ -217,8 +213,12 @@ impl FrozenBuffer {
         let (log_s, weight) = (libm::log(s), fault.ambient * fault.closing);
         let size = |station: &Station| {
             let air = weight * libm::exp(fault.exponent * (log_s - libm::log(station.length + t))) - fault.ambient;
-            let force = fault.square * station.load - air;
-            force.abs() + (fault.phase * station.phase - friction).abs()
+            let (force, phase) = (fault.square * station.load - air, fault.phase * station.phase);
+            match &self.path {
+                BedPath::Yoke { .. } => force.abs() + (phase - friction).abs(),
+                BedPath::Linkage(law) if station.angle > law.end.dead() => (force + phase + friction).abs(),
+                BedPath::Linkage(_) => (force + phase - friction).abs(),
+            }
         };
         self.unit_force * at.iter().map(size).fold(0.0, f64::max)
     }
@@ -241,6 +241,12 @@ impl FrozenBuffer {
     /// # Errors
     /// When the column is used up.
     pub fn extremes(&self, fault: &Fault) -> Result<[Extremum; 2], ScatterError> {
+        let placed = |found: Extremum| Extremum { at: self.path.overrun_of(found.at), ..found };
+        Ok(self.extremes_by_load(fault)?.map(placed))
+    }
+
+    /// Those with the load u in the place of the overrun.
+    pub(super) fn extremes_by_load(&self, fault: &Fault) -> Result<[Extremum; 2], ScatterError> {
         self.fits(fault)?;
         if self.level.is_some() {
             return Ok(self.extremes_of_mean(fault));
@@ -261,7 +267,7 @@ impl FrozenBuffer {
         let mut found: Vec<Extremum> = places
             .map(|w| {
                 let load = if w == end { self.peak_load } else { self.load(w) };
-                Extremum { at: self.path.overrun_of(load), value: self.residual(fault, load, w) }
+                Extremum { at: load, value: self.residual(fault, load, w) }
             })
             .collect();
         found.sort_by(|a, b| a.value.total_cmp(&b.value));
@@ -278,7 +284,7 @@ impl FrozenBuffer {
             let value = |at: f64| sign * self.residual(fault, load(at), self.length(load(at)));
             let slope = |at: f64| sign * self.slope(fault, load(at)) * self.end_load() * libm::cos(at);
             let found = extremum::largest(value, slope, (0.0, FRAC_PI_2), CELLS);
-            Extremum { at: self.path.stroke() * libm::sin(found.at), value: sign * found.value }
+            Extremum { at: load(found.at), value: sign * found.value }
         };
         [of(-1.0), of(1.0)]
     }
@@ -288,9 +294,10 @@ impl FrozenBuffer {
     /// # Errors
     /// When the column is used up.
     pub fn worst(&self, fault: &Fault) -> Result<Extremum, ScatterError> {
-        let [least, largest] = self.extremes(fault)?;
+        let [least, largest] = self.extremes_by_load(fault)?;
         if fault.phase == 0.0 {
-            return Ok(if -least.value > largest.value { least } else { largest });
+            let worst = if -least.value > largest.value { least } else { largest };
+            return Ok(Extremum { at: self.path.overrun_of(worst.at), ..worst });
         }
         let of = |way: f64, sign: f64| {
             let value = |at: f64| {
@@ -309,7 +316,8 @@ impl FrozenBuffer {
             return Ok(if above.value > -below.value { above } else { below });
         }
         let all = [of(1.0, 1.0), of(1.0, -1.0), of(-1.0, 1.0), of(-1.0, -1.0)];
-        Ok(all.into_iter().fold(largest, |best, next| if next.value.abs() > best.value.abs() { next } else { best }))
+        let still = Extremum { at: self.path.overrun_of(largest.at), ..largest };
+        Ok(all.into_iter().fold(still, |best, next| if next.value.abs() > best.value.abs() { next } else { best }))
     }
 
     /// dr/du, N.
@@ -328,8 +336,8 @@ impl FrozenBuffer {
     /// stands Δx' a radian nearer, −U k (1 + u)^(1+p) Δx'/L.
     fn phase_force_of_linkage(&self, law: &LinkageLaw, angle: f64) -> [f64; 2] {
         let (k, p) = (self.exponent, 1.0 / self.exponent);
-        let (load, slope) = (self.path.load_at(angle), self.path.load_slope(angle));
-        let [_, first, second, ..] = law.at(angle);
+        let (_, [a, a1], [_, first, second]) = law.travels(angle);
+        let (load, slope) = (law.loading * a.max(0.0), law.loading * a1);
         let scale = -self.unit_force * k / self.column;
         let log = libm::log1p(load);
         let (power, growth) = (libm::exp((1.0 + p) * log), (1.0 + p) * libm::exp(p * log) * slope);
@@ -423,11 +431,26 @@ impl FrozenBuffer {
     /// The largest size of the force of a phase error of a radian over the stroke, N, and the crank angle, rad.
     #[must_use]
     pub fn largest_phase_force(&self) -> Extremum {
+        if let BedPath::Linkage(_) = self.path {
+            return self.largest_phase_force_of_linkage();
+        }
         let of = |sign: f64| {
             let value = |at: f64| sign * self.phase_force(at)[0];
             extremum::largest(value, |at| sign * self.phase_force(at)[1], (0.0, self.path.reach()), CELLS)
         };
         let (with, against) = (of(1.0), of(-1.0));
         if with.value > against.value { with } else { against }
+    }
+
+    /// The largest of the places of a reversal, and the root of the slope between its neighbours.
+    fn largest_phase_force_of_linkage(&self) -> Extremum {
+        let cell = self.path.reach() / f64::from(CELLS);
+        let at = (0..=CELLS).map(|cells| cell * f64::from(cells));
+        let sizes = at.map(|at| (at, self.phase_force(at)[0].abs()));
+        let (at, value) = sizes.fold((0.0, 0.0), |best, next| if next.1 > best.1 { next } else { best });
+        let (low, high) = ((at - cell).max(0.0), (at + cell).min(self.path.reach()));
+        let top = root::bracketed(|at| self.phase_force(at)[1], low, high, 0.0).ok();
+        let top = top.map(|at| Extremum { at, value: self.phase_force(at)[0].abs() });
+        top.filter(|top| top.value > value).unwrap_or(Extremum { at, value })
     }
 }

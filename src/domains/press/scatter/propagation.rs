@@ -70,7 +70,9 @@ impl Corners {
         cam.fits(&self.weak)?;
         let mut worst = [Extremum { at: 0.0, value: 0.0 }; 2];
         for station in cam.stations_of_cam() {
-            for ((found, value), sign) in worst.iter_mut().zip(self.at(cam, station.angle)).zip([-1.0, 1.0]) {
+            let phase = cam.unit_force * (self.phase * station.phase).abs();
+            for ((found, fault), sign) in worst.iter_mut().zip([&self.strong, &self.weak]).zip([-1.0, 1.0]) {
+                let value = cam.residual(fault, station.load, station.length) + sign * phase;
                 if sign * value > sign * found.value {
                     *found = Extremum { at: cam.path.overrun_at(station.angle), value };
                 }
@@ -113,9 +115,8 @@ fn left_by(cam: &FrozenBuffer, fault: &Fault, screw: f64, rules: &[ScrewRule]) -
     Ok((cam.worst(fault)?, rules.iter().map(after).collect::<Result<_, _>>()?))
 }
 
-/// What a phase error leaves, which no screw changes.
-fn left_by_phase(cam: &FrozenBuffer, half_width: f64, rules: &[ScrewRule]) -> LeftBy {
-    let found = cam.largest_phase_force();
+/// What a phase error leaves whose largest force for a radian is known; no screw changes it.
+fn left_by_phase(cam: &FrozenBuffer, found: Extremum, half_width: f64, rules: &[ScrewRule]) -> LeftBy {
     let left = Extremum { at: cam.path.overrun_at(found.at), value: half_width * found.value };
     (left, rules.iter().map(|_| (0.0, left)).collect())
 }
@@ -138,7 +139,7 @@ pub fn bands(
     distribution: Distribution,
     levelled: bool,
 ) -> Result<Vec<ParameterBand>, ScatterError> {
-    let total = variance(cam, half_widths, distribution);
+    let (total, ahead) = (variance(cam, half_widths, distribution), cam.largest_phase_force());
     let rules = if levelled { &[ScrewRule::End, ScrewRule::Level][..] } else { &[ScrewRule::End] };
     let one = |(parameter, half_width): (Parameter, &f64)| -> Result<ParameterBand, ScatterError> {
         let at = |sign: f64| {
@@ -146,7 +147,7 @@ pub fn bands(
             left_by(cam, &fault, if parameter == Parameter::Screw { sign * half_width } else { 0.0 }, rules)
         };
         let (residual, after) = match parameter {
-            Parameter::Phase => left_by_phase(cam, *half_width, rules),
+            Parameter::Phase => left_by_phase(cam, ahead, *half_width, rules),
             Parameter::AirLost => at(1.0)?,
             _ => worse(at(1.0)?, at(-1.0)?),
         };
@@ -156,7 +157,8 @@ pub fn bands(
         Ok(ParameterBand {
             parameter,
             half_width: *half_width,
-            sensitivity: half_width * sensitivity(cam, parameter),
+            sensitivity: half_width
+                * if parameter == Parameter::Phase { ahead.value } else { sensitivity(cam, parameter) },
             residual: if parameter == Parameter::Screw { none } else { residual },
             end: after.first().copied().unwrap_or((0.0, none)),
             level: after.get(1).copied(),

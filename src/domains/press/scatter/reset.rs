@@ -54,9 +54,10 @@ impl FrozenBuffer {
     pub fn level_reset(&self, fault: &Fault) -> Result<f64, ScatterError> {
         let end = self.end_reset(fault)?;
         let both = |column: f64| {
-            self.extremes(&fault.with_column(column)).map_or(f64::NAN, |[least, largest]| least.value + largest.value)
+            let both = self.extremes_by_load(&fault.with_column(column));
+            both.map_or(f64::NAN, |[least, largest]| least.value + largest.value)
         };
-        let [least, largest] = self.extremes(&fault.with_column(end))?;
+        let [least, largest] = self.extremes_by_load(&fault.with_column(end))?;
         let start = if least.value.abs() > largest.value.abs() { least.at } else { largest.at };
         let sum = least.value + largest.value;
         if sum == 0.0 || (start == 0.0 && fault.lead == 0.0 && self.level.is_none()) {
@@ -74,8 +75,14 @@ impl FrozenBuffer {
         });
         let level = beyond.and_then(|beyond| root::bracketed(both, end, beyond, 0.0).ok()).unwrap_or(end);
         // A port that shuts late leaves a force at the start that the screw hardly moves: then the end setting may leave less.
-        let left =
-            |column: f64| self.worst(&fault.with_column(column)).map_or(f64::INFINITY, |worst| worst.value.abs());
+        let left = |column: f64| {
+            let set = fault.with_column(column);
+            let worst = match fault.phase {
+                0.0 => self.extremes_by_load(&set).map(|[least, largest]| largest.value.max(-least.value)),
+                _ => self.worst(&set).map(|worst| worst.value.abs()),
+            };
+            worst.unwrap_or(f64::INFINITY)
+        };
         Ok(if left(end) <= left(level) { end } else { level })
     }
 

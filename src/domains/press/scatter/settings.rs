@@ -21,13 +21,87 @@ pub struct Setting {
     pub fixed_residual: f64,
 }
 
-/// Least and largest residual force of a fixed bottom of a column (m) at a variable v, N, over its stroke: 0 at the start, one stationary
+/// Places of a reversal under a linkage at which a fixed bottom is looked at; the top between three of them is that of their parabola.
+const PLACES: u32 = 180;
+/// Halvings of the air at the end of the stroke, and doublings of the column, in which a fixed bottom is bracketed.
+const REACH: i32 = 200;
+
+/// A fixed bottom in the place of a cam.
+#[derive(Debug, Clone)]
+pub struct FixedBottom<'a> {
+    cam: &'a FrozenBuffer,
+    /// Overrun, m, and load at places of the reversal of a linkage; empty under a yoke.
+    bed: Vec<[f64; 2]>,
+}
+
+impl<'a> FixedBottom<'a> {
+    /// In the place of this cam.
+    #[must_use]
+    pub fn new(cam: &'a FrozenBuffer) -> Self {
+        let path = &cam.path;
+        let at = |place: u32| {
+            let angle = path.whole() * f64::from(place) / f64::from(PLACES);
+            [path.overrun_at(angle), path.load_at(angle)]
+        };
+        let bed = match path {
+            BedPath::Yoke { .. } => Vec::new(),
+            BedPath::Linkage(_) => (0..=PLACES).map(at).collect(),
+        };
+        Self { cam, bed }
+    }
+
+    /// Least and largest residual force of a column (m) at a variable v, N, over the stroke.
+    #[must_use]
+    pub fn extremes(&self, column: f64, variable: f64) -> [Extremum; 2] {
+        match self.cam.path {
+            BedPath::Yoke { .. } => extremes_of_fixed(self.cam, column, variable),
+            BedPath::Linkage(_) => self.searched(column, variable),
+        }
+    }
+
+    /// Those over the places of the reversal.
+    fn searched(&self, column: f64, variable: f64) -> [Extremum; 2] {
+        let k = self.cam.exponent;
+        let left = |[x, load]: &[f64; 2]| variable * load - libm::expm1(-k * libm::log1p(-x / column));
+        let values: Vec<f64> = self.bed.iter().map(left).collect();
+        let extreme = |sign: f64| {
+            let beyond =
+                |best: (usize, f64), next: (usize, f64)| if sign * next.1 > sign * best.1 { next } else { best };
+            let (index, value) = values.iter().copied().enumerate().fold((0, 0.0), beyond);
+            let around = index.checked_sub(1).and_then(|before| values.get(before..=index + 1));
+            let value = match around {
+                Some(&[before, at, after]) if (before - 2.0 * at + after) != 0.0 => {
+                    let slope = 0.5 * (after - before);
+                    at - 0.5 * slope * slope / (before - 2.0 * at + after)
+                }
+                _ => value,
+            };
+            Extremum { at: self.bed.get(index).map_or(0.0, |[x, _]| *x), value: self.cam.unit_force * value }
+        };
+        [extreme(-1.0), extreme(1.0)]
+    }
+
+    /// The column that leaves least at a variable v, m, and what it leaves, N.
+    #[must_use]
+    pub fn level(&self, variable: f64) -> (f64, f64) {
+        let beyond = |octave: f64| self.cam.path.stroke() * (1.0 + libm::exp2(octave));
+        let sum = |octave: f64| {
+            let [least, largest] = self.extremes(beyond(octave), variable);
+            least.value + largest.value
+        };
+        // A short column stops the bed early, a long one hardly brakes it.
+        let low = (1..REACH).map(|octave| f64::from(-octave)).find(|octave| sum(*octave) < 0.0).unwrap_or(-1.0);
+        let high = (1..REACH).map(f64::from).find(|octave| sum(*octave) > 0.0).unwrap_or(1.0);
+        let column = beyond(root::bracketed(sum, low, high, 0.0).unwrap_or(0.0));
+        let [least, largest] = self.extremes(column, variable);
+        (column, largest.value.max(-least.value))
+    }
+}
+
+/// Least and largest residual force of a fixed bottom of a column (m) at a variable v, N, over its stroke under a yoke: 0 at the start, one stationary
 /// place x = L − (k L^k/(v A))^(1/(k+1)), and the end.
 #[must_use]
 pub fn extremes_of_fixed(cam: &FrozenBuffer, column: f64, variable: f64) -> [Extremum; 2] {
-    if let BedPath::Linkage(_) = cam.path {
-        return searched(&bed_places(cam), cam, column, variable);
-    }
     let (k, load) = (cam.exponent, variable * cam.path.loading());
     let residual = |x: f64| load * x - libm::expm1(-k * libm::log1p(-x / column));
     let still = libm::exp((libm::log(k / load) + k * libm::log(column)) / (k + 1.0));
@@ -40,59 +114,6 @@ pub fn extremes_of_fixed(cam: &FrozenBuffer, column: f64, variable: f64) -> [Ext
     [pick(|next, best| next < best), pick(|next, best| next > best)]
 }
 
-/// Places of a reversal under a linkage at which a fixed bottom is looked at; the top between three of them is that of their parabola.
-const PLACES: u32 = 720;
-
-/// Overrun, m, and load at places of a reversal.
-fn bed_places(cam: &FrozenBuffer) -> Vec<[f64; 2]> {
-    let angle = |place: u32| cam.path.whole() * f64::from(place) / f64::from(PLACES);
-    (0..=PLACES).map(angle).map(|angle| [cam.path.overrun_at(angle), cam.path.load_at(angle)]).collect()
-}
-
-/// Least and largest residual force of a fixed bottom of a column (m) at a variable v, N, over these places.
-fn searched(bed: &[[f64; 2]], cam: &FrozenBuffer, column: f64, variable: f64) -> [Extremum; 2] {
-    let left = |[x, load]: &[f64; 2]| variable * load - libm::expm1(-cam.exponent * libm::log1p(-x / column));
-    let values: Vec<f64> = bed.iter().map(left).collect();
-    let extreme = |sign: f64| {
-        let beyond = |best: (usize, f64), next: (usize, f64)| if sign * next.1 > sign * best.1 { next } else { best };
-        let (index, value) = values.iter().copied().enumerate().fold((0, 0.0), beyond);
-        let around = index.checked_sub(1).and_then(|before| values.get(before..=index + 1));
-        let value = match around {
-            Some(&[before, at, after]) if (before - 2.0 * at + after) != 0.0 => {
-                let slope = 0.5 * (after - before);
-                at - 0.5 * slope * slope / (before - 2.0 * at + after)
-            }
-            _ => value,
-        };
-        Extremum { at: bed.get(index).map_or(0.0, |[x, _]| *x), value: cam.unit_force * value }
-    };
-    [extreme(-1.0), extreme(1.0)]
-}
-
-/// Halvings of the air at the end of the stroke, and doublings of the column, in which a fixed bottom is bracketed.
-const REACH: i32 = 200;
-
-/// Column of a fixed bottom that leaves least at a variable v, m, and what it leaves, N.
-#[must_use]
-pub fn level_of_fixed(cam: &FrozenBuffer, variable: f64) -> (f64, f64) {
-    let beyond = |octave: f64| cam.path.stroke() * (1.0 + libm::exp2(octave));
-    let bed = if let BedPath::Linkage(_) = cam.path { bed_places(cam) } else { Vec::new() };
-    let extremes = |column: f64| match cam.path {
-        BedPath::Yoke { .. } => extremes_of_fixed(cam, column, variable),
-        BedPath::Linkage(_) => searched(&bed, cam, column, variable),
-    };
-    let sum = |octave: f64| {
-        let [least, largest] = extremes(beyond(octave));
-        least.value + largest.value
-    };
-    // A short column stops the bed early, a long one hardly brakes it.
-    let low = (1..REACH).map(|octave| f64::from(-octave)).find(|octave| sum(*octave) < 0.0).unwrap_or(-1.0);
-    let high = (1..REACH).map(f64::from).find(|octave| sum(*octave) > 0.0).unwrap_or(1.0);
-    let column = beyond(root::bracketed(sum, low, high, 0.0).unwrap_or(0.0));
-    let [least, largest] = extremes(column);
-    (column, largest.value.max(-least.value))
-}
-
 fn at_variable(cam: &FrozenBuffer, variable: f64) -> Fault {
     Fault { square: variable, ..Fault::none(cam.exponent) }
 }
@@ -101,13 +122,14 @@ fn at_variable(cam: &FrozenBuffer, variable: f64) -> Fault {
 ///
 /// # Errors
 /// When no column balances the end.
-pub fn setting(cam: &FrozenBuffer, variable: f64) -> Result<Setting, ScatterError> {
+pub fn setting(fixed: &FixedBottom<'_>, variable: f64) -> Result<Setting, ScatterError> {
+    let cam = fixed.cam;
     let fault = at_variable(cam, variable);
     // At v = 1 the cam is in the machine it was cut for.
     let column = if variable == 1.0 { 0.0 } else { cam.level_reset(&fault)? };
     let residual =
         if variable == 1.0 { Extremum { at: 0.0, value: 0.0 } } else { cam.worst(&fault.with_column(column))? };
-    let (fixed_column, fixed_residual) = level_of_fixed(cam, variable);
+    let (fixed_column, fixed_residual) = fixed.level(variable);
     Ok(Setting { variable, column, residual, fixed_column, fixed_residual })
 }
 
@@ -116,18 +138,18 @@ const STEP: f64 = 1.25;
 const STEPS: i32 = 20;
 
 /// What the cam leaves more than a fixed bottom, each with its own level setting, N.
-fn more(cam: &FrozenBuffer, variable: f64) -> Result<f64, ScatterError> {
-    let setting = setting(cam, variable)?;
+fn more(fixed: &FixedBottom<'_>, variable: f64) -> Result<f64, ScatterError> {
+    let setting = setting(fixed, variable)?;
     Ok(setting.residual.value.abs() - setting.fixed_residual)
 }
 
 /// Where the cam begins to leave more than a fixed bottom, on a side of v = 1.
-fn bound(cam: &FrozenBuffer, side: f64, tolerance: f64) -> Result<Option<f64>, ScatterError> {
+fn bound(fixed: &FixedBottom<'_>, side: f64, tolerance: f64) -> Result<Option<f64>, ScatterError> {
     let mut inside = 1.0;
     for step in 1..=STEPS {
         let outside = libm::pow(STEP, side * f64::from(step));
-        if more(cam, outside)? > 0.0 {
-            let more = |v: f64| more(cam, v).unwrap_or(f64::NAN);
+        if more(fixed, outside)? > 0.0 {
+            let more = |v: f64| more(fixed, v).unwrap_or(f64::NAN);
             return Ok(root::bracketed(more, inside, outside, tolerance).ok());
         }
         inside = outside;
@@ -140,7 +162,7 @@ fn bound(cam: &FrozenBuffer, side: f64, tolerance: f64) -> Result<Option<f64>, S
 /// # Errors
 /// When no column balances the end.
 pub fn least_useful(cam: &FrozenBuffer, tolerance: f64) -> Result<Option<f64>, ScatterError> {
-    bound(cam, -1.0, tolerance)
+    bound(&FixedBottom::new(cam), -1.0, tolerance)
 }
 
 /// The range of v in which the cam leaves less than a fixed bottom, each with its own level setting; `None` on a side where it always does.
@@ -148,5 +170,6 @@ pub fn least_useful(cam: &FrozenBuffer, tolerance: f64) -> Result<Option<f64>, S
 /// # Errors
 /// When no column balances the end.
 pub fn useful(cam: &FrozenBuffer) -> Result<[Option<f64>; 2], ScatterError> {
-    Ok([bound(cam, -1.0, 0.0)?, bound(cam, 1.0, 0.0)?])
+    let fixed = FixedBottom::new(cam);
+    Ok([bound(&fixed, -1.0, 0.0)?, bound(&fixed, 1.0, 0.0)?])
 }

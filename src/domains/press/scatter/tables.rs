@@ -8,7 +8,7 @@ use super::monte_carlo::{Samples, percentile};
 use super::parameter::{HalfWidths, Parameter};
 use super::propagation::{Corners, ParameterBand};
 use super::reset::ScrewRule;
-use super::settings::{self, Setting};
+use super::settings::{self, FixedBottom, Setting};
 use crate::analysis::Listing;
 use crate::document::NamedChoice;
 use crate::geometry::MILLIMETRES;
@@ -191,7 +191,8 @@ fn variables() -> impl Iterator<Item = f64> {
 /// # Errors
 /// When no column balances an end.
 pub fn settings(cam: &FrozenBuffer, rpm: f64, piston_area: f64) -> Result<Vec<SettingRow>, ScatterError> {
-    variables().map(|variable| Ok(row_of(&settings::setting(cam, variable)?, cam, (rpm, piston_area)))).collect()
+    let fixed = FixedBottom::new(cam);
+    variables().map(|variable| Ok(row_of(&settings::setting(&fixed, variable)?, cam, (rpm, piston_area)))).collect()
 }
 
 fn row_of(setting: &Setting, cam: &FrozenBuffer, (rpm, piston_area): (f64, f64)) -> SettingRow {

@@ -6,7 +6,7 @@ use super::monte_carlo::{self, CUSTOMARY, Distribution, Sampling, number, percen
 use super::parameter::{HalfWidths, Parameter};
 use super::propagation::{self, Corners};
 use super::reset::ScrewRule;
-use super::settings;
+use super::settings::{self, FixedBottom};
 use crate::body::disc::Disc;
 use crate::domains::press::bed_motion::End;
 use crate::domains::press::buffer::crank_law::{CrankLaw, LinkageLaw};
@@ -200,7 +200,7 @@ fn the_setting_for_a_lighter_forme_and_the_useful_range() {
         ("dpi-paper", 277.409_964_4, 491.146_933_0, 257.788_026_1, 4_473.082_741, 0.278_694_191_8),
     ] {
         let cam = cam(name);
-        let setting = settings::setting(&cam, 0.8).expect("a setting");
+        let setting = settings::setting(&FixedBottom::new(&cam), 0.8).expect("a setting");
         near(1e3 * (cam.column + setting.column), column, name);
         near(setting.residual.value.abs(), left, name);
         near(1e3 * setting.fixed_column, fixed, name);
@@ -383,13 +383,13 @@ fn drawn_presses_and_settings_under_a_linkage() {
                 assert!((got / want - 1.0).abs() < 4e-3, "{name}: {got} {want}");
             }
         }
-        let (column, left) = settings::level_of_fixed(&cam, 0.7);
+        let (column, left) = FixedBottom::new(&cam).level(0.7);
         let v = Fault { square: 0.7, ..Fault::none(1.35) };
         assert!((largest(&v, Some(column)) / left - 1.0).abs() < 5e-5, "{name}: {left}");
         assert!(left <= largest(&v, Some(column + 1e-5)) + 0.1 && left <= largest(&v, Some(column - 1e-5)) + 0.1);
         // Where both leave as much the range ends; where there is no such speed the cam leaves less down to the slowest.
         let [least, _] = settings::useful(&cam).expect("possible");
-        let setting = settings::setting(&cam, least.unwrap_or(0.02)).expect("possible");
+        let setting = settings::setting(&FixedBottom::new(&cam), least.unwrap_or(0.02)).expect("possible");
         let share = setting.residual.value.abs() / setting.fixed_residual;
         assert!(
             if least.is_some() { (share - 1.0).abs() < 1e-6 } else { share < 1.0 },
