@@ -23,6 +23,8 @@ const REACH: f64 = 0.01;
 pub(super) struct TrialRow {
     x: f64,
     trial: f64,
+    /// By how much it is off the bottom that balances.
+    off: f64,
     right: f64,
     left: f64,
 }
@@ -46,10 +48,11 @@ pub(super) fn trials(machine: &Machine) -> Vec<TrialRow> {
         let (step, [found, ..]) = (STEP * stroke, motion.at(x, false));
         let [before, ..] = motion.at(x - step, false);
         for index in -TRIALS..=TRIALS {
-            let trial = found + REACH * stroke * f64::from(index) / f64::from(TRIALS);
+            let off = REACH * stroke * f64::from(index) / f64::from(TRIALS);
+            let trial = found + off;
             let left = unit * mechanism.load(x);
             let right = left - unit * mechanism.residual(x, trial, (trial - before) / step, way);
-            rows.push(TrialRow { x, trial, right, left });
+            rows.push(TrialRow { x, trial, off, right, left });
         }
     }
     rows
@@ -68,7 +71,7 @@ pub(super) fn panel(rows: &[TrialRow]) -> Option<(String, PlotPanel)> {
         name,
         colour,
         bold,
-        points: rows.iter().map(|row| [MILLIMETRES * row.trial, value(row)]).collect(),
+        points: rows.iter().map(|row| [MILLIMETRES * row.off, value(row)]).collect(),
     };
     let curves: Vec<PlotCurve> = places
         .flat_map(|(colour, rows)| {
@@ -77,9 +80,13 @@ pub(super) fn panel(rows: &[TrialRow]) -> Option<(String, PlotPanel)> {
             [of(colour, true, name, rows, |row| row.right), of(colour, false, String::new(), rows, |row| row.left)]
         })
         .collect();
-    let name = "Equation (18) at four places of the bed, N: right side (bold) and left side (thin); they meet at the bottom that balances";
-    (!curves.is_empty())
-        .then(|| ("trial position Δx of the bottom, mm".into(), PlotPanel { name: name.into(), curves }))
+    let name = "Equation (18) at four places of the bed, N: right side (bold) and left side (thin); they meet where the bottom balances";
+    (!curves.is_empty()).then(|| {
+        (
+            "trial position Δx of the bottom less the one that balances, mm".into(),
+            PlotPanel { name: name.into(), curves },
+        )
+    })
 }
 
 #[cfg(test)]
