@@ -9,6 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The motion of the bed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "there is one for a cam, which is copied as a whole")]
 pub enum BedPath {
     /// x = r sin φ.
     Yoke {

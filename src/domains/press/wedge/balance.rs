@@ -86,7 +86,7 @@ impl Wedge {
         let with = |change: &dyn Fn(&mut Mechanism)| {
             let mut mechanism = *self.mechanism();
             change(&mut mechanism);
-            self.left_by(mechanism, &[way]).is_some_and(|left| left < limit)
+            self.left_by(&mechanism, &[way]).is_some_and(|left| left < limit)
         };
         let degrees = |steps: f64| (steps * ANGLE_STEP * 1e6).round() / 1e6;
         let friction = |steps: f64| with(&|mechanism| mechanism.friction_angle = degrees(steps).to_radians());
@@ -109,10 +109,10 @@ impl Wedge {
 impl Wedge {
     /// The largest residual force of another mechanism in these directions, N; `None` where (18) has no solution. The law alone is solved: the
     /// outline does not change what it leaves.
-    fn left_by(&self, mechanism: Mechanism, ways: &[BedDirection]) -> Option<f64> {
+    fn left_by(&self, mechanism: &Mechanism, ways: &[BedDirection]) -> Option<f64> {
         let unit = self.cylinder.unit_force();
         let motion =
-            WedgeMotion::new(mechanism, self.solver, self.machine.transition(), self.data.roller_radius).ok()?;
+            WedgeMotion::new(*mechanism, self.solver, self.machine.transition(), self.data.roller_radius).ok()?;
         let negligible = ROUNDING_OF_BALANCE * self.inertia_max();
         let left = |way: &BedDirection| {
             let left = |piece: usize, x: f64| unit * motion.residual(piece, x, *way);
@@ -125,13 +125,13 @@ impl Wedge {
     pub(super) fn longer_column(&self) -> Option<String> {
         let press = self.machine.press().ok()?;
         let (own, ways) = (self.mechanism().bottom_law.column(), [BedDirection::Braking, BedDirection::Return]);
-        let (now, useful) = (self.left_by(*self.mechanism(), &ways)?, USEFUL * self.residual_fixed_bottom());
+        let (now, useful) = (self.left_by(self.mechanism(), &ways)?, USEFUL * self.residual_fixed_bottom());
         let longest = PressCams::of(&self.machine).largest_column.unwrap_or(column::CUSTOMARY);
         let longer = LONGER_COLUMNS.iter().map(|times| (1e3 * times * own).round() / 1e3);
         let tried = longer.take_while(|column| *column <= longest).filter_map(|column| {
             let press = Press { column: AirColumn::Of(ColumnRule::Length(column)), ..*press };
             let bottom_law = PlaceLaw::new(press.bottom_law(self.rpm))?;
-            let left = self.left_by(Mechanism { bottom_law, ..*self.mechanism() }, &ways)?;
+            let left = self.left_by(&Mechanism { bottom_law, ..*self.mechanism() }, &ways)?;
             (left < now).then_some((column, left))
         });
         let tried: Vec<(f64, f64)> = tried.collect();
