@@ -50,7 +50,7 @@ pub(crate) fn no_radius(binding: Option<&'static str>, of_program: bool) -> Stri
                 .into()
         }
         Some("undercut") => {
-            "no base radius would pass: the velocity of the follower jumps; avoid that by transition.kind = \"run-up\" or \"blend\""
+            "no base radius would pass: the velocity of the follower jumps; avoid that by another transition.kind, such as \"run-up\""
                 .into()
         }
         Some(limit) => format!("no base radius would pass: limits.{limit} is broken at any"),

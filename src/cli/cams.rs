@@ -352,6 +352,18 @@ fn cut(
     Ok(if proven.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }
 
+/// The checks that another disc fails: the report is that of the first.
+fn failures_of_others(proven: &ProvenAssembly) {
+    for (name, failed) in proven.failures_of_others() {
+        for finding in failed {
+            let limit = finding.limit_words().map_or_else(String::new, |limit| format!(", {limit}"));
+            let note = finding.note.as_ref().map_or_else(String::new, |note| format!("; {note}"));
+            let (check, value, place) = (&finding.check, finding.value_words(), finding.place);
+            print_message(&format!("the {name} disc fails {check}: {value}{limit}, at {place}{note}"));
+        }
+    }
+}
+
 /// The files of a cam that passed or is forced, unless it is a dry run.
 fn files_of(
     proven: &ProvenAssembly,
@@ -367,6 +379,7 @@ fn files_of(
         print_message(
             "refused: a check failed, nothing was written (--force writes anyway; `camgen explain CHECK` explains a check)",
         );
+        failures_of_others(proven);
         return Ok(None);
     }
     for (format, why) in left_out {

@@ -6,7 +6,7 @@ use crate::geometry::MILLIMETRES;
 use crate::machine::{Machine, MachineSource, valid_rpm};
 use crate::motion::program::SegmentSummary;
 use crate::motion::{Motion, Quantity};
-use crate::pipeline::{AssemblyDrawing, Error, ProvenAssembly, Spec, Writing};
+use crate::pipeline::{AssemblyDrawing, Error, Proven, ProvenAssembly, Spec, Writing};
 use crate::profile::outline::Fit;
 use crate::refusal::Refusal;
 use crate::report::Finding;
@@ -52,8 +52,9 @@ pub(super) fn proven(
 pub(super) fn made(request: &EngineRequest, toml: &str, answer: &mut EngineAnswer) -> Result<(), Error> {
     let (proven, writing) = proven(request, toml, answer)?;
     answer.say("passed", proven.passed());
-    answer.say("noOutline", proven.no_outline());
+    answer.say("noOutline", no_outline(&proven));
     answer.say("remedies", of_findings(proven.findings()));
+    answer.say("others", others(&proven));
     if request.report {
         answer.say("report", json!(proven.report()));
     }
@@ -114,6 +115,22 @@ fn of_findings(findings: &[Finding]) -> Map<String, Value> {
         (!remedies.is_empty()).then(|| (finding.check.to_string(), json!(remedies)))
     };
     findings.iter().filter_map(of).collect()
+}
+
+/// Why a cam has no outline, with the name of a disc that is not the first.
+fn no_outline(proven: &ProvenAssembly) -> Option<String> {
+    let of_others =
+        || proven.others().iter().find_map(|(name, cam)| Some(format!("{name} disc: {}", cam.no_outline()?)));
+    proven.first().no_outline().map(str::to_owned).or_else(of_others)
+}
+
+/// The other cams of an assembly by their names, with the checks that they fail.
+fn others(proven: &ProvenAssembly) -> Vec<Value> {
+    let of = |((name, cam), (_, failed)): (&(String, Proven), (&str, Vec<Finding>))| {
+        let (checks, remedies) = (html::checks_of(&failed), of_findings(&failed));
+        json!({"name": name, "passed": cam.passed(), "checks": checks, "remedies": remedies})
+    };
+    proven.others().iter().zip(proven.failures_of_others()).map(of).collect()
 }
 
 /// What a page shows; of a cam without an outline its checks alone.

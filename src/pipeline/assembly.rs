@@ -4,7 +4,7 @@ use super::{Cam, Drawing, Error, Proven};
 use crate::body::{Body, Request};
 use crate::check::Measure;
 use crate::numeric::parallel;
-use crate::report::{Finding, LazyReport, Report, Section, failed};
+use crate::report::{Finding, LazyReport, Report, Section, Verdict, failed};
 use crate::table::Table;
 use crate::verify::WrittenOutline;
 use crate::write::csv;
@@ -229,6 +229,19 @@ impl ProvenAssembly {
             failed(cam.findings()).into_iter().map(|check| format!("{name}: {check}")).collect()
         };
         own.chain(self.others.iter().flat_map(of)).collect()
+    }
+
+    /// The checks that the other cams fail, by their names. A base radius in a remedy is that of the other disc, which has no key of its own.
+    #[must_use]
+    pub fn failures_of_others(&self) -> Vec<(&str, Vec<Finding>)> {
+        let of_this_disc = |finding: &Finding| Finding {
+            note: finding.note.as_ref().map(|note| note.replace("a base radius of ", "a base radius of this disc of ")),
+            ..finding.clone()
+        };
+        let failed = |cam: &Proven| {
+            cam.findings().iter().filter(|finding| finding.verdict == Verdict::Fail).map(of_this_disc).collect()
+        };
+        self.others.iter().map(|(name, cam)| (name.as_str(), failed(cam))).collect()
     }
 
     /// Why there is no outline of a cam that has none.

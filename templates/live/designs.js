@@ -51,33 +51,35 @@ function startDesigns() {
     made.addEventListener("click", () => act().catch((error) => complain([{ message: error.message }])));
     return made;
   };
-  const told = async (path, body) => JSON.parse(new TextDecoder().decode(await served(path, body)));
   const buttons = [button("write", async () => {
-    const done = await told("/write", requestOf({ tolerance: doc.tolerance, formats: ["dxf", "svg", "step", "csv"] }));
+    const done = await servedJson("/write", requestOf({ tolerance: doc.tolerance, formats: ["dxf", "svg", "step", "csv"] }));
     if (done.faults) complain(done.faults);
     else say("written", { files: done.written.join(", ") });
   })];
   if (docs.some(({ file }) => file)) {
     buttons.unshift(button("save", async () => {
       const own = doc;
-      const done = await told("/save", { design: own.index ?? -1, toml: own.now.toml, before: own.onDisk });
+      const done = await servedJson("/save", { design: own.index ?? -1, toml: own.now.toml, before: own.onDisk });
       if (done.faults) return complain(done.faults);
       own.onDisk = own.now.toml;
       own.saved = performance.now();
       say("written", { files: own.file });
       tabs();
     }));
-    watchFiles(told);
+    watchFiles();
   } else gallery();
   byId("downloads").append(make("p", { className: "row" }, ...buttons));
 }
 
+/** An answer of that program that has no files. */
+const servedJson = async (path, body) => JSON.parse(new TextDecoder().decode(await served(path, body)));
+
 /** The files on the disk, once a second: another text is read again. */
-async function watchFiles(told) {
+async function watchFiles() {
   for (;;) {
     try {
       const asked = performance.now();
-      const { designs: onDisk } = await told("/files", {});
+      const { designs: onDisk } = await servedJson("/files", {});
       // A text that was asked for before this page has written its own is an old one.
       docs.forEach((one) => one.file && onDisk[one.index] && !(one.saved > asked) && readAgain(one, onDisk[one.index]));
     } catch {
@@ -97,8 +99,5 @@ function readAgain(one, { toml, files, fault }) {
   one.onDisk = toml;
   if (!changed) return;
   if (one === doc) commit([], { toml }, "changedOnDisk");
-  else {
-    one.past.push(one.now);
-    one.now = { ...one.now, toml };
-  }
+  else changeTo(one, { ...one.now, toml });
 }

@@ -14,7 +14,7 @@ function answerOf(bytes) {
   return answer;
 }
 
-/** What runs in the worker: it holds the engine, and makes a new one where a run ends in a trap. */
+/** What runs in the worker, behind fzstd: it holds the engine, and makes a new one where a run ends in a trap. */
 function workerMain() {
   let compiled = null;
   let engine = null;
@@ -45,8 +45,7 @@ function workerMain() {
   };
   self.onmessage = async ({ data }) => {
     if (data.start) {
-      const plain = await new Response(new Blob([packed(data.start)]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-      compiled = await WebAssembly.compile(plain);
+      compiled = await WebAssembly.compile(fzstd.decompress(packed(data.start)));
       self.postMessage({ ready: true });
       return;
     }
@@ -65,7 +64,7 @@ let engineMemory = 0;
 
 /** The engine in this page. */
 function ownEngine() {
-  const source = URL.createObjectURL(new Blob([`"use strict";(${workerMain})();`], { type: "text/javascript" }));
+  const source = URL.createObjectURL(new Blob([byId("unpack").textContent, `;\n(() => { "use strict"; (${workerMain})(); })();`], { type: "text/javascript" }));
   const worker = new Worker(source);
   const waiting = new Map();
   let count = 0;

@@ -20,6 +20,31 @@ let doc = docs[0];
 /** Whether a slider or a node is being moved. */
 let isDragging = false;
 
+/** A step of the history: a state as it differs from the one that came of it. Of its text only what differs is kept, so that a thousand steps of a long text are small. */
+function stepFrom(before, after) {
+  const [a, b] = [before.toml, after.toml];
+  const most = Math.min(a.length, b.length);
+  let head = 0;
+  while (head < most && a[head] === b[head]) head += 1;
+  let tail = 0;
+  while (tail < most - head && a[a.length - 1 - tail] === b[b.length - 1 - tail]) tail += 1;
+  // A copy: a browser keeps the whole of a text of which a part is kept.
+  return { ...before, toml: structuredClone(a.slice(head, a.length - tail)), head, tail };
+}
+
+/** The state of a step, from the one that came of it. */
+function stateOf({ head, tail, ...state }, after) {
+  return { ...state, toml: after.toml.slice(0, head) + state.toml + after.toml.slice(after.toml.length - tail) };
+}
+
+/** Takes another state of a design, with a step of its history. */
+function changeTo(one, after) {
+  one.past.push(stepFrom(one.now, after));
+  if (one.past.length > MOST_PAST) one.past.shift();
+  one.future.length = 0;
+  one.now = after;
+}
+
 /** Requests in their order, each made when its turn comes; of drafts only the newest is kept. */
 const queue = [];
 let running = false;
@@ -66,12 +91,7 @@ function commit(changes, more = {}, why = null) {
   ask(() => (of === doc ? whole({ changes, ...more }) : { task: "text" }), (answer, since) => {
     if (of !== doc) return settle();
     const after = { ...doc.now, ...more, toml: answer.toml ?? doc.now.toml };
-    if (JSON.stringify(after) !== JSON.stringify(doc.now)) {
-      doc.past.push(doc.now);
-      if (doc.past.length > MOST_PAST) doc.past.shift();
-      doc.future.length = 0;
-    }
-    doc.now = after;
+    if (JSON.stringify(after) !== JSON.stringify(doc.now)) changeTo(doc, after);
     proved(answer, since, why);
   });
 }
@@ -81,8 +101,9 @@ function travel(from, to) {
   say("working");
   ask(() => {
     if (doc[from].length) {
-      doc[to].push(doc.now);
-      doc.now = doc[from].pop();
+      const other = stateOf(doc[from].pop(), doc.now);
+      doc[to].push(stepFrom(doc.now, other));
+      doc.now = other;
     }
     return whole({});
   }, proved);
@@ -264,9 +285,9 @@ function solidAnew() {
 /** The checks, each with what would let it pass; where only figures differ, only these are written. */
 let verdictOf = "";
 function verdict(answer) {
-  const judged = JSON.stringify([cams.map(({ title, passed, checks }) => [cams.length > 1 ? title : "", passed, checks.map(({ check, verdict: of, place }) => [check, of, Boolean(place)])]), answer.passed, answer.remedies, language]);
+  const judged = JSON.stringify([cams.map(({ title, passed, checks }) => [cams.length > 1 ? title : "", passed, checks.map(({ check, verdict: of, place }) => [check, of, Boolean(place)])]), answer.passed, answer.remedies, answer.others, language]);
   if (judged === verdictOf && cams.length === 1) {
-    const rows = byId("verdict").querySelectorAll("tbody tr");
+    const rows = byId("verdict").querySelectorAll("tbody tr:not(.other tr)");
     const checks = [true, false].flatMap((wanted) => cams[0].checks.filter((check) => isBad(check) === wanted));
     checks.forEach((check, index) => {
       const [, , value, limit, place, note] = rows[index].children;
@@ -285,12 +306,31 @@ function verdict(answer) {
   const wasOpen = byId("verdict").querySelector("details")?.open;
   byId("verdict").replaceChildren(verdicts());
   if (wasOpen) byId("verdict").querySelector("details").open = true;
-  // The checks that are shown are those of the first of two cams on one shaft.
-  if (!answer.passed && cams[0].passed) byId("verdict").querySelector(".banner").append(make("strong", { className: "broken", role: "alert" }, text("otherFails")));
-  for (const row of byId("verdict").querySelectorAll("tbody tr")) {
+  withRemedies(byId("verdict"), answer.remedies);
+  otherVerdicts(answer.others ?? []);
+}
+
+/** Buttons in the notes of checks that know what would let them pass. */
+function withRemedies(area, remedies = {}) {
+  for (const row of area.querySelectorAll("tbody tr")) {
     const name = row.firstElementChild.textContent.replace(/ /g, "_");
-    const buttons = remedyButtons(answer.remedies?.[name] ?? []);
-    row.querySelector(".note")?.append(...buttons.flatMap((button) => [make("br"), button]));
+    row.querySelector(".note")?.append(...remedyButtons(remedies[name] ?? []).flatMap((button) => [make("br"), button]));
+  }
+}
+
+/** The checks that are shown are those of the first of two discs on one shaft; below them those that the other one fails, with its name. */
+function otherVerdicts(others) {
+  for (const { name, passed, checks, remedies } of others) {
+    if (passed) continue;
+    const broken = text("otherFails", { name, checks: checks.map(({ check }) => words(check)).join(", ") });
+    const banner = byId("verdict").querySelector(".banner");
+    banner.firstElementChild.replaceWith(badge("fail"));
+    banner.append(make("strong", { className: "broken", role: "alert" }, broken));
+    const box = make("div", { className: "other", "data-disc": name }, make("h3", {}, text("otherChecks", { name })), checksOf(checks));
+    withRemedies(box, remedies);
+    const all = byId("verdict").querySelector("details");
+    all.firstElementChild.after(box);
+    all.open = true;
   }
 }
 

@@ -14,9 +14,6 @@ function mechanism(cam, index) {
   let picture = null;
   let [width, height] = [0, 0];
   let pixel = 1;
-  const put = (element, name, value) => {
-    if (element.getAttribute(name) !== value) element.setAttribute(name, value);
-  };
 
   /** The parts of a view in the place of those before; only what differs is changed. */
   function build(view) {
@@ -38,12 +35,12 @@ function mechanism(cam, index) {
     view.parts.forEach((part, at) => {
       const one = moving[at];
       one.part = part;
-      one.range = Array.isArray(part.pressure) ? [Math.min(...part.pressure), Math.max(...part.pressure)] : null;
+      one.range = pressuresOf(part);
       put(one.path, "d", part.path);
     });
     fit(view.box);
     put(svg, "aria-label", `Mechanism of ${cam.title}`);
-    const words = [letter(index) && `${letter(index)}: ${cam.title}.`, ...cam.pictureNotes].filter(Boolean).join(" ");
+    const words = captionOf(cam, index);
     if (caption.textContent !== words) caption.textContent = words;
   }
 
@@ -64,7 +61,7 @@ function mechanism(cam, index) {
     const [, , wide, high] = shownView.box;
     if (picture && Math.max(picture[2] / wide, picture[3] / high) > ROOM && Math.min(picture[2] / wide, picture[3] / high) > 1.02) picture = null;
     if (!picture) fit(shownView.box);
-    measure();
+    measureNames(moving);
     draw();
   }
 
@@ -76,51 +73,19 @@ function mechanism(cam, index) {
     if (svg.style.getPropertyValue("--scale") !== size) svg.style.setProperty("--scale", size);
   }
 
-  function measure() {
-    for (const one of moving) if (one.name) one.room = one.name.getBBox().width / 2;
-  }
-
-  /** Of names that would overlap or touch the first is kept. */
-  function unravel() {
-    const kept = [];
-    for (const { name } of moving) {
-      if (!name) continue;
-      const own = name.getBBox();
-      const gap = 5 * pixel;
-      const over = (other) => own.x < other.x + other.width + gap && other.x < own.x + own.width + gap && own.y < other.y + other.height && other.y < own.y + own.height;
-      const hidden = kept.some(over);
-      name.style.visibility = hidden ? "hidden" : "";
-      if (!hidden) kept.push(own);
-    }
-  }
-
   /** Every part at its place; names are kept apart where there is time for it. */
   function draw(isQuick = state.playing) {
     const view = viewOf(cam);
     if (view !== shownView) build(view);
-    const sample = locate(view.turn, turnOf(view));
-    const of = (track) => (Array.isArray(track) ? between(track, sample) : track);
-    const [left, , wide] = picture;
-    if (isPrinting()) measure();
-    for (const { part, group, name, range, room } of moving) {
-      const [x, y] = [of(part.x), -of(part.y)];
-      put(group, "transform", `translate(${x} ${y}) rotate(${-of(part.turn)}) scale(${of(part.stretch)} ${of(part.height ?? 1)})`);
-      if (name) {
-        // A name at the edge is not cut.
-        put(name, "x", String(Math.max(left + room, Math.min(left + wide - room, x + part.name[1]))));
-        put(name, "y", String(y + part.name[2]));
-      }
-      // Pale at ambient pressure, deep at the largest.
-      if (range) group.style.fillOpacity = 0.1 + 0.75 * ((of(part.pressure) - range[0]) / (range[1] - range[0] || 1));
-    }
-    if (!isQuick) unravel();
+    placeParts(moving, view, picture);
+    if (!isQuick) unravel(moving, pixel);
   }
 
   new ResizeObserver(([{ contentRect }]) => {
     [width, height] = [contentRect.width, contentRect.height];
     if (!shownView) return;
     scale();
-    measure();
+    measureNames(moving);
     draw();
   }).observe(svg);
   return { figure, draw, rest };

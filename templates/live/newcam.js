@@ -1,4 +1,4 @@
-// A new cam by a few numbers: follower and body by pictures, a rise, a dwell and a return, and what limits it.
+// A new cam by a few numbers: follower and body by pictures, its motion as far as the body leaves it free, and what limits it.
 
 /** Followers: the keys of their tables, what their travel is measured in, and a picture. */
 const FOLLOWERS = {
@@ -8,32 +8,67 @@ const FOLLOWERS = {
   "swinging-flat": { keys: ['pivot_distance = "200 mm"'], unit: "deg", picture: "M8 18L52 24M5 22L8 18L11 22ZM12 42a22 16 0 0 1 40 0" },
   knife: { keys: [], unit: "mm", picture: "M30 4V18M25 18H35L30 28ZM10 44a22 16 0 0 1 40 0" },
 };
-/** Bodies: the followers that they have, their keys, whether a roller runs inside so that they have no bore, and a picture. */
+/** What the motion of a body is given by: a rise, a dwell and a return in a turn; others below. */
+const IN_A_TURN = ["rise", "riseOver", "dwellOver", "returnOver", "rpm"];
+/** Bodies: the followers that they have, their keys, whether they have no bore, the numbers of their motion where these are others, and a picture. */
 const BODIES = {
   disc: { of: ["roller", "swinging-roller", "flat", "swinging-flat", "knife"], keys: ['base_radius = "auto"', 'thickness = "15 mm"'], picture: "M30 2C46 2 54 14 50 26C46 38 38 42 30 42C18 42 12 34 12 24C12 12 18 2 30 2ZM30 20a5 5 0 1 0 .01 0" },
   ring: { of: ["roller", "swinging-roller"], keys: ['base_radius = "auto"', 'thickness = "15 mm"'], open: true, picture: "M30 1a21 21 0 1 0 .01 0M30 8C40 8 46 14 44 24C42 34 38 36 30 36C20 36 16 30 16 22C16 14 22 8 30 8ZM30 28a4 4 0 1 0 .01 0" },
   groove: { of: ["roller", "swinging-roller"], keys: ['base_radius = "auto"', 'thickness = "24 mm"', 'groove_depth = "14 mm"', 'clearance = "0.04 mm"'], picture: "M30 1a21 21 0 1 0 .01 0M30 5C42 5 48 14 46 24C44 34 38 39 30 39C20 39 14 32 14 22C14 12 20 5 30 5ZM30 12C36 12 41 17 39 24C37 30 36 32 30 32C24 32 21 28 21 22C21 16 24 12 30 12Z" },
   conjugate: { of: ["roller", "swinging-roller"], keys: ['base_radius = "auto"', 'thickness = "15 mm"'], counter: true, picture: "M24 6C38 6 46 14 42 26C38 36 32 40 24 40C14 40 8 32 8 24C8 12 14 6 24 6ZM36 8C48 8 54 18 52 26C50 36 44 40 36 40" },
   rib: { of: ["roller", "swinging-roller"], keys: ['base_radius = "auto"', 'thickness = "24 mm"', 'roller_distance = "34 mm"'], open: true, picture: "M30 4C44 4 50 14 47 25C44 36 38 40 30 40C19 40 13 32 13 23C13 12 19 4 30 4ZM30 8C41 8 46 15 43 24C41 33 36 36 30 36C22 36 17 30 17 23C17 14 22 8 30 8ZM52 10a5 5 0 1 0 .01 0M36 14a4 4 0 1 0 .01 0" },
-  barrel: { of: ["roller"], keys: ['outer_radius = "65 mm"', 'groove_depth = "12 mm"', 'roller_height = "11 mm"', 'clearance = "0.03 mm"'], picture: "M10 8H50V38H10ZM4 20H10V26H4ZM50 20H56V26H50ZM18 8C22 20 38 24 40 38M24 8C28 20 44 22 46 34" },
+  yoke: { of: ["roller", "flat"], keys: ['base_radius = "auto"', 'thickness = "15 mm"'], numbers: ["rise", "riseOver", "rpm"], most: 180, picture: "M8 5H52V41H8ZM30 5C41 5 45 14 43 24C41 34 38 41 30 41C20 41 16 34 17 24C18 14 20 5 30 5ZM30 20a4 4 0 1 0 .01 0" },
+  wedge: { of: ["roller", "knife"], keys: ['run_in = "25 mm"', 'thickness = "16 mm"'], open: true, along: "mm", numbers: ["rise", "riseOver", "dwellOver", "returnOver"], most: Infinity, picture: "M4 42V37C24 37 26 30 34 25C40 21 44 20 56 20V42ZM13 22a7 7 0 1 0 .01 0M13 4V22M9 10H17M36 10H52M47 5L52 10L47 15" },
+  barrel: { of: ["roller", "swinging-roller"], keys: ['outer_radius = "auto"', 'groove_depth = "12 mm"', 'roller_height = "11 mm"', 'clearance = "0.03 mm"'], picture: "M10 8H50V38H10ZM4 20H10V26H4ZM50 20H56V26H50ZM18 8C22 20 38 24 40 38M24 8C28 20 44 22 46 34" },
+  globoid: { of: ["roller"], keys: ['rests_on = "rib"', 'groove_depth = "17 mm"', 'roller_height = "16 mm"', 'clearance = "0.02 mm"'], numbers: ["stations", "riseOver", "rpm"], picture: "M4 4H26C19 16 19 30 26 42H4C10 30 10 16 4 4ZM9 15L20 20M9 25L20 30M56 4A20 20 0 0 0 56 42M36 23H26M40 12L31 7M40 34L31 39M52 23a3 3 0 1 0 .01 0" },
 };
 /** Keys of the limits that can be given at once, with an example. */
 const NEW_LIMITS = [["pressure_angle", "30 deg"], ["min_convex_radius", "5 mm"], ["size", "200 mm"], ["wall", "8 mm"], ["contact_stress", "1200 MPa"]];
-const NEW_NUMBERS = [["rise", 30], ["riseOver", 120], ["dwellOver", 60], ["returnOver", 100], ["rpm", 250]];
+const NEW_NUMBERS = [["stations", 8], ["rise", 30], ["riseOver", 120], ["dwellOver", 60], ["returnOver", 100], ["rpm", 250]];
+/** Arms of followers, mm; that of a flat one reaches to the camshaft. */
+const ARMS = { "swinging-roller": 110, "swinging-flat": 200 };
 
-/** The text of a machine file for a rise, a dwell and a return. */
-function textOfNew({ follower, body, law, rise, riseOver, dwellOver, returnOver, rpm, limits }) {
-  const { keys, unit } = FOLLOWERS[follower];
+/** The turret of an indexer with so many stations: rollers 55 mm or more from each other, and so far from the cam that its pressure angle is below 43° at the inner ends of the rollers. */
+function turretOf({ stations, riseOver, law }) {
+  const arm = Math.max(50, Math.round((55 * stations) / (2 * Math.PI)));
+  const velocity = keyTable.laws.find(({ name }) => name === law).peaks[0];
+  const inner = arm + 8;
+  const distance = inner + inner * velocity * (360 / stations / riseOver) / Math.tan((43 * Math.PI) / 180);
+  return [`rollers = ${stations}`, `arm = "${arm} mm"`, `turret_distance = "${Math.ceil(Math.max(arm + 50, distance))} mm"`];
+}
+
+/** The tables of the motion: of a yoke the first half turn, of an indexer one station, of a wedge its travel out. */
+function motionOfNew({ body, law, rise, riseOver, dwellOver, returnOver, rpm }, unit, top) {
+  const { along = "deg", numbers = IN_A_TURN } = BODIES[body];
+  const segment = (name, over, to) => `[[motion.segment]]\nlaw = "${name}"\n${over === null ? "" : `over = "${over} ${along}"\n`}${to === null ? "" : `to = "${to} ${unit}"\n`}`;
+  const rest = (comment) => `${segment("dwell", null, null).trimEnd()}  # the rest of ${comment}\n`;
+  const returns = numbers.includes("returnOver");
+  const head = along === "mm" ? `stroke = "${riseOver + dwellOver + returnOver} mm"` : `rpm = ${rpm}`;
+  const first = segment(law, riseOver, top);
+  const segments = !returns ? [first, riseOver < (body === "yoke" ? 180 : 360) ? rest(body === "yoke" ? "the half turn" : "the turn") : null] : [
+    first, dwellOver > 0 ? segment("dwell", dwellOver, null) : null, returnOver > 0 ? segment(law, returnOver, 0) : null,
+    along === "deg" && riseOver + dwellOver + returnOver < 360 ? rest("the turn") : null,
+  ];
+  return [`[motion]\n${head}\nstart = "0 ${unit}"\n`, ...segments.filter(Boolean)];
+}
+
+/** The text of a machine file for what the form says. */
+function textOfNew(asked) {
+  const { follower, body, rise, stations, limits } = asked;
+  const isTurret = body === "globoid";
   const own = BODIES[body];
-  const segment = (name, over, to) => `[[motion.segment]]\nlaw = "${name}"\n${over === null ? "" : `over = "${over} deg"\n`}${to === null ? "" : `to = "${to} ${unit}"\n`}`;
-  // An arm swings by the angle whose arc is the rise; of a flat arm that at the camshaft.
-  const arm = { "swinging-roller": 110, "swinging-flat": 200 }[follower];
-  const top = arm ? Number(((rise / arm) * (180 / Math.PI)).toFixed(3)) : rise;
-  const segments = [segment(law, riseOver, top), dwellOver > 0 ? segment("dwell", dwellOver, null) : null, segment(law, returnOver, 0), riseOver + dwellOver + returnOver < 360 ? `${segment("dwell", null, null).trimEnd()}  # the rest of the turn\n` : null];
+  const unit = isTurret ? "deg" : FOLLOWERS[follower].unit;
+  // An arm swings by the angle whose arc is the rise; a turret to its next station.
+  const arm = ARMS[follower];
+  const swing = isTurret ? 360 / stations : (rise / arm) * (180 / Math.PI);
+  const top = arm || isTurret ? Number(swing.toFixed(isTurret ? 12 : 3)) : rise;
+  // The arm of a barrel's roller has its pivot where the roller stays near the middle of the cylinder.
+  const keys = FOLLOWERS[follower].keys.map((key) => (body === "barrel" ? key.replace(/pivot_distance.*/, `pivot_distance = "${arm} mm"`) : key));
+  const keysOfCam = [...own.keys, ...(isTurret ? turretOf(asked) : []), ...(own.open ? [] : ['bore_radius = "10 mm"']), 'material = "steel"'];
   const tables = [
-    `[motion]\nrpm = ${rpm}\nstart = "0 ${unit}"\n`, ...segments.filter(Boolean),
+    ...motionOfNew(asked, unit, top),
     `[follower.${follower}]\n${keys.map((key) => `${key}\n`).join("")}`,
-    `[cam]\nbody = "${body}"\n${[...own.keys, ...(own.open ? [] : ['bore_radius = "10 mm"']), 'material = "steel"'].map((key) => `${key}\n`).join("")}`,
+    `[cam]\nbody = "${body}"\n${keysOfCam.map((key) => `${key}\n`).join("")}`,
     own.counter ? '[cam.counter]\nradius = "12 mm"\n' : null,
     `[limits]\n${limits.map(([key, value]) => `${key} = "${value}"\n`).join("")}`,
   ];
@@ -55,7 +90,7 @@ let formsOf = "";
 
 function newCam() {
   formsOf = language;
-  const number = ([id, value]) => make("label", {}, `${text(id)} `, make("input", { id: `new-${id}`, type: "text", inputMode: "decimal", value: String(value), size: 6, required: true }));
+  const number = ([id, value]) => make("label", {}, make("span"), " ", make("input", { id: `new-${id}`, type: "text", inputMode: "decimal", value: String(value), size: 6, required: true }));
   const limit = ([key, example]) => make("label", { title: aboutOf("limits", key) }, `${text(`limit_${key}`)} `, make("input", { id: `new-limit-${key}`, type: "text", placeholder: example, size: 9 }));
   const laws = make("select", { id: "new-law" }, ...keyTable.laws.map(({ name }) => make("option", { value: name }, name)));
   laws.value = "modified-sine";
@@ -75,12 +110,13 @@ function newCam() {
     openDesign({ name: "new-cam", toml: textOfNew(asked), command: "make", commands: ["make"] });
   });
   byId("new").replaceChildren(form_);
+  fitBodies(form_);
 }
 
 /** What a key of a table means. */
 const aboutOf = (path, name) => keyTable.sections.find((section) => section.path === path)?.keys.find((key) => key.name === name)?.about ?? "";
 
-/** Only bodies that the follower has can be chosen. */
+/** Only bodies that the follower has can be chosen, and only the numbers of the body's motion are asked for. */
 function fitBodies(form_) {
   const follower = new FormData(form_).get("new-follower");
   for (const [name, { of }] of Object.entries(BODIES)) {
@@ -88,18 +124,28 @@ function fitBodies(form_) {
     input.disabled = !of.includes(follower);
     if (input.disabled && input.checked) byId("new-body-disc").checked = true;
   }
+  const { along = "deg", numbers = IN_A_TURN } = BODIES[new FormData(form_).get("new-body")];
+  for (const [id] of NEW_NUMBERS) {
+    const label = byId(`new-${id}`).parentElement;
+    label.hidden = !numbers.includes(id);
+    label.firstElementChild.textContent = text(id === "riseOver" && numbers.includes("stations") ? "stepOver" : id, { along: text(along) });
+  }
 }
 
 /** What the form says, or what is wrong with it. */
 function askedOf(form_) {
   const data = new FormData(form_);
   const asked = { follower: data.get("new-follower"), body: data.get("new-body"), law: byId("new-law").value };
-  for (const [id] of NEW_NUMBERS) {
+  const { along, numbers = IN_A_TURN, most = 360 } = BODIES[asked.body];
+  // A plate need not return within its travel out.
+  const mayBeNone = ["dwellOver", ...(along ? ["returnOver"] : [])];
+  for (const id of numbers) {
     asked[id] = Number(byId(`new-${id}`).value.trim().replace(",", ".") || NaN);
-    if (!(asked[id] > 0 || (id === "dwellOver" && asked[id] === 0))) return { fault: text("notNumber", { name: text(id) }) };
+    if (!(asked[id] > 0 || (mayBeNone.includes(id) && asked[id] === 0))) return { fault: text("notNumber", { name: byId(`new-${id}`).previousElementSibling.textContent }) };
   }
-  const sum = asked.riseOver + asked.dwellOver + asked.returnOver;
-  if (sum > 360) return { fault: text("overTurn", { sum: shown(sum) }) };
+  if (numbers.includes("stations") && !(Number.isInteger(asked.stations) && asked.stations >= 4 && asked.stations <= 60)) return { fault: text("notStations") };
+  const sum = asked.riseOver + (asked.dwellOver ?? 0) + (asked.returnOver ?? 0);
+  if (sum > most) return { fault: text(numbers === IN_A_TURN ? "overTurn" : "overPart", { sum: shown(sum), most }) };
   asked.limits = NEW_LIMITS.map(([key]) => [key, byId(`new-limit-${key}`).value.trim().replace(/"/g, "")]).filter(([, value]) => value);
   return asked;
 }

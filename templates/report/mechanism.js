@@ -26,12 +26,10 @@ function mechanism(cam, index) {
         name.textContent = part.name[0];
         names.push(name);
       }
-      const range = Array.isArray(part.pressure) ? [Math.min(...part.pressure), Math.max(...part.pressure)] : null;
-      moving.push({ part, group, name, range, room: 0 });
+      moving.push({ part, group, name, range: pressuresOf(part), room: 0 });
     }
     svg.append(...names);
-    const words = [letter(index) && `${letter(index)}: ${cam.title}.`, ...cam.pictureNotes].filter(Boolean);
-    caption.textContent = words.join(" ");
+    caption.textContent = captionOf(cam, index);
     requestAnimationFrame(scale);
   }
 
@@ -41,44 +39,15 @@ function mechanism(cam, index) {
     const box = svg.getBoundingClientRect();
     pixel = box.width > 0 ? Math.max(width / box.width, height / box.height) : width / 1000;
     svg.style.setProperty("--scale", pixel);
-    for (const one of moving) if (one.name) one.room = one.name.getBBox().width / 2;
+    measureNames(moving);
     draw();
-  }
-
-  /** Of names that would overlap or touch the first is kept. */
-  function unravel() {
-    const kept = [];
-    for (const { name } of moving) {
-      if (!name) continue;
-      const own = name.getBBox();
-      const gap = 5 * pixel;
-      const over = (other) => own.x < other.x + other.width + gap && other.x < own.x + own.width + gap && own.y < other.y + other.height && other.y < own.y + own.height;
-      const hidden = kept.some(over);
-      name.style.visibility = hidden ? "hidden" : "";
-      if (!hidden) kept.push(own);
-    }
   }
 
   function draw() {
     const view = viewOf(cam);
     if (view !== shownView) build(view);
-    const sample = locate(view.turn, turnOf(view));
-    const of = (track) => (Array.isArray(track) ? between(track, sample) : track);
-    const [left, , wide] = view.box;
-    // Names are larger on paper.
-    if ("printing" in document.documentElement.dataset) for (const one of moving) if (one.name) one.room = one.name.getBBox().width / 2;
-    for (const { part, group, name, range, room } of moving) {
-      const [x, y] = [of(part.x), -of(part.y)];
-      group.setAttribute("transform", `translate(${x} ${y}) rotate(${-of(part.turn)}) scale(${of(part.stretch)} ${of(part.height ?? 1)})`);
-      if (name) {
-        // A name at the edge is not cut.
-        name.setAttribute("x", Math.max(left + room, Math.min(left + wide - room, x + part.name[1])));
-        name.setAttribute("y", y + part.name[2]);
-      }
-      // Pale at ambient pressure, deep at the largest.
-      if (range) group.style.fillOpacity = 0.1 + 0.75 * ((of(part.pressure) - range[0]) / (range[1] - range[0] || 1));
-    }
-    if (!state.playing) unravel();
+    placeParts(moving, view, view.box);
+    if (!state.playing) unravel(moving, pixel);
   }
 
   new ResizeObserver(() => shownView && scale()).observe(svg);

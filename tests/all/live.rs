@@ -206,3 +206,22 @@ fn serve_prints_its_address_and_ends() {
     let missing = camgen_in(same.directory, &["serve", "missing.toml", "--for", "0"]);
     assert_eq!(missing.code, 2, "{}", missing.out);
 }
+
+#[test]
+fn a_disc_that_fails_is_named() {
+    let toml = toml("conjugate").replace("radius = \"18 mm\"", "radius = \"45 mm\"");
+    let request = EngineRequest { name: "own".into(), toml: toml.clone(), page: Some(24), ..EngineRequest::default() };
+    let answer = engine::answer(&request).found;
+    assert_eq!((&answer["passed"], &answer["cam"]["passed"]), (&false.into(), &true.into()));
+    let [counter] = answer["others"].as_array().expect("a list").as_slice() else { panic!("{}", answer["others"]) };
+    let failed: Vec<&str> =
+        counter["checks"].as_array().expect("a list").iter().filter_map(|check| check["check"].as_str()).collect();
+    assert_eq!((&counter["name"], failed.is_empty()), (&"counter".into(), false));
+    let directory = tempfile::tempdir().expect("a directory");
+    fs::write(directory.path().join("own.toml"), toml).expect("written");
+    let run = camgen_in(directory, &["make", "own.toml", "--quiet"]);
+    assert_eq!(run.code, 1, "{}", run.err);
+    for check in failed {
+        assert!(run.err.contains(&format!("the counter disc fails {check}: ")), "{}", run.err);
+    }
+}

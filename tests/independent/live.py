@@ -13,6 +13,7 @@ import argparse
 import json
 import random
 import re
+import shutil
 import subprocess
 import sys
 import time
@@ -31,6 +32,8 @@ DESIGNS = {
     "dpi-six-bar": ["rotary", "conoid"],
     "dpi-shaft": ["rotary", "conoid", "translating"],
 }
+# Of this one the contact stress is above the customary limit as it is.
+FAILING = ("dpi-crank-slider", "conoid")
 LARGEST = 3_000_000
 FORMATS = ("dxf", "svg", "step", "csv", "json")
 # The outside of a hollow cam cannot be developed.
@@ -151,6 +154,8 @@ def same_files(live, binary, directory, command, name):
     """What the page gives is what the command line writes for the same text."""
     (directory / f"{name}.toml").write_text(live.toml())
     out = directory / f"{name}-{command}-files"
+    # The names of files have the speed in them, which may have been another one before.
+    shutil.rmtree(out, ignore_errors=True)
     formats = [kind for kind in FORMATS if kind not in WITHOUT.get(name, ())]
     # The sheet of a conoid also shows its flank where the STEP file, which needs it, is made with it.
     for kinds in [[kind] for kind in formats] if command == "conoid" else [formats]:
@@ -238,6 +243,24 @@ def memory(live):
     return int(heap), live.page.evaluate("Number(document.documentElement.dataset.engineMemory)")
 
 
+def warmed(live):
+    """Some changes and back again."""
+    for key, low, high in live.sliders()[:3]:
+        live.slide(key, low + (high - low) / 3)
+        live.after(lambda: live.page.click("#undo"))
+
+
+def second_disc(live):
+    """A check that only the counter disc fails is shown with the name of that disc."""
+    live.type("cam.counter.radius", "45 mm")
+    assert not live.refused(), live.page.inner_text("#faults")
+    broken = live.page.inner_text("#verdict .banner")
+    assert "FAIL" in broken and "counter" in broken, broken
+    assert live.page.locator(".other[data-disc=counter] tbody tr.fail").count(), live.page.inner_text("#verdict")[:400]
+    live.after(lambda: live.page.click("#undo"))
+    assert not live.page.locator(".other").count() and not live.page.is_visible(".broken")
+
+
 def edited(live):
     """The motion editor: a node by the keyboard and by hand, a dwell, a law, a removal; each changes the text as it should."""
     live.page.locator(".node").first.focus()
@@ -274,7 +297,7 @@ def edited(live):
 
 
 def measured(live, binary, directory):
-    """A table over the lift: the largest difference and its place, to a micrometre; one that is no table is told, and one is taken away."""
+    """A table over the lift: the largest difference and its place, to a micrometre; what is no table is named, and one is taken away."""
     (directory / "measured.toml").write_text(live.toml())
     made = run(binary, directory, "make", "measured.toml", "--format", "csv", "--samples", "97", "--name", "measured", "--out", ".", "--overwrite", "--quiet")
     assert made.returncode == 0, made.stderr
@@ -381,6 +404,61 @@ def designed(browser, address, binary, directory, allowed="file:"):
     return acts, time.time() - begun
 
 
+# Numbers of the form for a new cam beside those that it begins with, by body.
+NUMBERS = {
+    "yoke": [{"riseOver": 180}], "wedge": [{"returnOver": 0}, {"dwellOver": 0, "riseOver": 110.5}],
+    "globoid": [{"stations": 4, "riseOver": 200}, {"stations": 6, "riseOver": 200}, {"stations": 24, "riseOver": 90}],
+}
+# What the form refuses, with what it says.
+WRONG = [("yoke", {"riseOver": 181}, "180"), ("globoid", {"stations": 2.5}, "4 to 60"), ("disc", {"returnOver": 200}, "380"), ("wedge", {"rise": 0}, "above 0")]
+
+
+def begun(browser, address, binary, directory, allowed="file:"):
+    """Every follower with every body that the form has for it: each begins a cam that passes its checks, for the command line too."""
+    live = Live(browser, address, allowed)
+    filled, count = {"stations": 8, "rise": 30, "riseOver": 120, "dwellOver": 60, "returnOver": 100}, 0
+
+    def asked(body, numbers, follower=None):
+        if not live.page.is_visible("#gallery"):
+            live.click("#designs")
+        live.until("document.getElementById('new-make') !== null")
+        if follower:
+            live.page.check(f"#new-follower-{follower}")
+        live.page.check(f"#new-body-{body}")
+        for name, value in {**filled, **numbers}.items():
+            if live.page.is_visible(f"#new-{name}"):
+                live.page.fill(f"#new-{name}", str(value))
+
+    def made(body, numbers, follower):
+        asked(body, numbers, follower)
+        live.after(lambda: live.page.click("#new-make"))
+        what = f"{follower}, {body}, {numbers}"
+        assert not live.refused(), (what, live.page.inner_text("#faults"), live.toml())
+        assert not live.page.is_visible(".broken"), (what, live.page.inner_text("#verdict")[:600], live.toml())
+        (directory / "begun.toml").write_text(live.toml())
+        same = run(binary, directory, "make", "begun.toml", "--format", "csv", "--out", "begun", "--overwrite", "--quiet")
+        assert same.returncode == 0, (what, same.stderr, live.toml())
+
+    asked("disc", {})
+    bodies = set()
+    for follower in live.page.evaluate("[...document.querySelectorAll('[name=new-follower]')].map((e) => e.value)"):
+        asked("disc", {}, follower)
+        of = live.page.evaluate("[...document.querySelectorAll('[name=new-body]:enabled')].map((e) => e.value)")
+        for body in of:
+            for numbers in [{}, *(NUMBERS.get(body, []) if follower in ("roller", "knife") else [])]:
+                made(body, numbers, follower)
+                count += 1
+        bodies.update(of)
+    assert bodies == {"disc", "ring", "groove", "conjugate", "rib", "yoke", "wedge", "barrel", "globoid"}, bodies
+    for body, numbers, words in WRONG:
+        asked(body, numbers, "roller")
+        live.page.click("#new-make")
+        said = live.page.inner_text("#new-fault")
+        assert live.page.is_visible("#new-fault") and words in said, (body, numbers, said)
+    live.close()
+    return count
+
+
 class Serving:
     """A running `camgen serve` with its address."""
 
@@ -413,7 +491,7 @@ def served(browser, binary, directory):
         assert {file.name for file in (directory / "served-files").glob("served.*")} == {"served.dxf", "served.svg", "served.step", "served.csv"}
         live.after(lambda: path.write_text(path.read_text().replace('"17 mm"', '"18 mm"')))
         assert '"18 mm"' in live.toml()
-        # A text that is wrong is told, with the last cam in grey, and a right one is shown again.
+        # A text that is wrong is named, with the last cam in grey, and a right one is shown again.
         live.after(lambda: path.write_text(text.replace('"15 mm"', '"wide"')))
         assert live.refused()
         live.after(lambda: path.write_text(text))
@@ -494,7 +572,7 @@ def judge(browser, options, directory, name, command, generator):
     (directory / f"{name}.toml").write_text(text)
     for old in directory.glob(f"{name}*.html"):
         old.unlink()
-    made = run(binary, directory, command, f"{name}.toml", "--format", "html", "--live", "--name", name, "--out", ".", "--overwrite", "--quiet")
+    made = run(binary, directory, command, f"{name}.toml", "--format", "html", "--live", "--name", name, "--out", ".", "--overwrite", "--quiet", "--force")
     assert made.returncode == 0, made.stderr
     path = page_of(directory, name)
     size = path.stat().st_size
@@ -503,13 +581,18 @@ def judge(browser, options, directory, name, command, generator):
     sent = live.toml()
     assert sent == text, f"{name}: another text than the file"
     first = same_files(live, binary, directory, command, name)
-    assert first == "passed", first
+    assert first == ("failed" if (name, command) == FAILING else "passed"), first
     begin = memory(live)
+    # What the page keeps of the last cam is there after the first change.
+    warmed(live)
+    warm = memory(live)
     found = moves(live, binary, directory, command, name, options.moves, options.checked_every, generator)
     end = memory(live)
     undone(live, sent)
     named(live)
     extra = ""
+    if name == "conjugate":
+        second_disc(live)
     if name == "feeder":
         extra = f", a remedy {'clicked' if remedied(live) else 'not needed'}"
         undone(live, sent)
@@ -523,7 +606,7 @@ def judge(browser, options, directory, name, command, generator):
     rate, answers, proof = frames(live)
     live.close()
     return (f"{name}: {size // 1000} kB, live after {live.start:.2f} s, proof at rest {proof} ms, {rate:.0f} frames and {answers:.0f} cams a second while a slider moves, {options.moves} moves {found}, "
-            f"memory {begin[0] / 1e6:.1f}+{begin[1] / 1e6:.1f} MB to {end[0] / 1e6:.1f}+{end[1] / 1e6:.1f} MB{extra}")
+            f"memory {begin[0] / 1e6:.1f}+{begin[1] / 1e6:.1f} MB to {end[0] / 1e6:.1f}+{end[1] / 1e6:.1f} MB, the heap of the page {(end[0] - warm[0]) / 1e3 / max(1, options.moves):.1f} kB a move{extra}")
 
 
 def main():
@@ -550,6 +633,7 @@ def main():
             print("live:", judge(browser, options, directory, name.split(":")[0], known[name], generator), flush=True)
         tabled(browser, options.binary, directory)
         acts, seconds = designed(browser, page_of(directory, names[0].split(":")[0]).as_uri(), options.binary, directory)
+        print(f"live: {begun(browser, page_of(directory, names[0].split(':')[0]).as_uri(), options.binary, directory)} new cams of every follower and body pass at once", flush=True)
         print("live: served,", served(browser, options.binary, directory), flush=True)
         print(f"live: the packaging designer is done after {acts} clicks and {seconds:.0f} s", flush=True)
         browser.close()

@@ -205,23 +205,23 @@ def works(program, binary, directory):
     # A change keeps the comments, and is written over the text that the page has seen alone.
     changed = program.engine(task="text", toml=text, changes=[{"set": {"key": "cam.thickness", "to": "17 mm"}}])["toml"]
     assert changed == text.replace('thickness = "15 mm"', 'thickness = "17 mm"') != text
-    told = lambda path, **body: json.loads(program.ask("POST", path, json.dumps(body).encode())[1])
-    assert "changed by another program" in told("/save", design=0, toml=changed, before="something else")["faults"][0]["message"]
-    assert "not TOML" in told("/save", design=0, toml="name = ", before=text)["faults"][0]["message"]
+    posted = lambda path, **body: json.loads(program.ask("POST", path, json.dumps(body).encode())[1])
+    assert "changed by another program" in posted("/save", design=0, toml=changed, before="something else")["faults"][0]["message"]
+    assert "not TOML" in posted("/save", design=0, toml="name = ", before=text)["faults"][0]["message"]
     assert path.read_text() == text
-    assert "written" in told("/save", design=0, toml=changed, before=text) and path.read_text() == changed
-    assert told("/files")["designs"][0]["toml"] == changed
-    assert "no machine file" in told("/save", design=7, toml=changed, before=changed)["faults"][0]["message"]
-    done = told("/write", name="own", toml=changed, formats=["dxf", "csv"])
+    assert "written" in posted("/save", design=0, toml=changed, before=text) and path.read_text() == changed
+    assert posted("/files")["designs"][0]["toml"] == changed
+    assert "no machine file" in posted("/save", design=7, toml=changed, before=changed)["faults"][0]["message"]
+    done = posted("/write", name="own", toml=changed, formats=["dxf", "csv"])
     assert sorted(Path(name).name for name in done["written"]) == ["own.csv", "own.dxf"], done
     # An edited file is not written over, and then none is.
     (directory / "out" / "own.csv").write_text("mine\n")
     before = digests(directory)
-    assert "faults" in told("/write", name="own", toml=text, formats=["dxf", "csv"]) and digests(directory) == before
+    assert "faults" in posted("/write", name="own", toml=text, formats=["dxf", "csv"]) and digests(directory) == before
     for name in ("../own", "/own", ".own", "a/b", ""):
-        assert "faults" in told("/write", name=name, toml=text, formats=["dxf"]), name
+        assert "faults" in posted("/write", name=name, toml=text, formats=["dxf"]), name
     failing = text.replace('base_radius = "auto"', 'base_radius = "13 mm"').replace('pressure_angle = "30 deg"', 'pressure_angle = "12 deg"')
-    assert "faults" in told("/write", name="failing", toml=failing, formats=["dxf"])
+    assert "faults" in posted("/write", name="failing", toml=failing, formats=["dxf"])
     # A text that names a file reads none.
     table = 'name = "A"\n[motion]\ntable = "secret.csv"\n[follower.roller]\nradius = "5 mm"\n[cam]\n[limits]\n'
     answer = program.engine(name="a", toml=table)

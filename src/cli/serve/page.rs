@@ -91,13 +91,13 @@ impl Served {
             Ok(design) => json!({"toml": design.toml, "files": design.files}),
             Err(why) => json!({"fault": why}),
         };
-        told(Ok(json!({"designs": self.designs.iter().map(of).collect::<Vec<Value>>()})))
+        json_answer(Ok(json!({"designs": self.designs.iter().map(of).collect::<Vec<Value>>()})))
     }
 
     /// Writes the text of a machine file.
     pub(super) fn save(&self, body: &[u8]) -> Answer {
         let _turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
-        told(self.saved(body))
+        json_answer(self.saved(body))
     }
 
     fn saved(&self, body: &[u8]) -> Result<Value, String> {
@@ -117,7 +117,7 @@ impl Served {
     /// Writes the files of a cam, all or none.
     pub(super) fn write(&self, body: &[u8]) -> Answer {
         let _turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
-        told(self.written(body))
+        json_answer(self.written(body))
     }
 
     fn written(&self, body: &[u8]) -> Result<Value, String> {
@@ -131,7 +131,7 @@ impl Served {
 }
 
 /// What was done, or why not, as the page shows it.
-fn told(done: Result<Value, String>) -> Answer {
+fn json_answer(done: Result<Value, String>) -> Answer {
     let value = done.unwrap_or_else(|why| json!({"faults": [{"message": why}]}));
     Answer::of("application/json", value.to_string().into_bytes())
 }

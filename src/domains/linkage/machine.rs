@@ -10,7 +10,7 @@ use crate::document::{Field, KeySection, Occurrence, Reader, TableReader, above,
 use crate::domains::linkage::LINKAGE;
 use crate::domains::press::bed_motion::{Branch, DragLink, End, Linkage, Slider};
 use crate::domains::press::buffer::Bed;
-use crate::domains::press::cams::{CONOID, REGIMES, ROTARY, TRANSLATING};
+use crate::domains::press::cams::{CONOID, REGIMES, ROTARY, SCATTER, SPRING, TRANSLATING};
 use crate::domains::press::machine::{LinkageData, Press, bed};
 use crate::machine::{CamData, FollowerData, Machine, MachineParts};
 use crate::units::Dimension::{Angle, Length};
@@ -99,7 +99,7 @@ const DRIVING_CRANK: Field<f64> = Field::quantity(
 .only(&[LINKAGE]);
 
 /// Whatever a linkage moves.
-const MOVED_BY_A_LINKAGE: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, LINKAGE];
+const MOVED_BY_A_LINKAGE: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, SCATTER, LINKAGE];
 
 /// `[linkage]`.
 pub(super) const SECTION: KeySection = KeySection {

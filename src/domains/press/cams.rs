@@ -44,6 +44,8 @@ pub const OF_AIR: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, SCAT
 pub const OF_A_SPEED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, SCATTER, BED_MOTION];
 /// Kinds with an air column.
 pub const OF_A_COLUMN: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SCATTER, DRIVE, BED_MOTION];
+/// Kinds whose air columns have a limit.
+pub const OF_A_COLUMN_LIMIT: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, SCATTER];
 /// Kinds on which the law of the bottom has an effect.
 pub const OF_A_LAW: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SCATTER, BED_MOTION];
 /// Kinds that depend on the design of a press.

@@ -2,11 +2,13 @@
 
 use super::buffer::Cylinder;
 use super::buffer::crank_law::CrankLaw;
+use super::checks::losses;
 use super::machine::PressCams;
 use super::scatter::analysis::lost_in;
 use super::scatter::fault::{Fault, FrozenBuffer};
 use super::scatter::losses::LossyReversal;
 use super::scatter::report::LossReport;
+use crate::check::Measure;
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::report::{Section, shown};
@@ -30,14 +32,22 @@ struct LoopOfAir {
     losses: LossReport,
 }
 
+/// The check of both directions; `None` where the machine file gives no losses.
+pub(super) fn measure(machine: &Machine, cylinder: &Cylinder, law: &CrankLaw) -> Option<Measure> {
+    let lost = lost_in(&reversal(machine, cylinder, law)?);
+    Some(losses::measure(lost.residual_n(), lost.residual_fixed_bottom_n()?))
+}
+
+/// The reversal with the losses of the machine file.
+fn reversal(machine: &Machine, cylinder: &Cylinder, law: &CrankLaw) -> Option<LossyReversal> {
+    let losses = PressCams::of(machine).losses;
+    let cam = losses.is_any().then(|| FrozenBuffer::of_law(law, cylinder))?;
+    LossyReversal::new(&cam, &Fault::none(law.exponent()), &losses).ok()
+}
+
 /// The section for a cam with this law; `None` where the machine file gives no losses.
 pub(super) fn section(machine: &Machine, cylinder: &Cylinder, law: &CrankLaw) -> Option<Section> {
-    let losses = PressCams::of(machine).losses;
-    if !losses.is_any() {
-        return None;
-    }
-    let cam = FrozenBuffer::of_law(law, cylinder);
-    let reversal = LossyReversal::new(&cam, &Fault::none(law.exponent()), &losses).ok()?;
+    let reversal = reversal(machine, cylinder, law)?;
     let air = law.of_yoke().and_then(|law| law.level.as_ref());
     let back = |length: f64| air.map(|air| cylinder.unit_force() * (1.0 - air.pressures(length)[1]));
     let values = LoopOfAir {

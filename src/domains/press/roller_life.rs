@@ -78,6 +78,16 @@ pub fn of_disc(disc: &Disc) -> Option<RollerLife> {
     .filter(|life| life.mean_load_n.is_finite())
 }
 
+/// The measure of the hours that the roller of a disc lasts; `None` where neither a rating nor a limit is given.
+#[must_use]
+pub fn measure(disc: &Disc) -> Option<Measure> {
+    let limit = disc.machine().limits.roller_life;
+    if PressCams::of(disc.machine()).load_rating.is_none() {
+        return limit.map(|_| LIFE.unknown("limits.roller_life is given without follower.roller.load_rating"));
+    }
+    of_disc(disc)?.measure(limit)
+}
+
 impl RollerLife {
     /// The measure of the hours against their limit; `None` where the speed is not known.
     #[must_use]

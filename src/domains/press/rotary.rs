@@ -3,7 +3,7 @@
 use super::balance::{allowed_error, fitting_speed, reversal_of_bed};
 use super::buffer::crank_law::CrankLaw;
 use super::checks::balanced::of_balance;
-use super::checks::contact_life;
+use super::checks::{contact_life, losses};
 use super::load::{AirBuffer, AsCut, Balance, ForceBalanced, RunUp};
 use super::machine::{Press, PressCams};
 use super::motion::{RaiseSeries, Reversal, ReversalLaw, Transition};
@@ -199,8 +199,9 @@ impl Duty for BedBalanceDuty {
 
     fn measures(&self, disc: &Disc, of: &mut Measures<'_>, subject: &Subject<'_>) {
         of_balance(&BalancedDisc { disc, duty: self }, of, subject);
+        of.add(&LIFE, |_| roller_life::measure(disc));
         of.add(&contact_life::CHECK, |_| contact_life::measure(disc.contact_stress(), disc.touching(), subject));
-        of.add(&LIFE, |_| roller_life::of_disc(disc)?.measure(disc.machine().limits.roller_life));
+        of.add(&losses::CHECK, |_| loop_of_air::measure(disc.machine(), self.buffer.cylinder(), self.law()));
     }
 
     fn smoother(&self, machine: &Machine) -> Option<String> {

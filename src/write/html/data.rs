@@ -155,7 +155,7 @@ pub(super) fn report_page(report: &Report) -> Value {
     })
 }
 
-fn check(finding: &Finding) -> Value {
+pub(super) fn check(finding: &Finding) -> Value {
     let place = (finding.place != Place::default()).then(|| finding.place.to_string());
     json!({
         "check": finding.check,

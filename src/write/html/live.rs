@@ -2,17 +2,20 @@
 //! (`live/build`), the same call as `camgen::engine` in the program.
 
 use super::{
-    ANIMATION, CHARTS, CHARTS_LICENCE, CHARTS_STYLE, COMMON, CURVES, READOUT, SOLID, STYLE, TABLES, filled, in_script,
-    text,
+    ANIMATION, CHARTS, CHARTS_LICENCE, CHARTS_STYLE, COMMON, CURVES, DIAGRAM, MOVING_PARTS, READOUT, SOLID, STYLE,
+    TABLES, filled, in_script, text,
 };
 use crate::refusal::Refusal;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// The engine, compressed.
-pub const ENGINE: &[u8] = include_bytes!("../../../templates/live/engine.wasm.gz");
+/// The engine, compressed by zstd.
+pub const ENGINE: &[u8] = include_bytes!("../../../templates/live/engine.wasm.zst");
 /// Its digest, as hexadecimal digits and a line feed.
 pub const ENGINE_DIGEST: &str = include_str!("../../../templates/live/engine.sha256");
+/// What unpacks the engine in the page.
+const UNPACK: &str = include_str!("../../../templates/vendor/fzstd/fzstd.min.js");
+const UNPACK_LICENCE: &str = include_str!("../../../templates/vendor/fzstd/LICENSE");
 
 /// Steps of a turn in the page itself.
 pub(super) const FIRST_STEPS: u32 = 180;
@@ -20,13 +23,15 @@ pub(super) const FIRST_STEPS: u32 = 180;
 const PAGE: &str = include_str!("../../../templates/live/page.html");
 const OWN_STYLE: &str = include_str!("../../../templates/live/style.css");
 /// The scripts: those of the report, with a mechanism and plots that change while a slider moves.
-const SCRIPTS: [&str; 20] = [
+const SCRIPTS: [&str; 22] = [
     COMMON,
+    MOVING_PARTS,
     include_str!("../../../templates/live/mechanism.js"),
     READOUT,
     SOLID,
     TABLES,
     CURVES,
+    DIAGRAM,
     include_str!("../../../templates/live/plot.js"),
     ANIMATION,
     include_str!("../../../templates/live/texts.js"),
@@ -95,8 +100,9 @@ pub fn page((title, cam): (&str, Value), designs: &[LiveDesign], token: Option<&
         "data" => data.clone(),
         "live" => live.clone(),
         "texts" => format!("{{{}}}", texts.join(",")).replace('<', "\\u003c"),
+        "unpack" if token.is_none() => UNPACK.to_owned(),
         "engine" => engine.clone(),
-        "licence" => text(CHARTS_LICENCE),
+        "licence" => text(&format!("{CHARTS_LICENCE}\n{UNPACK_LICENCE}")),
         "charts" => CHARTS.to_owned(),
         "script" => SCRIPTS.concat(),
         _ => String::new(),
@@ -133,7 +139,7 @@ mod tests {
     #[test]
     fn the_engine_is_the_one_whose_digest_is_stored() {
         assert_eq!(crate::report::sha256(ENGINE), ENGINE_DIGEST.trim());
-        assert!(ENGINE.starts_with(&[0x1f, 0x8b]), "compressed by gzip");
+        assert!(ENGINE.starts_with(&[0x28, 0xb5, 0x2f, 0xfd]), "compressed by zstd");
     }
 
     #[test]

@@ -12,7 +12,7 @@ mod units;
 
 use super::{AnalysisFormat, Format, FormatSelection, Rendering, fits_all};
 use crate::refusal::Refusal;
-use crate::report::Report;
+use crate::report::{Finding, Report};
 use serde_json::{Value, json};
 
 /// The interactive report.
@@ -45,19 +45,23 @@ const PARTS: [(&str, &str); 3] = [
     ("{{scripts}}", include_str!("../../../templates/parts/scripts.html")),
 ];
 const COMMON: &str = include_str!("../../../templates/report/common.js");
+const MOVING_PARTS: &str = include_str!("../../../templates/report/parts.js");
 const READOUT: &str = include_str!("../../../templates/report/readout.js");
 const SOLID: &str = include_str!("../../../templates/report/solid.js");
 const TABLES: &str = include_str!("../../../templates/report/tables.js");
 const CURVES: &str = include_str!("../../../templates/report/curves.js");
+const DIAGRAM: &str = include_str!("../../../templates/report/diagram.js");
 const ANIMATION: &str = include_str!("../../../templates/report/page.js");
-/// The scripts of the report. The live page has a mechanism and plots of its own, which change while a slider moves.
-const SCRIPTS: [&str; 9] = [
+/// The scripts of the report. The live page has others for the mechanism and the plots, which change while a slider moves.
+const SCRIPTS: [&str; 11] = [
     COMMON,
+    MOVING_PARTS,
     include_str!("../../../templates/report/mechanism.js"),
     READOUT,
     SOLID,
     TABLES,
     CURVES,
+    DIAGRAM,
     include_str!("../../../templates/report/plot.js"),
     ANIMATION,
     include_str!("../../../templates/report/start.js"),
@@ -101,6 +105,12 @@ pub fn data_of(cam: &Rendering<'_>) -> Value {
 #[must_use]
 pub fn data_without_outline(report: &Report) -> Value {
     data::report_page(report)
+}
+
+/// Checks as the page shows them.
+#[must_use]
+pub fn checks_of(findings: &[Finding]) -> Vec<Value> {
+    findings.iter().map(data::check).collect()
 }
 
 /// The page of a study.

@@ -207,8 +207,10 @@ fn tables_of(
 fn notes(machine: &Machine) -> Vec<String> {
     let given = |key: &&str| machine.given().iter().any(|given| given == key);
     let of_cam = ["buffer.column", "buffer.lead"].into_iter().filter(given);
-    let of_cam = of_cam.map(|key| format!("`{key}` has no effect without a cam: the column is that of the reset, and the port shuts as the reversal starts"));
-    machine.idle_key_notes(KIND.keys, KIND.noun).into_iter().chain(of_cam).collect()
+    let of_cam = of_cam.map(|key| format!("`{key}` has no effect on fixed bottoms: the column is that of the reset, and the port shuts as the reversal starts"));
+    // The plate is that of figure 9.
+    let idle = machine.idle_key_notes(KIND.keys, KIND.noun).into_iter().filter(|note| !note.contains("`translating."));
+    idle.chain(of_cam).collect()
 }
 
 /// Column of a fixed bottom by a rule, m, for the loading A of a speed: `half` and `level` are those of `camgen regimes`.

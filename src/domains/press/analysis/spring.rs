@@ -8,7 +8,7 @@ use crate::document::Input;
 use crate::domains::press::buffer::spring::{self, BrakedBed, SpringBuffer};
 use crate::domains::press::buffer::spring_body::SpringBody;
 use crate::domains::press::cams;
-use crate::domains::press::checks::{buckling, spring_coils, spring_stress, surge};
+use crate::domains::press::checks::{buckling, column, spring_coils, spring_stress, surge};
 use crate::domains::press::machine::{Press, PressCams};
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
@@ -137,7 +137,7 @@ pub fn analysis(
     let sets = sets_of(press, &all, speeds)?;
     let rows: Vec<SpringSet> = sets.iter().map(|(rpm, spring)| set_of(*rpm, spring)).collect();
     let curves: Vec<SpringRow> = sets.iter().flat_map(|(rpm, spring)| curve(press, *rpm, spring)).collect();
-    let (columns, along) = match press.stroke_end {
+    let (curve_columns, along) = match press.stroke_end {
         None => (CURVES, "x_mm"),
         Some(_) => (CURVES_OF_A_LINKAGE, "crank_deg"),
     };
@@ -159,20 +159,31 @@ pub fn analysis(
         sections: std::iter::once(Section::new(KIND.command, &springs).with_words(words(&springs, press)))
             .chain(bodies.as_ref().map(|(rows, _)| section_of_bodies(rows)))
             .collect(),
-        measures: bodies.as_ref().map_or_else(Vec::new, |(rows, stress)| measures_of(rows, *stress)),
+        measures: measures(machine, &sets, bodies.as_ref()),
         notes: machine.idle_key_notes(KIND.keys, KIND.noun),
         picture: Picture::Curves(curves_of(machine.name(), &sets, &curves)),
         mechanism: None,
         document: None,
         tables: std::iter::once(("", Table::listed(COLUMNS, &rows)))
             .chain(bodies.as_ref().map(|(rows, _)| ("-bodies", Table::listed(BODIES, rows))))
-            .chain([("-curves", Table::listed(columns, &curves))])
+            .chain([("-curves", Table::listed(curve_columns, &curves))])
             .collect(),
         by: &["stiffness_n_per_mm", "rpm"],
         along,
         diagrams: &[],
         not_modelled: NOT_MODELLED.to_vec(),
     })
+}
+
+/// What checks judge: the columns, and the springs where the file describes them.
+fn measures(
+    machine: &Machine,
+    sets: &[(f64, SpringBuffer)],
+    bodies: Option<&(Vec<SpringBodyRow>, f64)>,
+) -> Vec<Measure> {
+    let columns: Vec<(f64, f64)> = sets.iter().map(|(rpm, spring)| (spring.column, *rpm)).collect();
+    let of_bodies = bodies.map_or_else(Vec::new, |(rows, stress)| measures_of(rows, *stress));
+    column::measure(&columns, machine, |_, _| None).into_iter().chain(of_bodies).collect()
 }
 
 /// A spring of a stiffness, for the largest force of all speeds.

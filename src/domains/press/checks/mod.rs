@@ -9,6 +9,7 @@ pub mod column;
 pub mod compensator;
 pub mod contact_life;
 pub mod half_loop;
+pub mod losses;
 pub mod residual;
 pub mod run_up;
 pub mod scatter;
@@ -39,6 +40,7 @@ pub(super) const CHECKS: &[Added<&Check>] = &[
             &closing::CHECK,
             &scatter::CHECK,
             &half_loop::CHECK,
+            &losses::CHECK,
             &setting::CHECK,
             &spring_stress::CHECK,
             &spring_coils::COILS,

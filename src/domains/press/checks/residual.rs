@@ -37,7 +37,7 @@ pub fn measure(of: &dyn ForceBalanced, written: &AsWritten<'_>, subject: &Subjec
     let verdict = verdict(share, without_cam, given);
     let note = match verdict {
         _ if !share.is_finite() => Some(hits(of, written)),
-        Verdict::Fail | Verdict::Warn => Some(residual_note(of, written, force)),
+        Verdict::Fail | Verdict::Warn => Some(residual_note(of, written, force, given)),
         _ => None,
     };
     let measure = CHECK.measure(share, Some(given.unwrap_or(without_cam))).judged(verdict).placed(place);
@@ -63,15 +63,16 @@ fn joined(first: Option<String>, second: Option<String>) -> Option<String> {
 }
 
 /// The residual force with and without the cam, and a remedy.
-fn residual_note(of: &dyn ForceBalanced, written: &AsWritten<'_>, force: f64) -> String {
+fn residual_note(of: &dyn ForceBalanced, written: &AsWritten<'_>, force: f64, given: Option<f64>) -> String {
     let balance = of.balance();
     let without = format!("{} N are left, {} N without a cam", shown(force), shown(balance.without_cam));
     let motion = of.residual_of_motion().value;
-    if written.rolled.is_none() || written.foreign || motion >= USEFUL * balance.without_cam {
+    let permitted = given.map_or(USEFUL * balance.without_cam, |given| given * balance.inertia);
+    if written.rolled.is_none() || written.foreign || motion >= permitted {
         return if balance.mean {
             let longer = of.remedy_of_mean().map_or_else(String::new, |remedy| format!("{remedy} in both; "));
             format!(
-                "{without}; balanced in neither direction of the bed; {longer}--balance braking balances one and leaves about twice as much in the other"
+                "{without}; balanced in neither direction of the bed; {longer}--balance braking balances one and leaves more in the other"
             )
         } else {
             without

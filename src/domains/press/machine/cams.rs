@@ -11,7 +11,7 @@ use super::{bed, buffer};
 use crate::document::Presence::{Default, Optional};
 use crate::document::range::{LARGEST_FORCE, LARGEST_NUMBER, LONGEST};
 use crate::document::{Field, KeySection, Occurrence, Reader, TableReader, above, within};
-use crate::domains::press::cams::{CONOID, OF_A_COLUMN, OF_A_PRESS, REGIMES, ROTARY};
+use crate::domains::press::cams::{CONOID, OF_A_COLUMN_LIMIT, OF_A_PRESS, REGIMES, ROTARY};
 use crate::domains::press::motion::Transition;
 use crate::domains::press::scatter::losses::Losses;
 use crate::domains::press::scatter::monte_carlo::{CUSTOMARY, Sampling};
@@ -130,7 +130,7 @@ const COLUMN: Field<f64> = Field::quantity(
     Length,
     above(0.0, LONGEST),
 )
-.only(OF_A_COLUMN);
+.only(OF_A_COLUMN_LIMIT);
 
 /// The keys that are added to `[cam]`.
 pub(super) const CAM: KeySection = KeySection {

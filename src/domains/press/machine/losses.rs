@@ -7,7 +7,7 @@ use crate::domains::press::cams::{ROTARY, SCATTER};
 use crate::units::Dimension::{Force, Length, Stiffness};
 
 /// The only analysis that most of them have an effect on.
-const ONLY: &[&str] = &[SCATTER];
+const ONLY: &[&str] = &[ROTARY, SCATTER];
 /// A cam can be cut for its train, and for both exponents of its air.
 const OF_ROTARY: &[&str] = &[ROTARY, SCATTER];
 

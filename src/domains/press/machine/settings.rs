@@ -25,7 +25,7 @@ const SPEEDS: Field<Vec<f64>> = Field::numbers(
 );
 const RESET: Field<Reset> = Field::words(
     "reset",
-    "condition of the reset of the column: \"end\" (no residual force at the end of the stroke), \"half\" or \"level\"",
+    "condition of the reset of the column: \"end\" (no residual force at the end of the stroke, under a linkage at its largest deceleration), \"half\" or \"level\"",
     Default("end"),
     &["end", "half", "level"],
     &[Reset::End, Reset::Half, Reset::Level],

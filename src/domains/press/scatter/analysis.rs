@@ -17,7 +17,7 @@ use crate::check::Measure;
 use crate::document::{Input, NamedChoice};
 use crate::domains::press::buffer::Cylinder;
 use crate::domains::press::cams;
-use crate::domains::press::checks::{half_loop, scatter, setting};
+use crate::domains::press::checks::{column, half_loop, losses, scatter, setting};
 use crate::domains::press::machine::PressCams;
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
@@ -167,7 +167,8 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
         useful: UsefulRange::of(useful, rpm),
         settings: &settings,
     };
-    let measures = measures_of(&report, typed.fault.variable(), useful);
+    let column = column::measure(&[(cam.column, rpm)], machine, |press, rpm| Some(press.bottom_law(rpm).column()));
+    let measures = column.into_iter().chain(measures_of(&report, typed.fault.variable(), useful)).collect();
     Ok(Analysis {
         kind: &KIND,
         machine: machine.name().to_owned(),
@@ -197,12 +198,12 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
 
 /// What checks judge, in their order.
 fn measures_of(report: &ScatterReport<'_>, variable: f64, useful: [Option<f64>; 2]) -> Vec<Measure> {
-    let half_loop = report.losses.as_ref();
-    let half_loop = half_loop.map(|lost| {
-        half_loop::measure(lost.half_loop_n, report.residual_fixed_bottom_max_n, lost.residual_fixed_bottom_n())
+    let lost = report.losses.as_ref().map(|lost| {
+        let fixed = lost.residual_fixed_bottom_n().unwrap_or(report.residual_fixed_bottom_max_n);
+        [half_loop::measure(lost.half_loop_n, fixed), losses::measure(lost.residual_n(), fixed)]
     });
     std::iter::once(scatter::measure(report.percentiles))
-        .chain(half_loop)
+        .chain(lost.into_iter().flatten())
         .chain([setting::measure(variable, useful)])
         .collect()
 }

@@ -58,7 +58,7 @@ impl From<ScatterError> for Refusal {
     fn from(why: ScatterError) -> Self {
         let remedy = match why {
             ScatterError::ColumnUsedUp { .. } => {
-                "give a smaller `column` or `lead` of the machine that differs (--fault), smaller bands (--vary, [scatter]), or a longer buffer.column"
+                "give a `column` and a `lead` of the machine that differs which are nearer to 0 (--fault), or smaller bands (--vary, [scatter])"
             }
             ScatterError::ExpansionBelowCompression { compression, .. } => {
                 return Self::of(why).remedy(format!("give a buffer.expansion_exponent of {compression} or more"));

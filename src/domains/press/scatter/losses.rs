@@ -8,12 +8,16 @@
 //! back: P̂ = P̂_r ((f/f_r) W_r/W)^κ2           r = U [M u − (1 − c_p) π (P̂ − 1)] + R0,      df/dφ = −(leak/u_r)(P̂ − 1)
 //! ```
 //!
+//! Under a linkage the air turns where the bed is decelerated most, before or after the dead point, or twice: κ1 holds while it becomes shorter, κ2
+//! while it becomes longer.
+//!
 //! The mean of both ways is curable by cam or screw, half of their difference h, the loop, by neither.
 
 use super::bed_path::BedPath;
 use super::error::ScatterError;
 use super::fault::{Fault, FrozenBuffer};
 use crate::numeric::extremum::{self, Extremum};
+use crate::numeric::root;
 use std::f64::consts::PI;
 
 /// What a press loses.
@@ -69,10 +73,28 @@ pub struct LossyReversal {
     fixed: bool,
     fault: Fault,
     losses: Losses,
-    /// f where the steps begin, in and back; empty without a leak.
-    air: [Vec<f64>; 2],
-    /// P̂, f and W at the dead point.
-    dead: [f64; 3],
+    /// The stretches in which the air is compressed or expands, in the order of the crank.
+    strokes: Vec<AirStroke>,
+}
+
+/// A stretch of the reversal in which the air is only compressed, or only expands: P̂ = P̂0 ((f/f0) W0/W)^κ.
+#[derive(Debug, Clone)]
+struct AirStroke {
+    /// Crank angles, rad.
+    range: (f64, f64),
+    /// κ.
+    exponent: f64,
+    /// P̂0, f0 and W0: where it starts, and at the port.
+    from: [f64; 3],
+    /// f where the steps begin; empty without a leak.
+    air: Vec<f64>,
+}
+
+impl AirStroke {
+    /// Where its steps begin, and how long they are.
+    fn steps(&self) -> (f64, f64) {
+        (self.range.0, (self.range.1 - self.range.0) / f64::from(STEPS))
+    }
 }
 
 /// A way of the bed: in, while it is braked, or back.
@@ -112,22 +134,44 @@ impl LossyReversal {
         if let Some(stiffness) = losses.train_stiffness.filter(|stiffness| *stiffness <= per_overrun) {
             return Err(ScatterError::TrainTooSoft { stiffness, needed: per_overrun });
         }
-        let mut reversal = Self {
-            cam: *cam,
-            fixed,
-            fault: *fault,
-            losses: *losses,
-            air: [Vec::new(), Vec::new()],
-            dead: [1.0, fault.air, 1.0],
-        };
-        let (dead, leaks) = (cam.path.dead(), losses.leak > 0.0);
-        let at_dead = if leaks { reversal.leak_through(BedWay::In, fault.air) } else { fault.air };
-        let pressure = reversal.pressure_of(BedWay::In, dead, at_dead);
-        reversal.dead = [pressure, at_dead, reversal.length(dead, pressure)];
-        if leaks {
-            reversal.leak_through(BedWay::Back, at_dead);
+        let mut reversal = Self { cam: *cam, fixed, fault: *fault, losses: *losses, strokes: Vec::new() };
+        // At the port the gas that is left fills the whole column.
+        let (mut from, mut left) = ([fault.closing, 1.0, 1.0 + fault.column / cam.column], fault.air);
+        for range in reversal.turns() {
+            let compressed = reversal.undisturbed(range.1) < reversal.undisturbed(range.0);
+            let exponent = if compressed { fault.exponent } else { reversal.expansion() };
+            let mut stroke = AirStroke { range, exponent, from, air: Vec::new() };
+            if losses.leak > 0.0 {
+                stroke.air = reversal.leak_through(&stroke, left);
+                left = stroke.air.last().copied().unwrap_or(left);
+            }
+            let pressure = reversal.pressure_of(&stroke, range.1, left);
+            from = [pressure, left, reversal.length(range.1, pressure)];
+            reversal.strokes.push(stroke);
         }
         Ok(reversal)
+    }
+
+    /// The crank angles between which the air only becomes shorter or longer, rad: over a fixed bottom it turns at the dead point, under a cam where
+    /// the bed is decelerated most, which under a linkage is elsewhere and may be twice.
+    fn turns(&self) -> Vec<(f64, f64)> {
+        let path = &self.cam.path;
+        let at = |cell: u32| path.whole() * f64::from(cell) / f64::from(2 * CELLS);
+        let turning: Vec<f64> = match path {
+            BedPath::Linkage(_) if !self.fixed => (1..2 * CELLS)
+                .map(|cell| (at(cell - 1), at(cell)))
+                .filter(|(low, high)| (path.load_slope(*low) > 0.0) != (path.load_slope(*high) > 0.0))
+                .filter_map(|(low, high)| root::bracketed(|at| path.load_slope(at), low, high, 0.0).ok())
+                .collect(),
+            _ => vec![path.dead()],
+        };
+        let edges: Vec<f64> = std::iter::once(0.0).chain(turning).chain([path.whole()]).collect();
+        edges.windows(2).filter_map(|pair| Some((*pair.first()?, *pair.get(1)?))).collect()
+    }
+
+    /// The stretch of a crank angle.
+    fn stroke_at(&self, angle: f64) -> Option<&AirStroke> {
+        self.strokes.iter().find(|stroke| angle <= stroke.range.1).or(self.strokes.last())
     }
 
     /// W at a crank angle in the reversal with the ratio P̂.
@@ -160,19 +204,11 @@ impl LossyReversal {
         }
     }
 
-    /// P̂ with the share f of the air left: (K/W)^κ, where a train gives way by Newton's steps from the ambient pressure.
-    fn pressure_of(&self, way: BedWay, angle: f64, air: f64) -> f64 {
+    /// P̂ in a stretch with the share f of the air left: (K/W)^κ, where a train gives way by Newton's steps from the ambient pressure.
+    fn pressure_of(&self, stroke: &AirStroke, angle: f64, air: f64) -> f64 {
         let [closed, give] = self.closed(angle);
-        let (amount, kappa) = match way {
-            BedWay::In => {
-                let share = air * (1.0 + self.fault.column / self.cam.column);
-                (libm::exp(libm::log(self.fault.closing) / self.fault.exponent) * share, self.fault.exponent)
-            }
-            BedWay::Back => {
-                let ([pressure, left, length], kappa) = (self.dead, self.expansion());
-                (libm::exp(libm::log(pressure) / kappa) * (air / left) * length, kappa)
-            }
-        };
+        let ([pressure, left, length], kappa) = (stroke.from, stroke.exponent);
+        let amount = libm::exp(libm::log(pressure) / kappa) * (air / left) * length;
         if give == 0.0 {
             return libm::exp(kappa * libm::log(amount / closed));
         }
@@ -195,63 +231,58 @@ impl LossyReversal {
     }
 
     /// df/dφ.
-    fn rate(&self, way: BedWay, angle: f64, air: f64) -> f64 {
-        -self.losses.leak / self.cam.path.load_by_dead() * (self.pressure_of(way, angle, air) - 1.0)
+    fn rate(&self, stroke: &AirStroke, angle: f64, air: f64) -> f64 {
+        -self.losses.leak / self.cam.path.load_by_dead() * (self.pressure_of(stroke, angle, air) - 1.0)
     }
 
     /// f after a step of Runge and Kutta.
-    fn stepped(&self, way: BedWay, angle: f64, step: f64, air: f64) -> f64 {
+    fn stepped(&self, stroke: &AirStroke, angle: f64, step: f64, air: f64) -> f64 {
         let half = angle + 0.5 * step;
-        let first = self.rate(way, angle, air);
-        let second = self.rate(way, half, air + 0.5 * step * first);
-        let third = self.rate(way, half, air + 0.5 * step * second);
-        let fourth = self.rate(way, angle + step, air + step * third);
+        let first = self.rate(stroke, angle, air);
+        let second = self.rate(stroke, half, air + 0.5 * step * first);
+        let third = self.rate(stroke, half, air + 0.5 * step * second);
+        let fourth = self.rate(stroke, angle + step, air + step * third);
         air + step / 6.0 * (first + 2.0 * (second + third) + fourth)
     }
 
-    /// Integrates a way, and returns f at its end.
-    fn leak_through(&mut self, way: BedWay, from: f64) -> f64 {
-        let (start, step) = self.steps(way);
+    /// f at the steps of a stretch.
+    fn leak_through(&self, stroke: &AirStroke, from: f64) -> Vec<f64> {
+        let (start, step) = stroke.steps();
         let mut all = vec![from];
         let mut air = from;
         for index in 0..STEPS {
-            air = self.stepped(way, start + step * f64::from(index), step, air);
+            air = self.stepped(stroke, start + step * f64::from(index), step, air);
             all.push(air);
         }
-        let [of_in, of_back] = &mut self.air;
-        *(if way == BedWay::In { of_in } else { of_back }) = all;
-        air
+        all
     }
 
     /// Crank angles of a way, rad.
     fn range(&self, way: BedWay) -> (f64, f64) {
-        if way == BedWay::In { (0.0, self.cam.path.dead()) } else { (self.cam.path.dead(), self.cam.path.whole()) }
-    }
-
-    /// Where a way starts, and a step of it.
-    fn steps(&self, way: BedWay) -> (f64, f64) {
-        let (start, end) = self.range(way);
-        (start, (end - start) / f64::from(STEPS))
+        let path = &self.cam.path;
+        if way == BedWay::In { (0.0, path.dead()) } else { (path.dead(), path.whole()) }
     }
 
     /// f at a crank angle.
     #[must_use]
-    pub fn air(&self, way: BedWay, angle: f64) -> f64 {
-        let [of_in, of_back] = &self.air;
-        let all = if way == BedWay::In { of_in } else { of_back };
-        let (start, step) = self.steps(way);
+    pub fn air(&self, angle: f64) -> f64 {
+        self.stroke_at(angle).map_or(self.fault.air, |stroke| self.air_in(stroke, angle))
+    }
+
+    fn air_in(&self, stroke: &AirStroke, angle: f64) -> f64 {
+        let (start, step) = stroke.steps();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a step of the list")]
         let index = (((angle - start) / step).floor().max(0.0) as usize).min(STEPS as usize);
-        let Some(air) = all.get(index) else { return self.fault.air };
+        let Some(air) = stroke.air.get(index) else { return self.fault.air };
         #[expect(clippy::cast_precision_loss, reason = "a thousand steps")]
         let from = start + step * index as f64;
-        if angle == from { *air } else { self.stepped(way, from, angle - from, *air) }
+        if angle == from { *air } else { self.stepped(stroke, from, angle - from, *air) }
     }
 
     /// P̂ at a crank angle.
     #[must_use]
-    pub fn pressure(&self, way: BedWay, angle: f64) -> f64 {
-        self.pressure_of(way, angle, self.air(way, angle))
+    pub fn pressure(&self, angle: f64) -> f64 {
+        self.stroke_at(angle).map_or(1.0, |stroke| self.pressure_of(stroke, angle, self.air_in(stroke, angle)))
     }
 
     /// Residual force on a way at the crank angle of the way in that has the same overrun, N.
@@ -264,7 +295,7 @@ impl LossyReversal {
     fn residual_at(&self, way: BedWay, angle: f64) -> f64 {
         let sign = if way == BedWay::In { 1.0 } else { -1.0 };
         let (cam, fault, losses) = (&self.cam, &self.fault, &self.losses);
-        let air = fault.ambient * (self.pressure(way, angle) - 1.0);
+        let air = fault.ambient * (self.pressure(angle) - 1.0);
         let force =
             cam.unit_force * (fault.square * cam.path.load_at(angle) - (1.0 + sign * losses.piston_friction) * air);
         let phase = match cam.path {
@@ -309,29 +340,29 @@ impl LossyReversal {
     /// Share of the air that is left at the end of the reversal.
     #[must_use]
     pub fn air_left(&self) -> f64 {
-        if self.losses.leak > 0.0 { self.air(BedWay::Back, self.cam.path.whole()) } else { self.fault.air }
+        if self.losses.leak > 0.0 { self.air(self.cam.path.whole()) } else { self.fault.air }
     }
 
-    /// Work that the air takes from the bed in a reversal, J: U L ∮ (P̂ − 1)(−dw), by Simpson's rule over each way.
+    /// Work that the air loses in a reversal, J: U L ∮ (P̂ − 1)(−dw), by Simpson's rule over each stretch. Bed and cam give it.
     #[must_use]
     pub fn work_lost(&self) -> f64 {
         let cam = &self.cam;
-        let power = |way: BedWay, angle: f64| {
+        let power = |stroke: &AirStroke, angle: f64| {
             let fall =
                 if self.fixed { 1.0 / (cam.path.loading() * cam.column) } else { cam.fall(cam.path.load_at(angle)) };
-            let fall = fall * cam.path.load_slope(angle);
-            (self.pressure(way, angle) - 1.0) * fall
+            (self.pressure_of(stroke, angle, self.air_in(stroke, angle)) - 1.0) * fall * cam.path.load_slope(angle)
         };
-        let of = |way: BedWay| {
-            let (start, step) = self.steps(way);
+        let of = |stroke: &AirStroke| {
+            let (start, step) = stroke.steps();
             let weight = |index: u32| match index {
                 0 | STEPS => 1.0,
                 index if index % 2 == 1 => 4.0,
                 _ => 2.0,
             };
             let at = |index: u32| start + step * f64::from(index);
-            (0..=STEPS).map(|index| weight(index) * power(way, at(index))).sum::<f64>() * step / 3.0
+            (0..=STEPS).map(|index| weight(index) * power(stroke, at(index))).sum::<f64>() * step / 3.0
         };
-        (self.fault.ambient * cam.unit_force * cam.column * (of(BedWay::In) + of(BedWay::Back))).max(0.0)
+        let lost: f64 = self.strokes.iter().map(of).sum();
+        (self.fault.ambient * cam.unit_force * cam.column * lost).max(0.0)
     }
 }

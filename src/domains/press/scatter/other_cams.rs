@@ -152,9 +152,15 @@ impl FrozenPlate<'_> {
 
     /// Residual force of a press, N.
     fn residual(&self, fault: &super::fault::Fault, station: &PlateStation, way: usize) -> f64 {
+        let [inertia, air] = self.parts(fault, station, way);
+        inertia - air
+    }
+
+    /// Inertia, and what the air takes of it, N.
+    fn parts(&self, fault: &super::fault::Fault, station: &PlateStation, way: usize) -> [f64; 2] {
         let inertia = self.buffer.unit_force * fault.square * station.at.load;
         let air = inertia - self.buffer.residual(fault, station.at.load, station.at.length);
-        inertia - station.factors.get(way).copied().unwrap_or(1.0) * air
+        [inertia, station.factors.get(way).copied().unwrap_or(1.0) * air]
     }
 
     /// Standard deviation to first order, N: as built, and with the screw set by what is left at the end while the bed is braked.
@@ -191,8 +197,11 @@ impl FrozenPlate<'_> {
             p95_reset_n: 0.0,
         };
         for station in self.stations {
-            let [own, weak, strong] =
-                [&none, &corners.weak, &corners.strong].map(|fault| self.residual(fault, station, way));
+            let own = self.residual(&none, station, way);
+            let [[light, strong], [heavy, weak]] =
+                [&corners.strong, &corners.weak].map(|fault| self.parts(fault, station, way));
+            // Where the friction turns the force of the air round, the strong air leaves more.
+            let (strong, weak) = (light - strong.max(weak), heavy - strong.min(weak));
             let [built, reset] = self
                 .deviations(station, way)
                 .map(|sigma| (own.abs() + propagation::ONE_SIDE * sigma).max(propagation::BOTH_SIDES * sigma));

@@ -63,6 +63,12 @@ impl LossReport {
         both.map(|(on_way_in, back)| on_way_in.abs().max(back.abs()))
     }
 
+    /// What is left in the worse direction, N, at least 0.
+    #[must_use]
+    pub fn residual_n(&self) -> f64 {
+        self.residual_in_n.abs().max(self.residual_back_n.abs())
+    }
+
     /// The values in words.
     #[must_use]
     pub fn words(&self) -> Vec<String> {
@@ -78,7 +84,7 @@ impl LossReport {
                 shown(self.residual_back_at_mm)
             ),
             format!(
-                "half of the loop {} N at x = {} mm, which neither cam nor screw takes out; the air takes {} J from the bed in a reversal; {} % of the air is still in the cylinder at its end",
+                "half of the loop {} N at x = {} mm, which neither cam nor screw takes out; the air loses {} J in a reversal, which bed and camshaft give; {} % of the air is still in the cylinder at its end",
                 shown(self.half_loop_n),
                 shown(self.half_loop_at_mm),
                 shown(self.work_lost_j),

@@ -57,10 +57,15 @@ impl FrozenBuffer {
             let both = self.extremes_by_load(&fault.with_column(column));
             both.map_or(f64::NAN, |[least, largest]| least.value + largest.value)
         };
+        // Under a linkage the air may be shorter elsewhere than at the dead point, and used up there: then a longer column is the first to be tried.
+        let longer = |doublings: u32| end + (self.column + end) * (libm::exp2(f64::from(doublings) / 16.0) - 1.0);
+        let all = (0..=16 * DOUBLINGS).map(longer);
+        let start = all.into_iter().find(|column| self.fits(&fault.with_column(*column)).is_ok()).unwrap_or(end);
+        let (end, ends) = (start, start == end);
         let [least, largest] = self.extremes_by_load(&fault.with_column(end))?;
         let start = if least.value.abs() > largest.value.abs() { least.at } else { largest.at };
         let sum = least.value + largest.value;
-        if sum == 0.0 || (start == 0.0 && fault.lead == 0.0 && self.level.is_none()) {
+        if sum == 0.0 || (ends && start == 0.0 && fault.lead == 0.0 && self.level.is_none()) {
             return Ok(end);
         }
         // The air at the end of the stroke is multiplied, so that it never is used up.

@@ -51,6 +51,10 @@ impl TypedFault {
             if parameter == Parameter::Screw {
                 all.screw = by;
             }
+            if parameter.unit() == ParameterUnit::Share && !(1.0 + by > 0.0) {
+                let why = Refusal::new("the value is out of range").remedy("mass, speed and pressures stay above 0");
+                return Err(why.context(&format!("--fault {one}")));
+            }
             in_range(parameter, &all.fault, column).map_err(|why| why.context(&format!("--fault {one}")))?;
             all.inputs.push(Input::number(&format!("fault.{key}"), by));
         }
