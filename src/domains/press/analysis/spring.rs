@@ -183,7 +183,7 @@ fn measures(
 ) -> Vec<Measure> {
     let columns: Vec<(f64, f64)> = sets.iter().map(|(rpm, spring)| (spring.column, *rpm)).collect();
     let of_bodies = bodies.map_or_else(Vec::new, |(rows, stress)| measures_of(rows, *stress));
-    column::measure(&columns, machine, |_, _| None).into_iter().chain(of_bodies).collect()
+    column::measure_of_analysis(&columns, machine).into_iter().chain(of_bodies).collect()
 }
 
 /// A spring of a stiffness, for the largest force of all speeds.

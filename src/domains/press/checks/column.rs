@@ -5,7 +5,7 @@ use crate::domains::press::machine::{Press, PressCams};
 use crate::machine::Machine;
 use crate::numeric::digits::three_digits_up;
 use crate::numeric::root;
-use crate::report::Bound;
+use crate::report::{Bound, Verdict};
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -26,6 +26,16 @@ pub const CHECK: Check = Check {
 pub const CUSTOMARY: f64 = 2.0;
 /// A speed so many times as high is looked at.
 const FASTEST: f64 = 1e4;
+
+/// Measure of the longest of columns (m) of an analysis, of which nothing is cut, each with its speed of the main shaft, rpm: beyond the customary limit
+/// it warns; `None` without one.
+#[must_use]
+pub fn measure_of_analysis(columns: &[(f64, f64)], machine: &Machine) -> Option<Measure> {
+    let measure = measure(columns, machine, |_, _| None)?;
+    let is_customary = PressCams::of(machine).largest_column.is_none();
+    let beyond = measure.limit.is_some_and(|limit| measure.value > limit);
+    Some(if is_customary && beyond { measure.judged(Verdict::Warn) } else { measure })
+}
 
 /// Measure of the longest of columns (m), each with its speed of the main shaft, rpm, and of the column at any speed; `None` without one.
 #[must_use]

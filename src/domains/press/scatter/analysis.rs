@@ -167,7 +167,7 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
         useful: UsefulRange::of(useful, rpm),
         settings: &settings,
     };
-    let column = column::measure(&[(cam.column, rpm)], machine, |press, rpm| Some(press.bottom_law(rpm).column()));
+    let column = column::measure_of_analysis(&[(cam.column, rpm)], machine);
     let measures = column.into_iter().chain(measures_of(&report, typed.fault.variable(), useful)).collect();
     Ok(Analysis {
         kind: &KIND,
