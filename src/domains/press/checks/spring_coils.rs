@@ -7,7 +7,7 @@ use crate::report::{Bound, Verdict};
 pub const COILS: Check = Check::on_analysis(
     "spring_coils",
     "1",
-    "The fewest coils that give way of the springs under the bottoms.",
+    "The smallest number of active coils of the springs under the bottoms: of those that give way.",
     CheckExplanation {
         bound: Bound::AtLeast,
         formula: "n = G d/(8 c i³), c the stiffness of a spring",

@@ -148,7 +148,7 @@ fn bound(fixed: &FixedBottom<'_>, side: f64, tolerance: f64) -> Result<Option<f6
     let mut inside = 1.0;
     for step in 1..=STEPS {
         let outside = libm::pow(STEP, side * f64::from(step));
-        // A press whose air would be used up is none, and nothing is compared there.
+        // Where the air would be used up no press can run, and the range is not bounded by a comparison.
         let Ok(beyond) = more(fixed, outside) else { return Ok(None) };
         if beyond > 0.0 {
             let more = |v: f64| more(fixed, v).unwrap_or(f64::NAN);
