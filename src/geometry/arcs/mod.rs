@@ -125,6 +125,12 @@ pub enum FitError {
         /// Parameter of the place.
         parameter: f64,
     },
+    /// No chain with the number of arcs that was asked for was found.
+    #[error("{arcs} arcs are too few")]
+    TooFewArcs {
+        /// That number.
+        arcs: u32,
+    },
     /// The tolerance requires more arcs than a drawing can hold, or is below the rounding of the coordinates.
     #[error(
         "a tolerance of {tolerance} cannot be kept: it must lie between 64 times the rounding of the coordinates and 1 mm"
@@ -142,21 +148,22 @@ pub enum FitError {
 /// [`FitError`] when the curve is not smooth or the tolerance cannot be kept.
 pub fn fit(curve: impl Fn(f64) -> CurvePoint, range: (f64, f64), tolerance: f64) -> Result<ArcChain, FitError> {
     let anything = |parameter: f64| (curve(parameter), ChainTolerance::ANY);
-    fit_within(&anything, &curve, range, tolerance)
+    fit_within(&anything, &curve, range, tolerance, None)
 }
 
 /// As [`fit`], for a curve that also gives the allowed errors in addition to the distance at a parameter. The curvature is kept at
 /// the joints and the extrema of the curve's, between which it is monotonic, the heading at the joints: between two the error of the
-/// distance is a cubic, whose slope is largest at its ends.
+/// distance is a cubic, whose slope is largest at its ends. With a number of arcs, chains of this many alone are tried.
 ///
 /// # Errors
-/// As [`fit`].
+/// As [`fit`], and where no chain with the given number of arcs is found.
 pub fn fit_with_tolerances(
     curve: impl Fn(f64) -> (CurvePoint, ChainTolerance),
     range: (f64, f64),
     tolerance: f64,
+    arcs: Option<u32>,
 ) -> Result<ArcChain, FitError> {
-    fit_within(&curve, &|parameter| curve(parameter).0, range, tolerance)
+    fit_within(&curve, &|parameter| curve(parameter).0, range, tolerance, arcs)
 }
 
 fn fit_within(
@@ -164,6 +171,7 @@ fn fit_within(
     curve: &impl Fn(f64) -> CurvePoint,
     range: (f64, f64),
     tolerance: f64,
+    arcs: Option<u32>,
 ) -> Result<ArcChain, FitError> {
     let (start, end) = (curve(range.0), curve(range.1));
     let size = start.point.norm().max(end.point.norm());
@@ -189,8 +197,9 @@ fn fit_within(
         } else {
             seen
         };
-        let Some(joints) = fewest(target, &nodes, within) else {
-            return Err(FitError::ToleranceTooFine { tolerance });
+        let joints = match arcs {
+            None => fewest(target, &nodes, within).ok_or(FitError::ToleranceTooFine { tolerance })?,
+            Some(arcs) => as_many(target, &nodes, within, arcs).ok_or(FitError::TooFewArcs { arcs })?,
         };
         // Arcs that are shorter than the distance requires have small deviations, which need less effort.
         let checks = if limited { FEWER_CHECKS } else { CHECKS_PER_ARC };
@@ -224,6 +233,18 @@ fn fewest(target: &impl FitTarget, nodes: &[CurveSample], seen: f64) -> Option<V
         }
     }
     None
+}
+
+/// A chain of this many arcs, if the minimax finds one.
+fn as_many(target: &impl FitTarget, nodes: &[CurveSample], seen: f64, arcs: u32) -> Option<Vec<ArcJoint>> {
+    let mut spacing = ArcSpacing::new(nodes);
+    while spacing.arcs() < arcs {
+        spacing.add_arc();
+    }
+    if spacing.arcs() > arcs {
+        return None;
+    }
+    minimax::relax(target, nodes, seen, spacing.places(nodes)).ok()
 }
 
 /// The least number of additional arcs, where the present number leaves a deviation, in tolerances, that falls at most with the third

@@ -16,7 +16,7 @@ const FEW: f64 = 4.0;
 const SETTLED: f64 = 1.1;
 const MOST_PLACES: u32 = 1024;
 /// With more arcs than a control should be given in any case, a strip of fewer is not looked for.
-const MANY: usize = 1000;
+const MANY: u32 = 1000;
 /// How much tighter than by the ratio the tolerance is set where the follower's errors are too large, and how often.
 const CLOSER: f64 = 0.99;
 const TRIES: u32 = 4;
@@ -41,12 +41,12 @@ struct Strip {
 
 impl Strip {
     /// Fits a curve in millimetres, which gives the allowed errors of its heading and curvature, within a tolerance in
-    /// millimetres.
+    /// millimetres; where a number of arcs is given, with this many alone.
     fn along(
         target: impl Fn(f64) -> (CurvePoint, ChainTolerance),
         range: (f64, f64),
         tolerance: f64,
-        fit: &Fit,
+        (fit, arcs): (&Fit, Option<u32>),
     ) -> Result<Self, OutlineError> {
         if fit.laid == SegmentKind::Splines {
             let fitted = cubics::fit(|at| target(at).0, range, tolerance, &|at, _| target(at).1)?;
@@ -64,7 +64,7 @@ impl Strip {
         let chain = if fit.motion == MotionTolerance::ANY {
             arcs::fit(|at| target(at).0, range, tolerance)?
         } else {
-            arcs::fit_with_tolerances(target, range, tolerance)?
+            arcs::fit_with_tolerances(target, range, tolerance, arcs)?
         };
         Ok(Self {
             vertices: chain.joints.iter().map(|joint| Vertex::new(joint.point, joint.bulge)).collect(),
@@ -72,6 +72,11 @@ impl Strip {
             best_possible: chain.best_possible,
             best_for: chain.best_for,
         })
+    }
+
+    /// Number of its edges.
+    fn arcs(&self) -> u32 {
+        u32::try_from(self.vertices.len()).unwrap_or(u32::MAX)
     }
 
     /// Its edges, the last of which ends at a point.
@@ -150,7 +155,7 @@ impl Outline {
         range: (f64, f64),
         fit: &Fit,
     ) -> Result<(), OutlineError> {
-        self.add(Strip::along(target, range, MILLIMETRES * fit.tolerance, fit)?);
+        self.add(Strip::along(target, range, MILLIMETRES * fit.tolerance, (fit, None))?);
         Ok(())
     }
 
@@ -202,12 +207,12 @@ fn motion_strip(
     let by_distance = || {
         let fit = Fit { motion: MotionTolerance::ANY, ..*fit };
         let target = |at: f64| (frame(curves, (piece, at), distance), ChainTolerance::ANY);
-        Strip::along(target, range, MILLIMETRES * fit.tolerance, &fit)
+        Strip::along(target, range, MILLIMETRES * fit.tolerance, (&fit, None))
     };
     if fit.motion == MotionTolerance::ANY || !curves.motion.is_rolled(piece) {
         return by_distance();
     }
-    let found = keeping_motion(curves, place, range, fit);
+    let found = keeping_motion(curves, place, range, (fit, None));
     found.map(|found| fewest(curves, place, range, (fit, found))).map_or_else(by_distance, |(_, strip)| Ok(strip))
 }
 
@@ -224,15 +229,17 @@ fn fewest(
     }
     let for_distance = best.1.best_possible;
     for tolerance in finer(fit.tolerance) {
-        let arcs = best.1.vertices.len();
-        #[expect(clippy::cast_precision_loss, reason = "a count of arcs")]
-        let hopeless = for_distance * libm::cbrt(fit.tolerance / tolerance) >= arcs as f64 || arcs > MANY;
+        let arcs = best.1.arcs();
         // Where the request is not kept, a finer distance does not help either.
-        if hopeless || best.0 > 1.0 {
+        if for_distance * libm::cbrt(fit.tolerance / tolerance) >= f64::from(arcs) || arcs > MANY || best.0 > 1.0 {
             break;
         }
-        let Some(found) = keeping_motion(curves, place, range, &Fit { tolerance, ..*fit }) else { break };
-        if found.0 <= 1.0 && found.1.vertices.len() < arcs {
+        let finer = Fit { tolerance, ..*fit };
+        let fewer = |arcs: u32| {
+            let found = keeping_motion(curves, place, range, (&finer, arcs.checked_sub(1)));
+            found.filter(|(worst, strip)| *worst <= 1.0 && strip.arcs() < arcs)
+        };
+        while let Some(found) = fewer(best.1.arcs()) {
             best = found;
         }
     }
@@ -265,7 +272,7 @@ fn keeping_motion(
     curves: Curves<'_>,
     (piece, distance, stands_for): (usize, f64, f64),
     range: (f64, f64),
-    fit: &Fit,
+    (fit, number): (&Fit, Option<u32>),
 ) -> Option<(f64, Strip)> {
     let motion = fit.motion;
     // The measured errors differ from the first order by about the share of one arc in all arcs.
@@ -277,7 +284,7 @@ fn keeping_motion(
     for _ in 0..TRIES {
         let target = |at: f64| within(curves, (piece, at), distance, (tightened, by_radius));
         // The check reports that it is not kept.
-        let Ok(mut strip) = Strip::along(target, range, MILLIMETRES * fit.tolerance, fit) else { break };
+        let Ok(mut strip) = Strip::along(target, range, MILLIMETRES * fit.tolerance, (fit, number)) else { break };
         // The best possible numbers are those for the given tolerances, not for the tighter ones of this attempt.
         let [velocity, acceleration] = &mut strip.best_for;
         *velocity *= (tightened.velocity / motion.velocity).max(0.0).sqrt();
