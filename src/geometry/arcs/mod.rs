@@ -34,6 +34,7 @@ use crate::numeric::extremum::larger;
 use nalgebra::Vector2;
 use nodes::{CurveSample, TangentArc, sample};
 use spacing::ArcSpacing;
+use std::ops::RangeInclusive;
 
 /// Share of the tolerance that the lobes may take at the nodes; the rest is for deviations between them.
 const SEEN: f64 = 0.992;
@@ -63,6 +64,8 @@ const LEAST_ROOM: f64 = 1e5;
 const FEW: u32 = 500;
 /// A piece with a smaller share may be a circle, which its headings show; a piece with a feature between them has more.
 const CIRCLE: f64 = 0.1;
+/// Where the number of arcs is not limited.
+pub const ANY_NUMBER: RangeInclusive<u32> = 1..=u32::MAX;
 /// An arc that bulges by less than this share of half its chord is a line: a straight curve is sampled with rounding.
 const STRAIGHT: f64 = 1e-12;
 /// Headings closer than this count as equal, rad: a circle is sampled with rounding.
@@ -125,12 +128,6 @@ pub enum FitError {
         /// Parameter of the place.
         parameter: f64,
     },
-    /// No chain with the number of arcs that was asked for was found.
-    #[error("{arcs} arcs are too few")]
-    TooFewArcs {
-        /// That number.
-        arcs: u32,
-    },
     /// The tolerance requires more arcs than a drawing can hold, or is below the rounding of the coordinates.
     #[error(
         "a tolerance of {tolerance} cannot be kept: it must lie between 64 times the rounding of the coordinates and 1 mm"
@@ -148,22 +145,23 @@ pub enum FitError {
 /// [`FitError`] when the curve is not smooth or the tolerance cannot be kept.
 pub fn fit(curve: impl Fn(f64) -> CurvePoint, range: (f64, f64), tolerance: f64) -> Result<ArcChain, FitError> {
     let anything = |parameter: f64| (curve(parameter), ChainTolerance::ANY);
-    fit_within(&anything, &curve, range, tolerance, None)
+    fit_within(&anything, &curve, range, tolerance, ANY_NUMBER)
 }
 
 /// As [`fit`], for a curve that also gives the allowed errors in addition to the distance at a parameter. The curvature is kept at
 /// the joints and the extrema of the curve's, between which it is monotonic, the heading at the joints: between two the error of the
-/// distance is a cubic, whose slope is largest at its ends. With a number of arcs, chains of this many alone are tried.
+/// distance is a cubic, whose slope is largest at its ends. Chains whose number of arcs lies in a range are tried, from the least that
+/// may suffice.
 ///
 /// # Errors
-/// As [`fit`], and where no chain with the given number of arcs is found.
+/// As [`fit`], and where no chain with such a number is found.
 pub fn fit_with_tolerances(
     curve: impl Fn(f64) -> (CurvePoint, ChainTolerance),
     range: (f64, f64),
     tolerance: f64,
-    arcs: Option<u32>,
+    numbers: RangeInclusive<u32>,
 ) -> Result<ArcChain, FitError> {
-    fit_within(&curve, &|parameter| curve(parameter).0, range, tolerance, arcs)
+    fit_within(&curve, &|parameter| curve(parameter).0, range, tolerance, numbers)
 }
 
 fn fit_within(
@@ -171,7 +169,7 @@ fn fit_within(
     curve: &impl Fn(f64) -> CurvePoint,
     range: (f64, f64),
     tolerance: f64,
-    arcs: Option<u32>,
+    numbers: RangeInclusive<u32>,
 ) -> Result<ArcChain, FitError> {
     let (start, end) = (curve(range.0), curve(range.1));
     let size = start.point.norm().max(end.point.norm());
@@ -197,9 +195,8 @@ fn fit_within(
         } else {
             seen
         };
-        let joints = match arcs {
-            None => fewest(target, &nodes, within).ok_or(FitError::ToleranceTooFine { tolerance })?,
-            Some(arcs) => as_many(target, &nodes, within, arcs).ok_or(FitError::TooFewArcs { arcs })?,
+        let Some(joints) = fewest(target, &nodes, within, &numbers) else {
+            return Err(FitError::ToleranceTooFine { tolerance });
         };
         // Arcs that are shorter than the distance requires have small deviations, which need less effort.
         let checks = if limited { FEWER_CHECKS } else { CHECKS_PER_ARC };
@@ -216,11 +213,20 @@ fn fit_within(
     Err(FitError::ToleranceTooFine { tolerance })
 }
 
-/// The first chain that the minimax finds, starting from the least number of arcs that may be sufficient.
-fn fewest(target: &impl FitTarget, nodes: &[CurveSample], seen: f64) -> Option<Vec<ArcJoint>> {
+/// The first chain that the minimax finds, starting from the least of the numbers of arcs that may be sufficient.
+fn fewest(
+    target: &impl FitTarget,
+    nodes: &[CurveSample],
+    seen: f64,
+    numbers: &RangeInclusive<u32>,
+) -> Option<Vec<ArcJoint>> {
     let mut spacing = ArcSpacing::new(nodes);
     let first = spacing.arcs();
-    while spacing.arcs() <= MOST_TIMES * first + MOST_MORE {
+    let most = (MOST_TIMES * first + MOST_MORE).min(*numbers.end());
+    while spacing.arcs() < *numbers.start() {
+        spacing.add_arc();
+    }
+    while spacing.arcs() <= most {
         let least = match minimax::relax(target, nodes, seen, spacing.places(nodes)) {
             Ok(joints) => return Some(joints),
             Err(least) => least,
@@ -233,18 +239,6 @@ fn fewest(target: &impl FitTarget, nodes: &[CurveSample], seen: f64) -> Option<V
         }
     }
     None
-}
-
-/// A chain of this many arcs, if the minimax finds one.
-fn as_many(target: &impl FitTarget, nodes: &[CurveSample], seen: f64, arcs: u32) -> Option<Vec<ArcJoint>> {
-    let mut spacing = ArcSpacing::new(nodes);
-    while spacing.arcs() < arcs {
-        spacing.add_arc();
-    }
-    if spacing.arcs() > arcs {
-        return None;
-    }
-    minimax::relax(target, nodes, seen, spacing.places(nodes)).ok()
 }
 
 /// The least number of additional arcs, where the present number leaves a deviation, in tolerances, that falls at most with the third

@@ -2,12 +2,14 @@
 
 use super::{Fit, MOST_EDGES, MotionTolerance, Outline, OutlineError, SegmentKind};
 use crate::follower::Element;
+use crate::geometry::arcs::{self, ANY_NUMBER};
 use crate::geometry::contour::{Bend, Edge, Vertex};
-use crate::geometry::{ChainTolerance, CurvePoint, MILLIMETRES, arcs, cubics};
+use crate::geometry::{ChainTolerance, CurvePoint, MILLIMETRES, cubics};
 use crate::motion::{Motion, Piece};
 use crate::profile::Curves;
 use crate::profile::followed::FollowerOnChain;
 use nalgebra::Vector2;
+use std::ops::RangeInclusive;
 
 /// Places at which the variation of the acceleration is evaluated, and the least number of arcs that is expected.
 const PLACES: u32 = 16;
@@ -41,12 +43,13 @@ struct Strip {
 
 impl Strip {
     /// Fits a curve in millimetres, which gives the allowed errors of its heading and curvature, within a tolerance in
-    /// millimetres; where a number of arcs is given, with this many alone.
+    /// millimetres, with a number
+    /// of arcs in a range.
     fn along(
         target: impl Fn(f64) -> (CurvePoint, ChainTolerance),
         range: (f64, f64),
         tolerance: f64,
-        (fit, arcs): (&Fit, Option<u32>),
+        (fit, numbers): (&Fit, RangeInclusive<u32>),
     ) -> Result<Self, OutlineError> {
         if fit.laid == SegmentKind::Splines {
             let fitted = cubics::fit(|at| target(at).0, range, tolerance, &|at, _| target(at).1)?;
@@ -64,7 +67,7 @@ impl Strip {
         let chain = if fit.motion == MotionTolerance::ANY {
             arcs::fit(|at| target(at).0, range, tolerance)?
         } else {
-            arcs::fit_with_tolerances(target, range, tolerance, arcs)?
+            arcs::fit_with_tolerances(target, range, tolerance, numbers)?
         };
         Ok(Self {
             vertices: chain.joints.iter().map(|joint| Vertex::new(joint.point, joint.bulge)).collect(),
@@ -155,7 +158,7 @@ impl Outline {
         range: (f64, f64),
         fit: &Fit,
     ) -> Result<(), OutlineError> {
-        self.add(Strip::along(target, range, MILLIMETRES * fit.tolerance, (fit, None))?);
+        self.add(Strip::along(target, range, MILLIMETRES * fit.tolerance, (fit, ANY_NUMBER))?);
         Ok(())
     }
 
@@ -207,12 +210,12 @@ fn motion_strip(
     let by_distance = || {
         let fit = Fit { motion: MotionTolerance::ANY, ..*fit };
         let target = |at: f64| (frame(curves, (piece, at), distance), ChainTolerance::ANY);
-        Strip::along(target, range, MILLIMETRES * fit.tolerance, (&fit, None))
+        Strip::along(target, range, MILLIMETRES * fit.tolerance, (&fit, ANY_NUMBER))
     };
     if fit.motion == MotionTolerance::ANY || !curves.motion.is_rolled(piece) {
         return by_distance();
     }
-    let found = keeping_motion(curves, place, range, (fit, None));
+    let found = keeping_motion(curves, place, range, (fit, ANY_NUMBER));
     found.map(|found| fewest(curves, place, range, (fit, found))).map_or_else(by_distance, |(_, strip)| Ok(strip))
 }
 
@@ -236,7 +239,7 @@ fn fewest(
         }
         let finer = Fit { tolerance, ..*fit };
         let fewer = |arcs: u32| {
-            let found = keeping_motion(curves, place, range, (&finer, arcs.checked_sub(1)));
+            let found = keeping_motion(curves, place, range, (&finer, arcs - 1..=arcs - 1));
             found.filter(|(worst, strip)| *worst <= 1.0 && strip.arcs() < arcs)
         };
         while let Some(found) = fewer(best.1.arcs()) {
@@ -272,7 +275,7 @@ fn keeping_motion(
     curves: Curves<'_>,
     (piece, distance, stands_for): (usize, f64, f64),
     range: (f64, f64),
-    (fit, number): (&Fit, Option<u32>),
+    (fit, numbers): (&Fit, RangeInclusive<u32>),
 ) -> Option<(f64, Strip)> {
     let motion = fit.motion;
     // The measured errors differ from the first order by about the share of one arc in all arcs.
@@ -280,11 +283,16 @@ fn keeping_motion(
     let first = arcs.max(FEW) / (arcs.max(FEW) + 1.0);
     let mut tightened = MotionTolerance { acceleration: first * motion.acceleration, ..motion };
     let by_radius = is_by_radius(curves, fit);
+    let (mut least, most) = numbers.into_inner();
     let mut best: Option<(f64, Strip)> = None;
     for _ in 0..TRIES {
         let target = |at: f64| within(curves, (piece, at), distance, (tightened, by_radius));
         // The check reports that it is not kept.
-        let Ok(mut strip) = Strip::along(target, range, MILLIMETRES * fit.tolerance, (fit, number)) else { break };
+        let Ok(mut strip) = Strip::along(target, range, MILLIMETRES * fit.tolerance, (fit, least..=most)) else {
+            break;
+        };
+        // Tighter tolerances take no fewer arcs.
+        least = strip.arcs();
         // The best possible numbers are those for the given tolerances, not for the tighter ones of this attempt.
         let [velocity, acceleration] = &mut strip.best_for;
         *velocity *= (tightened.velocity / motion.velocity).max(0.0).sqrt();
