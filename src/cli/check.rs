@@ -6,7 +6,7 @@ use super::design::{self, Design};
 use super::progress::Progress;
 use super::{Failure, Outcome, print, print_painted, text};
 use camgen::body::Request;
-use camgen::body::conjugate::COUNTER;
+use camgen::body::conjugate::{COUNTER, MAIN_NAME};
 use camgen::document::NamedChoice;
 use camgen::document::file::bytes_of;
 use camgen::domains::press::motion::equation_18::Solver;
@@ -15,7 +15,7 @@ use camgen::machine::{Machine, UNITS_KEY};
 use camgen::pipeline::{Cam, Error, ExpectedFile, FileKind, Spec};
 use camgen::profile::outline::Fit;
 use camgen::reading::LARGEST_FILE;
-use camgen::report::{Report, Section};
+use camgen::report::{Report, Section, Speeds};
 use camgen::units::LengthUnit;
 use camgen::write::json;
 use camgen::write::record::{self, RecordedRun};
@@ -39,13 +39,14 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
         cutter: args.cutter_radius.or(args.cutter_diameter).or(recorded_cutter),
     };
     let Design { spec, told, recorded, exact } = design;
-    let spec = match args.units.or_else(|| recorded_units(&args.file)) {
+    let in_units = |spec: Spec| match args.units.or_else(|| recorded_units(&args.file)) {
         Some(units) => spec.in_units(units),
         None => spec,
     };
+    let spec = in_units(spec);
     let progress = Progress::of_stages(args.common.report.shows_progress());
     progress.stage("solving");
-    let (machine, given) = (spec.machine().clone(), recorded.is_none());
+    let machine = spec.machine().clone();
     let cam = spec.solve().map_err(Failure::new)?;
     if let Some(run) = recorded.filter(|run| exact && !cam.is_made_from(&run.inputs)) {
         return Err(Failure(format!(
@@ -55,9 +56,9 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
     }
     progress.stage("rolling on the file");
     let check = |cam: &Cam| cam.check_file(&bytes, &expected, request);
-    let checked = match check(&cam) {
-        Ok(report) if given => or_other_disc(args, machine, report, check),
-        found => found,
+    let checked = match pair(&cam, machine) {
+        Some([main, counter]) => of_pair(&args.file, [main, counter].map(in_units), check),
+        None => check(&cam),
     };
     let mut report = checked.map_err(|error| match error {
         Error::Read(error) => Failure(format!("`{file}` is {error}")),
@@ -97,21 +98,42 @@ fn section_of(file: &Path, run: &RecordedRun) -> Option<f64> {
     rest.strip_prefix('-')?.split_once("rpm")?.0.parse().ok()
 }
 
-/// The report on a file, or, where the file is not the main disc of a pair, that on the other disc, where it is that one or is named so.
-fn or_other_disc(
-    args: &CheckArgs,
-    machine: Machine,
-    report: Report,
-    check: impl Fn(&Cam) -> Result<Report, Error>,
-) -> Result<Report, Error> {
-    if report.passed() || machine.body() != COUNTER.keys {
-        return Ok(report);
-    }
-    let rpm = args.common.one_speed(&machine).ok().filter(|_| !args.common.rpm.is_empty());
-    let Some(other) = Spec::made_with_program(machine, rpm, COUNTER.command) else { return Ok(report) };
-    let second = check(&other.solve()?)?;
-    let named = args.file.file_name().is_some_and(|name| name.to_string_lossy().contains(COUNTER.command));
-    Ok(if second.passed() || named { second } else { report })
+/// Both discs of a pair of which a cam is one; `None` where it has no other disc.
+fn pair(cam: &Cam, machine: Machine) -> Option<[Spec; 2]> {
+    let rpm = if let Speeds::One(rpm) = cam.body().speeds() { Some(rpm) } else { None };
+    let main = Spec::of_program(machine.clone(), rpm).filter(|_| machine.body() == COUNTER.keys)?;
+    Some([main, Spec::made_with_program(machine, rpm, COUNTER.command)?])
+}
+
+/// The report on a file of a pair of discs: for the disc that its name gives, else for the one that it is or comes nearer to.
+///
+/// Both discs have one bore and one keyway: nothing stops a shop that cuts the same one twice.
+fn of_pair(file: &Path, specs: [Spec; 2], check: impl Fn(&Cam) -> Result<Report, Error>) -> Result<Report, Error> {
+    let [main, counter] = specs;
+    let (main, counter) = (check(&main.solve()?)?, check(&counter.solve()?)?);
+    let off = |report: &Report| {
+        let outline = report.checks.iter().find(|finding| finding.check == "outline");
+        let value = outline.map_or(f64::NAN, |outline| outline.value);
+        (!report.passed(), if value.is_nan() { f64::INFINITY } else { value })
+    };
+    let is_counter = named_disc(file).map_or_else(|| off(&counter) < off(&main), |name| name == COUNTER.command);
+    let (report, other) = if is_counter { (counter, main) } else { (main, counter) };
+    let [name, found] = if is_counter { [COUNTER.command, MAIN_NAME] } else { [MAIN_NAME, COUNTER.command] };
+    Ok(if other.passed() && !report.passed() {
+        let words = format!("It is the {found} disc of this pair: the name of the file says {name}");
+        let others = report.sections.into_iter().filter(|section| section.key != "diagnosis");
+        let told = Section::new("diagnosis", &[&words]).with_words(vec![words.clone()]);
+        Report { sections: others.chain([told]).collect(), ..report }
+    } else {
+        report
+    })
+}
+
+/// The disc of a pair that the name of a file gives: the last of its words that is one of them.
+fn named_disc(file: &Path) -> Option<&'static str> {
+    let stem = file.file_stem()?.to_str()?;
+    let of_word = |word: &str| [MAIN_NAME, COUNTER.command].into_iter().find(|disc| word.eq_ignore_ascii_case(disc));
+    stem.rsplit(|letter: char| !letter.is_alphanumeric()).find_map(of_word)
 }
 
 /// The design that is given, that of the file, or, where a flag belongs to a press, the embedded one.

@@ -20,8 +20,12 @@ use std::sync::Arc;
 
 /// Checks of the outline: when one of them fails, it is asked why.
 const OF_THE_OUTLINE: [&str; 3] = ["outline", "rolling", "rolling_flank"];
-/// What remains must be this share of what was found, or less; and two changes must leave that share of what one leaves.
+/// What remains must be this share of what was found, or less; and two changes must leave that share of what one leaves. Within the
+/// tolerance a larger share is enough: the outline of the file is itself off by as much.
 const EXPLAINED: f64 = 0.1;
+const EXPLAINED_WITHIN: f64 = 0.5;
+/// An outline that is off by less than this many tolerances may be so for a cause that its own errors hide.
+const TELLING: f64 = 3.0;
 /// The cam is drawn so much finer than the tolerance, but not finer than this, m.
 const FINER: f64 = 0.1;
 const FINEST: f64 = 1e-8;
@@ -264,7 +268,8 @@ pub(super) fn of(
 impl Search<'_> {
     /// Notes an explanation, if it is one.
     fn consider(&mut self, changes: Vec<Change>, remaining: f64) {
-        if remaining <= EXPLAINED * self.distance {
+        let within = (EXPLAINED_WITHIN * self.distance).min(MILLIMETRES * self.tolerance);
+        if remaining <= within.max(EXPLAINED * self.distance) {
             self.explanations.push(Explanation::new(changes, remaining));
         }
     }
@@ -400,6 +405,9 @@ impl Search<'_> {
         let most = self.explanations.first().map_or(0.0, |best| worth(best) / EXPLAINED);
         self.explanations.retain(|found| found.remaining_mm <= most);
         let words = match self.explanations.as_slice() {
+            [] if self.distance < TELLING * MILLIMETRES * self.tolerance => {
+                vec![format!("the outline is {:.4} mm off, too little beside the tolerance to tell why", self.distance)]
+            }
             [] => vec![format!(
                 "the outline is {:.4} mm off; it is not this cam mirrored, turned, shifted, scaled, offset or for another speed, and its \
                  bulges are not those of this cam inverted, lost or at other vertices",

@@ -223,3 +223,35 @@ fn the_embedded_pair_is_made_and_each_file_is_found_again() {
         }
     }
 }
+
+/// Both discs have one bore and keyway: a file whose name gives the other disc would be cut twice without notice. A disc that fails under any
+/// other name is compared with the disc that it comes nearest to.
+#[test]
+fn a_disc_under_the_name_of_the_other_is_refused() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let run = camgen_in(directory, &["make", "conjugate", "--name", "p", "--format", "dxf", "--out", "out"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let out = run.directory.path().join("out");
+    let text = |name: &str| std::fs::read_to_string(out.join(name)).expect("a file");
+    let (main, counter) = (text("p-main.dxf"), text("p-counter.dxf"));
+    for (name, bytes) in [("p-main", &counter), ("p-counter", &main), ("right", &counter), ("counterweight", &counter)]
+    {
+        std::fs::write(out.join(format!("{name}.dxf")), bytes).expect("written");
+    }
+    let mut run = run;
+    for (file, code, says) in [
+        ("p-main", 1, "It is the counter disc of this pair: the name of the file says main"),
+        ("p-counter", 1, "It is the main disc of this pair: the name of the file says counter"),
+        ("right", 0, "counter cam"),
+        ("counterweight", 0, "counter cam"),
+        ("coarse", 1, "counter cam"),
+    ] {
+        for design in [&[][..], &["--design", "conjugate"]] {
+            let path = format!("out/{file}.dxf");
+            let finer: &[&str] = if file == "coarse" { &["--tolerance", "2um"] } else { &[] };
+            let words: Vec<&str> = ["check", &path].into_iter().chain(design.iter().chain(finer).copied()).collect();
+            run = camgen_in(run.directory, &words);
+            assert!(run.code == code && run.out.contains(says), "{words:?}: {}{}", run.out, run.err);
+        }
+    }
+}

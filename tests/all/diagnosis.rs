@@ -99,6 +99,29 @@ fn a_moved_outline_is_told_with_its_move() {
     }
 }
 
+/// Changes of a few tolerances, of a file that itself takes all of its tolerance: what remains is no small share of what was found.
+#[test]
+fn a_small_change_is_told_of_a_coarse_file() {
+    let tolerance = 5e-6;
+    let cam = rotary(35.0, &[]);
+    let drawing = cam.draw(tolerance).expect("a drawing");
+    let own = drawing.drawn().expect("an outline").parts[0].outline.contour.clone();
+    let with = |to: &dyn Fn(Vector2<f64>) -> Vector2<f64>| file(&moved(&own, to));
+    let (sin, cos) = libm::sincos(0.02_f64.to_radians());
+    for (bytes, cause, value, within) in [
+        (with(&|p| p + Vector2::new(0.012, 0.0)), "shifted", 0.012, 3e-3),
+        (with(&|p| p + Vector2::new(0.0, 0.02)), "shifted", 0.02, 3e-3),
+        (with(&|p| p * 1.0003), "scaled", 1.0003, 3e-5),
+        (with(&|p| p * 0.9995), "scaled", 0.9995, 3e-5),
+        (with(&|p| Vector2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y)), "turned", 0.02, 3e-3),
+    ] {
+        let all = diagnosis(&cam.check(&bytes, tolerance).expect("a DXF file"));
+        let found = all.first().and_then(|first| first["value"].as_f64()).unwrap_or(f64::NAN);
+        assert_eq!(all.first().map(|first| &first["cause"]), Some(&Value::from(cause)), "{value}: {all:?}");
+        assert!((found - value).abs() <= within, "{cause}: {found}, not {value}: {all:?}");
+    }
+}
+
 #[test]
 fn a_mirrored_outline_is_told_from_a_reversed_motion() {
     let cam = rotary(35.0, &[]);
