@@ -238,11 +238,8 @@ fn fewest(
             break;
         }
         let finer = Fit { tolerance, ..*fit };
-        let fewer = |arcs: u32| {
-            let found = keeping_motion(curves, place, range, (&finer, arcs - 1..=arcs - 1));
-            found.filter(|(worst, strip)| *worst <= 1.0 && strip.arcs() < arcs)
-        };
-        while let Some(found) = fewer(best.1.arcs()) {
+        let found = keeping_motion(curves, place, range, (&finer, 1..=arcs - 1));
+        if let Some(found) = found.filter(|(worst, strip)| *worst <= 1.0 && strip.arcs() < arcs) {
             best = found;
         }
     }
