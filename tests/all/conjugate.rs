@@ -234,8 +234,13 @@ fn a_disc_under_the_name_of_the_other_is_refused() {
     let out = run.directory.path().join("out");
     let text = |name: &str| std::fs::read_to_string(out.join(name)).expect("a file");
     let (main, counter) = (text("p-main.dxf"), text("p-counter.dxf"));
-    for (name, bytes) in [("p-main", &counter), ("p-counter", &main), ("right", &counter), ("counterweight", &counter)]
-    {
+    for (name, bytes) in [
+        ("p-main", &counter),
+        ("p-counter", &main),
+        ("right", &counter),
+        ("counterweight", &counter),
+        ("coarse", &counter),
+    ] {
         std::fs::write(out.join(format!("{name}.dxf")), bytes).expect("written");
     }
     let mut run = run;

@@ -1,10 +1,11 @@
 //! The second disc of a press: its spring takes the torque that the first one needs from the camshaft.
 
 use super::buffer::regime::{self, Reset};
-use super::cams;
 use super::load::ShaftWork;
 use super::machine::{CompensatorData, PressCams};
 use super::rotary::RotaryCam;
+use super::scatter::losses::LossyReversal;
+use super::{cams, loop_of_air};
 use crate::body::disc::{Disc, Duty, Purpose};
 use crate::body::{Body, Kind, torque};
 use crate::geometry::MILLIMETRES;
@@ -83,6 +84,8 @@ pub struct CompensatorFigures {
     pub before: f64,
     /// Largest torque on the camshaft with it, N·m.
     pub after: f64,
+    /// Largest torque that the losses of the machine file leave on the camshaft, N·m; `None` where it gives none.
+    pub in_losses: Option<f64>,
     /// Largest force of its spring, N.
     pub spring_force: f64,
     /// At other speeds.
@@ -176,14 +179,35 @@ impl RotaryCam {
             let torque = |disc: &Disc| torque::force_and_torque(disc, angle).map_or(0.0, |[_, torque]| torque);
             (torque(&self.disc) + torque(second)).abs()
         };
+        let (machine, buffer) = (self.disc.machine(), &self.buffer);
+        let lossy = loop_of_air::reversal(machine, buffer.cylinder(), &buffer.reversal().law().bottom_law);
+        let in_losses = lossy.map(|lossy| {
+            let off = |angle: f64| self.torque_of_losses(&lossy, angle).abs();
+            let pieces = self.disc.curves().motion.distinct();
+            pieces.iter().flat_map(|piece| within(piece, TURN)).map(off).fold(0.0, f64::max)
+        });
         let after = second.curves().motion.distinct().iter().flat_map(|piece| within(piece, PLACES));
         Ok(CompensatorFigures {
             work: law.stored(),
             before: self.disc.torque_max().map_or(0.0, |torque| torque.value),
             after: after.map(left).fold(0.0, f64::max),
+            in_losses,
             spring_force: law.law().spring_force(second.max_lift()),
             by_speed: self.at_other_speeds(&law, second),
         })
+    }
+
+    /// The torque on the camshaft at a cam angle of the force that the air of a press that loses has beyond that of the law, N·m.
+    fn torque_of_losses(&self, lossy: &LossyReversal, angle: f64) -> f64 {
+        let motion = self.disc.curves().motion;
+        let (piece, inside) = motion.locate(angle);
+        let state = self.buffer.state(piece, inside);
+        if !state.reversing {
+            return 0.0;
+        }
+        let beyond = lossy.pressure(state.crank) - state.pressure_ratio;
+        let lever = PressCams::of(self.disc.machine()).lever;
+        self.buffer.cylinder().unit_force() * beyond / lever * motion.jet(piece, inside).ds
     }
 
     /// The torques at other speeds of the press, the column reset by (14): air, preload and inertia of this disc, spring and inertia

@@ -38,8 +38,8 @@ pub(super) fn measure(machine: &Machine, cylinder: &Cylinder, law: &CrankLaw) ->
     Some(losses::measure(lost.residual_n(), lost.residual_fixed_bottom_n()?))
 }
 
-/// The reversal with the losses of the machine file.
-fn reversal(machine: &Machine, cylinder: &Cylinder, law: &CrankLaw) -> Option<LossyReversal> {
+/// The reversal with the losses of the machine file; `None` where it gives none.
+pub(super) fn reversal(machine: &Machine, cylinder: &Cylinder, law: &CrankLaw) -> Option<LossyReversal> {
     let losses = PressCams::of(machine).losses;
     let cam = losses.is_any().then(|| FrozenBuffer::of_law(law, cylinder))?;
     LossyReversal::new(&cam, &Fault::none(law.exponent()), &losses).ok()

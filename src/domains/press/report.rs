@@ -310,6 +310,9 @@ pub struct Compensation {
     pub torque_before_max_nm: f64,
     /// By the law: rounding, or the inertia of its follower.
     pub torque_after_max_nm: f64,
+    /// The torque that the losses of the machine file leave, by the law.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub torque_in_losses_max_nm: Option<f64>,
     /// Largest torque of both discs together, by the normals where the followers touch the written outlines.
     pub torque_as_cut_max_nm: Option<f64>,
     pub preload_by_rpm: Vec<PreloadAtSpeed>,
@@ -327,6 +330,9 @@ impl Compensation {
             let share = 100.0 * torque / self.torque_before_max_nm;
             format!(", as cut {} N·m ({} %)", shown(torque), shown(share))
         });
+        let in_losses = self.torque_in_losses_max_nm.map(|torque| {
+            format!("the losses of the buffer leave up to {} N·m of it, which no spring takes", shown(torque))
+        });
         let mut words = vec![
             format!(
                 "second disc: prime radius {} mm, lift {:.3} mm, roller Ø{} mm, follower at {}°",
@@ -342,6 +348,7 @@ impl Compensation {
             ),
             format!("its spring stores {:.2} J, at most {:.0} N", self.work_j, self.spring_force_max_n),
         ];
+        words.extend(in_losses);
         words.extend(self.preload_by_rpm.iter().map(|at| {
             format!(
                 "{} rpm, column reset: {:.1} N·m without, {:.1} N·m with it, {:.1} N·m with a preload of {:.0} N",

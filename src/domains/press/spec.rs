@@ -159,6 +159,7 @@ fn compensation(first: &Proven, second: &Proven, by_law: &CompensatorFigures) ->
         spring_force_max_n: by_law.spring_force,
         torque_before_max_nm: by_law.before,
         torque_after_max_nm: by_law.after,
+        torque_in_losses_max_nm: by_law.in_losses,
         torque_as_cut_max_nm: both
             .and_then(|(one, two)| torque::remaining_torque((first.body(), &one.contour), (body, &two.contour))),
         preload_by_rpm: by_law.by_speed.iter().map(preload_at).collect(),

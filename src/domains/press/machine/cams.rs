@@ -13,6 +13,7 @@ use crate::document::range::{LARGEST_FORCE, LARGEST_NUMBER, LONGEST};
 use crate::document::{Field, KeySection, Occurrence, Reader, TableReader, above, within};
 use crate::domains::press::cams::{CONOID, OF_A_COLUMN_LIMIT, OF_A_PRESS, REGIMES, ROTARY};
 use crate::domains::press::motion::Transition;
+use crate::domains::press::scatter::error::ScatterError;
 use crate::domains::press::scatter::losses::Losses;
 use crate::domains::press::scatter::monte_carlo::{CUSTOMARY, Sampling};
 use crate::machine::Machine;
@@ -213,8 +214,14 @@ pub(super) fn compensated_train(reader: &Reader<'_>) -> Option<f64> {
 /// What is given of losses; what is not is no loss.
 fn read_losses(reader: &Reader<'_>) -> Losses {
     let (buffer, bed, cam) = (reader.table(&buffer::SECTION), reader.table(&bed::SECTION), reader.table(&CAM));
+    let (compression, expansion) = (buffer.get(&buffer::POLYTROPIC_EXPONENT), buffer.get(&losses::EXPANSION_EXPONENT));
+    if let Some((expansion, compression)) = expansion.zip(compression).filter(|(back, inward)| back < inward) {
+        let why = ScatterError::ExpansionBelowCompression { expansion, compression };
+        let help = format!("give {compression} or more");
+        buffer.fail(&losses::EXPANSION_EXPONENT, why.to_string(), Some(help));
+    }
     Losses {
-        expansion_exponent: buffer.get(&losses::EXPANSION_EXPONENT),
+        expansion_exponent: expansion,
         leak: buffer.get(&losses::LEAK).unwrap_or(0.0),
         piston_friction: buffer.get(&losses::PISTON_FRICTION).unwrap_or(0.0),
         bed_friction: bed.get(&losses::BED_FRICTION).unwrap_or(0.0),

@@ -441,6 +441,15 @@ fn a_cam_that_is_cut_for_its_train_leaves_nothing() {
     }
 }
 
+/// Not only where the air is balanced in both directions: without a word the losses would be left out.
+#[test]
+fn air_that_would_give_work_is_refused_where_it_is_given() {
+    let sets = ["buffer.expansion_exponent=1.25".to_owned()];
+    let said = Machine::load("dpi", &sets).expect_err("refused").to_string();
+    assert!(said.contains("1.25 is below 1.35") && said.contains("give 1.35 or more"), "{said}");
+    assert!(said.contains("buffer.expansion_exponent"), "{said}");
+}
+
 #[test]
 fn losses_that_cannot_be_are_refused() {
     let of =
