@@ -98,6 +98,11 @@ pub trait Figures: Body {
         None
     }
 
+    /// Largest width of a blank whose edge is not a flank, mm; 0 without one.
+    fn blank_width(&self) -> f64 {
+        0.0
+    }
+
     /// The measures of all of these.
     fn measured(&self, of: &mut Measures<'_>, subject: &Subject<'_>) {
         let lost = || super::curves_of(self).map_or_else(Vec::new, |curves| lost_motion(curves, &|at| self.place(at)));
@@ -119,7 +124,7 @@ pub trait Figures: Body {
         });
         of.add(&wall::CHECK, |written| self.wall().map(|wall| wall::measure(wall, written, subject)));
         of.add(&pivot_clearance::CHECK, |_| pivot_clearance::measure(subject));
-        of.add(&size::CHECK, |written| size::measure(written, subject));
+        of.add(&size::CHECK, |written| size::measure(written, self.blank_width(), subject));
         if !self.is_form_closed() {
             of.add(&force_closure::CHECK, |_| {
                 force_closure::measure(self.least_closing_force(), || self.preload_that_holds(1.0), subject)

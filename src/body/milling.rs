@@ -358,6 +358,15 @@ fn passes(
     Ok(found)
 }
 
+/// The straight ways before the lead-in and behind the lead-out on which the control takes up its compensation and ends it.
+fn approach([to, from]: &[Segment; 2]) -> [Segment; 2] {
+    let size = (to.start - to.end).norm();
+    [
+        Segment { start: to.start - to.start_tangent() * size, end: to.start, bulge: 0.0 },
+        Segment { start: from.end, end: from.end + from.end_tangent() * size, bulge: 0.0 },
+    ]
+}
+
 impl Flank<'_> {
     /// The pass, with a lead-in and a lead-out that keep clear of the metal.
     fn pass(
@@ -383,8 +392,8 @@ impl Flank<'_> {
         let blocks = [grid.blocks(&[to]), round, grid.blocks(&[from])].concat();
         let start = grid.point(to.start);
         let compensated = cutter.is_none().then(|| {
-            let size = (to.start - to.end).norm();
-            [grid.point(to.start - to.start_tangent() * size), grid.point(from.end + from.end_tangent() * size)]
+            let [into, out] = approach(&[to, from]);
+            [grid.point(into.start), grid.point(out.end)]
         });
         Ok(MillingPass { words: self.words.clone(), cutter_left: self.cutter_left, compensated, start, blocks })
     }
@@ -412,7 +421,8 @@ impl Flank<'_> {
         let fits = |size: &&f64| **size >= least && room.is_none_or(|room| **size <= room);
         for size in sizes.iter().filter(fits) {
             let leads = self.lead(ends, form, *size);
-            if leads.iter().all(|lead| self.is_free(lead, tolerance)) {
+            let ways = if cutter.is_none() { approach(&leads) } else { leads };
+            if leads.iter().chain(&ways).all(|way| self.is_free(way, tolerance)) {
                 return Ok(Some(leads));
             }
         }
@@ -420,7 +430,12 @@ impl Flank<'_> {
             return Ok(None);
         }
         let what = format!("no lead-in to the {} is free for the cutter", self.words);
-        Err(Refusal::new(what).remedy("give another --start, a smaller --lead-in, or --cutter-diameter"))
+        let remedy = if cutter.is_none() {
+            "give cut.compensation = \"program\" and --cutter-diameter: the program of a cutter that is known can go down on the path itself"
+        } else {
+            "give another --start or a smaller --lead-in"
+        };
+        Err(Refusal::new(what).remedy(remedy))
     }
 
     /// The lead-in to and the lead-out from the start of the path, on the side of the cutter.

@@ -6,7 +6,7 @@ use super::{curves_of, torque};
 use crate::geometry::contour::{Contour, Extents};
 use crate::geometry::{Entity, MILLIMETRES, polar};
 use crate::machine::fit::{self, HoleFit};
-use crate::machine::{Machine, Rotation, parallel_key};
+use crate::machine::{Keyway, Machine, Rotation, parallel_key};
 use crate::motion::Quantity;
 use crate::profile::Curves;
 use crate::profile::followed::FollowerOnChain;
@@ -174,20 +174,45 @@ pub(crate) fn tolerance_frame(
     Mark::Tolerance { places, cells, behind }
 }
 
+fn size_with(fit: bool, length: f64, units: LengthUnit) -> String {
+    if fit { units.toleranced(length) } else { units.dimension(length) }
+}
+
+/// The sizes and the place of a keyway in a bore of a radius, m.
+fn keyway_words(machine: &Machine, bore: f64, keyway: &Keyway) -> String {
+    let units = machine.units();
+    let fit = machine.cam.keyway_fit.map(|fit| fit_words(fit, keyway.width, units)).unwrap_or_default();
+    let standard = parallel_key::standard(2.0 * bore, keyway.width, keyway.depth);
+    let deeper = standard.map(|standard| format!(" +{}", units.zone(MILLIMETRES * standard.deeper)));
+    format!(
+        "keyway {}{fit}, {}{} over the bore, at θ = {}°{}",
+        size_with(machine.cam.keyway_fit.is_some(), MILLIMETRES * keyway.width, units),
+        size_with(standard.is_some(), MILLIMETRES * (2.0 * bore + keyway.depth), units),
+        deeper.unwrap_or_default(),
+        rounded(keyway.angle.to_degrees()),
+        standard.map_or("", |_| ", DIN 6885-1"),
+    )
+}
+
+/// The keyway in words, for a sheet that does not show the bore from its end.
+pub(crate) fn keyway_note(machine: &Machine) -> Option<String> {
+    let (bore, keyway) = (machine.cam.bore_radius?, machine.cam.keyway?);
+    Some(format!("{}.", keyway_words(machine, bore, &keyway).replacen('k', "K", 1)))
+}
+
 /// Bore with its keyway, which are the datums, and balance holes, by their names.
 pub(crate) fn bore(machine: &Machine, balancing: Option<&Balancing>) -> Vec<Mark> {
     let mut marks = Vec::new();
     let Some(bore) = machine.cam.bore_radius else { return marks };
     let units = machine.units();
     let radius = MILLIMETRES * bore;
-    let size_with = |fit: bool, length: f64| if fit { units.toleranced(length) } else { units.dimension(length) };
     let down_right = Vector2::new(0.6, -0.8);
     let fit = machine.cam.bore_fit.map(|fit| fit_words(fit, 2.0 * bore, units)).unwrap_or_default();
     marks.push(Mark::Label {
         class: "dimension",
         at: down_right * radius,
         towards: down_right,
-        text: format!("Ø{}{fit}", size_with(machine.cam.bore_fit.is_some(), 2.0 * radius)),
+        text: format!("Ø{}{fit}", size_with(machine.cam.bore_fit.is_some(), 2.0 * radius, units)),
     });
     let down_left = Vector2::new(-0.6, -0.8);
     marks.push(Mark::Datum { at: down_left * radius, towards: down_left, letter: "A" });
@@ -195,10 +220,6 @@ pub(crate) fn bore(machine: &Machine, balancing: Option<&Balancing>) -> Vec<Mark
         let along = Vector2::new(libm::cos(keyway.angle), libm::sin(keyway.angle));
         let along = point_as_turned(machine, along);
         let (width, depth) = (MILLIMETRES * keyway.width, MILLIMETRES * keyway.depth);
-        let fit = machine.cam.keyway_fit.map(|fit| fit_words(fit, keyway.width, units)).unwrap_or_default();
-        let standard = parallel_key::standard(2.0 * bore, keyway.width, keyway.depth);
-        let deeper = standard.map(|standard| format!(" +{}", units.zone(MILLIMETRES * standard.deeper)));
-        let place = rounded(keyway.angle.to_degrees());
         // Off the axis, which its leader would lie on.
         let (sin, cos) = libm::sincos(0.4);
         let towards = Vector2::new(along.x * cos - along.y * sin, along.x * sin + along.y * cos);
@@ -206,13 +227,7 @@ pub(crate) fn bore(machine: &Machine, balancing: Option<&Balancing>) -> Vec<Mark
             class: "dimension",
             at: along * (radius + depth),
             towards,
-            text: format!(
-                "keyway {}{fit}, {}{} over the bore, at θ = {place}°{}",
-                size_with(machine.cam.keyway_fit.is_some(), width),
-                size_with(standard.is_some(), 2.0 * radius + depth),
-                deeper.unwrap_or_default(),
-                standard.map_or("", |_| ", DIN 6885-1"),
-            ),
+            text: keyway_words(machine, bore, &keyway),
         });
         let side = Vector2::new(-along.y, along.x);
         marks.push(Mark::Datum {

@@ -11,17 +11,17 @@ pub const CHECK: Check = Check {
     about: "The largest length or width of the cam. A cam of metres is mostly an input in another unit, or a motion that asks for too much.",
     explained: CheckExplanation {
         bound: Bound::AtMost,
-        formula: "the longer side of the upright rectangle about the outline as written",
+        formula: "the longer side of the upright rectangle about the outline as written; of a groove or a ring the diameter of its blank",
         usual: "2 m: what the machine tools of a shop take; `limits.size` where it is given",
         change: "the motion: a lower lift, a longer rise or a smoother law; in a press a shorter column or run-up; or `limits.size` for a cam that is meant to be so large",
     },
 };
 
-/// Measure of the size of what is written; `None` where nothing is.
+/// Measure of the size of what is written, with a blank of a width (mm; 0 without one) about it; `None` where nothing is.
 #[must_use]
-pub fn measure(written: &AsWritten<'_>, subject: &Subject<'_>) -> Option<Measure> {
+pub fn measure(written: &AsWritten<'_>, blank: f64, subject: &Subject<'_>) -> Option<Measure> {
     let limits = subject.machine.limits;
     let limit = 1e3 * limits.largest_size();
     let note = limits.size.is_none().then(|| "the customary limit".to_owned());
-    Some(CHECK.measure(written.size_mm?, Some(limit)).noted(note))
+    Some(CHECK.measure(written.size_mm?.max(blank), Some(limit)).noted(note))
 }

@@ -173,7 +173,7 @@ const MOST_ABOVE: usize = 50;
 /// semicolons separate the cells.
 fn cells(line: &str) -> Vec<String> {
     let kept = |cells: Vec<&str>| {
-        let mut cells: Vec<String> = cells.iter().map(|cell| cell.trim().trim_matches('"').trim().to_owned()).collect();
+        let mut cells: Vec<String> = cells.iter().map(|cell| unquoted(cell.trim()).trim().to_owned()).collect();
         while cells.last().is_some_and(String::is_empty) {
             cells.pop();
         }
@@ -198,10 +198,16 @@ fn cells(line: &str) -> Vec<String> {
     for cell in blanks {
         match joined.last_mut().filter(|_| cell.starts_with(['(', '['])) {
             Some(before) => *before = format!("{before} {cell}"),
-            None => joined.push(cell.trim_matches('"').to_owned()),
+            None => joined.push(unquoted(cell).to_owned()),
         }
     }
     joined
+}
+
+/// A cell without the quotes around it. A quote behind a number alone is an inch mark, which the number does not lose.
+fn unquoted(cell: &str) -> &str {
+    let inner = cell.trim_matches('"');
+    if !cell.starts_with('"') && number(inner).is_some() { cell } else { inner }
 }
 
 /// The heading of each column: the cells of the lines above the rows that have as many; of a list with one column the whole lines.

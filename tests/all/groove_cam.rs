@@ -230,3 +230,19 @@ fn the_embedded_groove_is_made_and_found_again() {
     assert_eq!(by_hash.code, 0, "{} {}", by_hash.out, by_hash.err);
     let _ = fs::metadata(by_hash.directory.path()).expect("still there");
 }
+
+/// What a machine tool must take is the blank, not the outer flank.
+#[test]
+fn the_size_of_a_groove_is_that_of_its_blank() {
+    for (body, text) in [("groove", translating()), ("ring", translating().replace("\"groove\"", "\"ring\""))] {
+        let directory = tempfile::tempdir().expect("a directory");
+        fs::write(directory.path().join("cam.toml"), text).expect("written");
+        let run = camgen_in(directory, &["make", "cam.toml", "--dry-run", "--json"]);
+        let report = report(&run);
+        let blank = report["groove"]["blank_radius_mm"].as_f64().or(report["ring"]["blank_radius_mm"].as_f64());
+        let blank = 2.0 * blank.unwrap_or_else(|| panic!("{body}: {}", run.out));
+        let checks = report["checks"].as_array().expect("checks");
+        let size = checks.iter().find(|check| check["check"] == "size").expect("a size");
+        assert!((size["value"].as_f64().expect("a number") - blank).abs() < 1e-9, "{body}: {size} {blank}");
+    }
+}

@@ -280,6 +280,53 @@ fn points_and_a_table_are_the_known_spline() {
     assert_eq!(number(&finding(&cubic, "continuity")["value"]), 2.0);
 }
 
+/// The unit of a heading is read, or the table is refused: a lift that is a thousand times too small passes every check.
+#[test]
+fn a_heading_is_read_or_refused() {
+    let made = |heading: &str, keys: &str, top: &str| {
+        let rows = format!("{heading}\n0,0\n60,{top}\n130,{top}\n200,{top}\n290,0\n");
+        run_beside(
+            &in_rows(&format!("table = \"lift.csv\"{keys}")),
+            &[("lift.csv", &rows)],
+            &["--samples", "36", "--force"],
+        )
+    };
+    for (heading, top, millimetres) in [
+        ("angle (deg),lift (metres)", "0.01", 10.0),
+        ("angle in deg,lift in metres", "0.01", 10.0),
+        ("angle_deg,lift_m", "0.01", 10.0),
+        ("Winkel (Grad),Hub (Zentimeter)", "1", 10.0),
+        ("Winkel (Grad),Hub (Zoll)", "0.5", 12.7),
+        ("angle deg,lift ('')", "0.5", 12.7),
+    ] {
+        let run = made(heading, "", top);
+        // The motion itself breaks a limit.
+        assert_ne!(run.code, 2, "{heading}: {}{}", run.out, run.err);
+        let found = row(&run, 60)[0];
+        assert!((found - millimetres).abs() < 1e-9, "{heading}: {found}");
+    }
+    for (heading, keys, says) in [
+        ("angle (deg),lift (furlong)", "", "names \"furlong\", which is no unit that is known"),
+        ("angle (deg),lift in furlongs", "", "names \"furlongs\""),
+        ("angle (deg),lift (dm)", "", "in dm"),
+        ("angle (deg),lift (feet)", "", "in ft"),
+        ("angle deg,lift 1/100 mm", "", "has a factor beside the unit"),
+        ("angle deg,lift mm x 100", "\nunit = \"mm\"", "has a factor beside the unit"),
+        ("angle,velocity", "", "no position by its heading: velocity"),
+    ] {
+        let run = made(heading, keys, "10");
+        assert!(run.code == 2 && run.err.contains(says), "{heading}: {} {}", run.out, run.err);
+    }
+    for keys in ["\nunit = \"mm\"", "\nscale = 1"] {
+        let run = made("angle (deg),lift (furlong)", keys, "10");
+        assert_ne!(run.code, 2, "{}", run.err);
+    }
+    let run = made("angle deg,lift 1/100 mm", "\nscale = 0.01", "1000");
+    assert!(run.code != 2 && (row(&run, 60)[0] - 10.0).abs() < 1e-9, "{}", run.err);
+    let run = made("angle,lift", "", "0.5\"");
+    assert!(run.code == 2 && run.err.contains("not two numbers"), "{}", run.err);
+}
+
 /// One motion as a formula, as a series and as a law; lobes and another first angle turn it.
 #[test]
 fn a_formula_and_a_series_are_the_motion_they_say() {

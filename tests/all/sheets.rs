@@ -369,3 +369,26 @@ fn a_text_of_the_font_has_the_width_that_is_told() {
     assert!(text.contains("textLength"));
     assert!((font::width("Scale", 10.0) - 10.0 * (1366.0 + 1024.0 + 1139.0 + 455.0 + 1139.0) / 2048.0).abs() < 1e-9);
 }
+
+/// A shop that cuts the keyway by hand needs its sizes and its place: they are on the sheet wherever it lies.
+#[test]
+fn a_keyway_is_on_every_sheet() {
+    let texts = |drawn: &Drawn| -> String {
+        let shapes = drawn.sheet.groups.iter().flat_map(|group| &group.shapes);
+        shapes
+            .filter_map(|shape| if let SheetShape::Text { text, .. } = shape { Some(text.as_str()) } else { None })
+            .collect()
+    };
+    let keyway = ["cam.keyway.width=8mm", "cam.keyway.depth=3.3mm"];
+    for degrees in (-180..180).step_by(20) {
+        let angle = format!("cam.keyway.angle={degrees} deg");
+        for design in ["groove", "conjugate", "feeder"] {
+            let drawn = solved("make", design, &[&keyway[..], &[&angle, "cam.bore_diameter=25mm"]].concat(), &[]);
+            assert!(texts(&drawn).contains("keyway 8"), "{design} {degrees}");
+        }
+    }
+    for design in ["barrel", "indexer"] {
+        let drawn = solved("make", design, &keyway, &[]);
+        assert!(texts(&drawn).contains("Keyway 8"), "{design}");
+    }
+}

@@ -1,7 +1,7 @@
 //! What the review sheet of a barrel shows: the developed view with its flanks, a section along the axis, and tables of places of both flanks.
 
 use super::{Barrel, FlankSide};
-use crate::body::sheet::tolerance_note;
+use crate::body::sheet::{keyway_note, tolerance_note};
 use crate::body::{Drawn, Layer};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::report::sheet::{Mark, PlaceTable, ShapeGroup, SheetShape, SheetView, TitleFacts, rounded};
@@ -41,7 +41,7 @@ pub(super) fn view(barrel: &Barrel, drawn: &Drawn) -> SheetView {
             thickness_mm: Some(MILLIMETRES * (barrel.ends.1 - barrel.ends.0)),
             ..TitleFacts::of(&barrel.machine, swept.map(|swept| mass(barrel, swept.solid.volume)))
         },
-        notes: tolerance_note(&barrel.machine),
+        notes: tolerance_note(&barrel.machine).into_iter().chain(keyway_note(&barrel.machine)).collect(),
         ..SheetView::default()
     };
     let sense = if barrel.is_clockwise() { "clockwise" } else { "counter-clockwise" };

@@ -3,7 +3,7 @@
 use super::mechanism::outline;
 use super::{End, Flank, Globoid};
 use crate::body::Drawn;
-use crate::body::sheet::tolerance_note;
+use crate::body::sheet::{keyway_note, tolerance_note};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::report::sheet::{Mark, PlaceTable, ShapeGroup, SheetShape, SheetView, TitleFacts, rounded};
 use nalgebra::Vector2;
@@ -25,7 +25,7 @@ pub(super) fn view(globoid: &Globoid, drawn: &Drawn) -> SheetView {
         groups: section(globoid),
         tables: tables(globoid),
         facts: TitleFacts { thickness_mm: Some(2.0 * height), ..TitleFacts::of(&globoid.machine, volume.map(mass)) },
-        notes: tolerance_note(&globoid.machine),
+        notes: tolerance_note(&globoid.machine).into_iter().chain(keyway_note(&globoid.machine)).collect(),
         ..SheetView::default()
     };
     let sense = if globoid.is_clockwise() { "clockwise" } else { "counter-clockwise" };

@@ -4,6 +4,7 @@ use super::{Groove, RING};
 use crate::body::disc::delegate::figures_of_its_disc;
 use crate::body::{Body, Figures, flank_switch, stress};
 use crate::check::{Measures, Subject, curvature};
+use crate::geometry::MILLIMETRES;
 use crate::profile::{Contact, Worst};
 
 impl Figures for Groove {
@@ -50,6 +51,10 @@ impl Figures for Groove {
             stress::largest(&force, (self.curves(flank)?, &self.disc.acting()), self.machine(), crown)
         };
         [(0, 1.0), (1, -1.0)].into_iter().filter_map(of).reduce(Worst::or_larger)
+    }
+
+    fn blank_width(&self) -> f64 {
+        2.0 * MILLIMETRES * self.blank_radius
     }
 
     fn is_form_closed(&self) -> bool {

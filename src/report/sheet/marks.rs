@@ -61,13 +61,36 @@ pub(in crate::report) fn label(
     shapes
 }
 
-/// A free field of these half sides as near to a place as there is one, and the leader of a field farther away than `tied` (over the lettering
-/// of an A4, mm).
+/// How free the place of a text must be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Room {
+    /// Of lines and texts, with a leader that crosses no text.
+    Free,
+    /// The leader may cross texts.
+    CrossedTexts,
+    /// The text may cover lines as well.
+    CoveredLines,
+}
+
+/// A field of these half sides as near to a place as there is one, and the leader of a field farther away than `tied` (over the lettering of an
+/// A4, mm). What a shop must read is never left out: where nothing is free, the leader crosses texts, then the text covers lines.
 fn place(
     taken: &OccupiedPaper,
     lettering: f64,
     at: Vector2<f64>,
     towards: Vector2<f64>,
+    sizes: (Vector2<f64>, f64),
+) -> Option<(Extents, Option<SheetShape>)> {
+    [Room::Free, Room::CrossedTexts, Room::CoveredLines]
+        .into_iter()
+        .find_map(|room| place_in(room, taken, lettering, (at, towards), sizes))
+}
+
+fn place_in(
+    room: Room,
+    taken: &OccupiedPaper,
+    lettering: f64,
+    (at, towards): (Vector2<f64>, Vector2<f64>),
     (half, tied): (Vector2<f64>, f64),
 ) -> Option<(Extents, Option<SheetShape>)> {
     let wanted = libm::atan2(towards.y, towards.x);
@@ -80,12 +103,13 @@ fn place(
             let field = field_near(at, along, distance * lettering, half);
             let nearest = at.sup(&field.least).inf(&field.largest);
             let apart = (nearest - at).norm();
-            if apart > distance * lettering * 1.01 + 1e-9 || !taken.free(&field) {
+            let is_free = if room == Room::CoveredLines { taken.free_of_texts(&field) } else { taken.free(&field) };
+            if apart > distance * lettering * 1.01 + 1e-9 || !is_free {
                 continue;
             }
             let tied = apart > tied * lettering;
             let towards = (at - nearest) / apart.max(1e-9);
-            if tied && !taken.clear(at, nearest) {
+            if tied && room == Room::Free && !taken.clear(at, nearest) {
                 continue;
             }
             return Some((field, tied.then(|| SheetShape::Line(at, nearest + towards * (0.4 * lettering)))));

@@ -1,7 +1,9 @@
 //! Rows of a file, in the forms in which people have them: which columns, in which units, shares, a list with a step.
 
 use super::{Origin, RowPlace, Rows};
-use crate::document::{Columns, Field, FileRow, HeadingUnit, LengthOrAngle, TableReader, is_of_crank};
+use crate::document::{
+    Columns, Field, FileRow, HeadingUnit, LengthOrAngle, TableReader, UnclearHeading, derivative_in, is_of_crank,
+};
 use crate::motion::Quantity;
 use crate::motion::program::context::ProgramContext;
 use crate::motion::program::keys::{COLUMNS, LIFT, OVER_ROWS, RATIO_OF_ANGLES, SCALE, START, STEP, TABLE, UNIT};
@@ -165,7 +167,17 @@ fn chosen(table: &TableReader<'_>, file: &Columns, quantity: Quantity) -> Option
         |unit: Option<HeadingUnit>| matches!(unit, Some(HeadingUnit::Quantity { dimension: Dimension::Length, .. }));
     let swapped = quantity == Quantity::Length && is_length(unit(0)) && is_angle(unit(1));
     let (angle, position) = if swapped { (1, 0) } else { (0, 1) };
-    Some(Chosen { angle: Some(angle), position })
+    has_positions(table, file, position).then_some(Chosen { angle: Some(angle), position })
+}
+
+/// Whether the heading of a column that was not chosen says nothing else than positions.
+fn has_positions(table: &TableReader<'_>, file: &Columns, position: usize) -> bool {
+    let Some(name) = file.headings().get(position).and_then(|heading| derivative_in(heading)) else { return true };
+    let message = format!("column {} of `{}` is no position by its heading: {name}", position + 1, file.name());
+    let help =
+        "choose the columns of angle and position, e.g. columns = [1, 3], or columns = [1, 2] where these are right";
+    table.fail(&TABLE, message, Some(help.into()));
+    false
 }
 
 /// Lists of cam grinders have a row for each degree.
@@ -194,9 +206,28 @@ fn contradiction<T>(
     table.fail(key, message, Some(format!("remove `{}`, or correct the heading", key.key.name)));
 }
 
-fn unit_of_heading(table: &TableReader<'_>, what: &str, heading: &str) -> Result<Option<HeadingUnit>, ()> {
-    match HeadingUnit::of(heading) {
-        Some(HeadingUnit::Other(symbol)) => {
+/// The unit of a heading, where keys do not say which it is, and how much one of it is.
+fn unit_of_heading(
+    table: &TableReader<'_>,
+    what: &str,
+    heading: &str,
+    [has_unit, has_factor]: [bool; 2],
+) -> Result<Option<HeadingUnit>, ()> {
+    match HeadingUnit::read(heading) {
+        Err(UnclearHeading::Unknown(_)) if has_unit || has_factor => Ok(None),
+        Err(UnclearHeading::Factor(_)) if has_factor => Ok(None),
+        Err(why) => {
+            let help = match why {
+                UnclearHeading::Unknown(_) => "unit = \"mm\" says what they are in; or correct the heading",
+                UnclearHeading::Factor(_) if what == "positions" => {
+                    "scale says what they are multiplied with, with unit = \"mm\", e.g. scale = 0.01 for hundredths of a millimetre; or correct the heading"
+                }
+                UnclearHeading::Factor(_) => "write the angles in degrees, and correct the heading",
+            };
+            table.fail(&TABLE, format!("the heading \"{heading}\" of the {what} {why}"), Some(help.into()));
+            Err(())
+        }
+        Ok(Some(HeadingUnit::Other(symbol))) => {
             let message = format!("the heading \"{heading}\" says that the {what} are in {symbol}");
             table.fail(
                 &TABLE,
@@ -205,7 +236,7 @@ fn unit_of_heading(table: &TableReader<'_>, what: &str, heading: &str) -> Result
             );
             Err(())
         }
-        unit => Ok(unit),
+        Ok(unit) => Ok(unit),
     }
 }
 
@@ -217,7 +248,7 @@ fn of_angles(
     (span, fill): (f64, f64),
     told: &mut Vec<String>,
 ) -> Option<Factor> {
-    let unit = unit_of_heading(table, "angles", heading).ok()?;
+    let unit = unit_of_heading(table, "angles", heading, [given.is_some(), table.has(&RATIO_OF_ANGLES)]).ok()?;
     let by_heading = match unit {
         Some(HeadingUnit::Quantity { dimension: Dimension::Angle, symbol, size }) => Some((symbol, size)),
         Some(HeadingUnit::Quantity { symbol, .. }) => {
@@ -333,7 +364,7 @@ fn of_positions(
         table.fail(&SCALE, "`scale` cannot be 0".into(), Some("e.g. scale = 1.5".into()));
         return None;
     }
-    let unit = unit_of_heading(table, "positions", heading).ok()?;
+    let unit = unit_of_heading(table, "positions", heading, [given.is_some(), table.has(&SCALE)]).ok()?;
     // Shares of 1 stand under such a heading too.
     let percent = unit == Some(HeadingUnit::Percent);
     let of_one = largest <= 1.0 + SHARE;
