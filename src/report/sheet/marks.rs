@@ -14,6 +14,9 @@ const APART: f64 = 7.0;
 const SLENDER: f64 = 0.3;
 /// Distances of a text from its place that are tried, in the same unit, the nearest first.
 const DISTANCES: [f64; 12] = [2.0, 3.5, 5.5, 8.0, 11.0, 15.0, 20.0, 27.0, 36.0, 50.0, 70.0, 100.0];
+/// Farther ones for what found no place, with as many times the directions.
+const FARTHER: [f64; 4] = [60.0, 85.0, 120.0, 150.0];
+const MORE: u32 = 4;
 /// Directions that are tried, to either side of the wanted one.
 const DIRECTIONS: u32 = 24;
 /// Height of a frame over that of its letters (ISO 7083: 2).
@@ -94,11 +97,13 @@ fn place_in(
     (half, tied): (Vector2<f64>, f64),
 ) -> Option<(Extents, Option<SheetShape>)> {
     let wanted = libm::atan2(towards.y, towards.x);
-    for distance in DISTANCES {
-        for index in 0..DIRECTIONS {
+    let (farther, directions): (&[f64], u32) =
+        if room == Room::Free { (&[], DIRECTIONS) } else { (&FARTHER, MORE * DIRECTIONS) };
+    for &distance in DISTANCES.iter().chain(farther) {
+        for index in 0..directions {
             // 0, +1, −1, +2, −2, …
             let step = f64::from(index.div_ceil(2)) * if index % 2 == 0 { -1.0 } else { 1.0 };
-            let angle = wanted + step * std::f64::consts::TAU / f64::from(DIRECTIONS);
+            let angle = wanted + step * std::f64::consts::TAU / f64::from(directions);
             let along = Vector2::new(libm::cos(angle), libm::sin(angle));
             let field = field_near(at, along, distance * lettering, half);
             let nearest = at.sup(&field.least).inf(&field.largest);
