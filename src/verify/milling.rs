@@ -6,6 +6,7 @@
 
 use super::check::{Evidence, FileCheck, WrittenProgram, place};
 use super::cutter_path::left_behind;
+use super::cutting::{as_designed, leaves_its_path};
 use super::program::{JudgedProgram, ProgramFault, remarks};
 use super::turned;
 use crate::body::milling::groove_width;
@@ -15,6 +16,7 @@ use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::{Contour, Edge, Segment};
 use crate::geometry::edge_tree::EdgeTree;
 use crate::geometry::lead_in;
+use crate::machine::MillingDirection;
 use crate::reading::gcode::{CutterMove, CutterProgram, CutterSide, MoveKind};
 use crate::report::{Bound, Finding, Verdict, shown};
 use nalgebra::Vector2;
@@ -57,7 +59,7 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     };
     let mut worst: Option<JudgedProgram> = None;
     for written in programs {
-        match judged(evidence, written) {
+        match judged(evidence, written).and_then(|found| as_designed(evidence, written).map(|()| found)) {
             Err(fault) => return fails(fault.why, fault.value, fault.at),
             Ok(next) if worst.as_ref().is_none_or(|worst| next.value > worst.value) => worst = Some(next),
             Ok(_) => {}
@@ -177,6 +179,9 @@ fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedPro
         let found = ClosedPass::of(pass)?;
         let hollow = along(evidence, written, &found, (&mut worst, &mut deepest, pass.depth))?;
         sides(written, &found, hollow)?;
+        if !slotted(&cuts, written) {
+            sense(evidence, &found, hollow)?;
+        }
         if !paths.iter().any(|(known, _)| *known == found.contour) {
             paths.push((found.contour.clone(), hollow));
         }
@@ -203,7 +208,7 @@ fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedPro
         Some(radius) => format!("the centre of a cutter Ø{} mm", shown(2.0 * radius)),
         None => "the profile, along which the control keeps its cutter".to_owned(),
     };
-    let unknown = remarks(evidence.body, written);
+    let unknown = remarks(evidence.body, written) + &leaves_its_path(program, limit);
     let (depth, passes) = (passes.iter().map(|pass| pass.depth).fold(0.0, f64::max), passes.len());
     let noun = if passes == 1 { "pass" } else { "passes" };
     let note =
@@ -232,6 +237,8 @@ fn along(
                 *worst = (value, left.at);
             }
             if let Some(own) = deepest.get_mut(index) {
+                let line = pass.round.first().map_or(0, |moved| moved.line);
+                not_too_deep_at_once(evidence, line, (*own, depth))?;
                 *own = own.max(depth);
             }
             found = Some(cut.is_hollow());
@@ -266,6 +273,37 @@ fn sides(written: &WrittenProgram, pass: &ClosedPass<'_>, hollow: bool) -> Resul
             Err(ProgramFault::new(format!("in line {} the cutter is {is}; it must be {wanted}", moved.line)))
         }
     }
+}
+
+/// The sense of milling must be that of the design: a cutter that climbs has the metal on its right.
+fn sense(evidence: &Evidence<'_>, pass: &ClosedPass<'_>, hollow: bool) -> Result<(), ProgramFault> {
+    let is = if pass.left == hollow { MillingDirection::Climb } else { MillingDirection::Conventional };
+    let wanted = evidence.body.machine().cutting().direction;
+    if is == wanted {
+        return Ok(());
+    }
+    let word = |sense: MillingDirection| match sense {
+        MillingDirection::Climb => "climb",
+        MillingDirection::Conventional => "conventional",
+    };
+    let line = pass.round.first().map_or(0, |moved| moved.line);
+    let (is, wanted) = (word(is), word(wanted));
+    Err(ProgramFault::new(format!("the pass from line {line} on is {is} milling; cut.direction is {wanted}")))
+}
+
+/// No pass may go deeper below the one before on its flank than the design allows.
+pub(super) fn not_too_deep_at_once(
+    evidence: &Evidence<'_>,
+    line: usize,
+    (before, depth): (f64, f64),
+) -> Result<(), ProgramFault> {
+    let most = evidence.body.machine().cutting().depth_per_pass.map_or(f64::INFINITY, |most| MILLIMETRES * most);
+    if depth - before <= most + SAME_DEPTH {
+        return Ok(());
+    }
+    let (by, most) = (shown(depth - before), shown(most));
+    let what = format!("the pass from line {line} on cuts {by} mm at once, more than cut.depth_per_pass of {most} mm");
+    Err(ProgramFault::new(what))
 }
 
 /// Whether the cutter is as wide as the groove: it touches both flanks wherever it is on its path.

@@ -7,6 +7,7 @@ mod balance;
 mod bore;
 mod check;
 mod cutter_path;
+mod cutting;
 mod felt;
 mod felt_sections;
 mod file;

@@ -5,6 +5,7 @@
 //! flanks.
 
 use super::check::{Evidence, WrittenProgram};
+use super::milling::not_too_deep_at_once;
 use super::program::{JudgedProgram, ProgramFault, remarks};
 use crate::body::Body;
 use crate::body::four_axes::rounds;
@@ -84,6 +85,7 @@ impl Barrel<'_> {
                 worst = (value, at);
             }
             if let Some(deep) = deepest.get_mut(flank) {
+                not_too_deep_at_once(self.evidence, pass.line, (*deep, pass.depth))?;
                 *deep = deep.max(pass.depth);
             }
         }
@@ -182,6 +184,11 @@ fn ground(
             let why = format!("the wheel cuts {} mm into the cam in line {}", shown(deep), moved.line);
             return Err(ProgramFault { why, value: deep, at: None });
         }
+    }
+    let mut deepest = 0.0_f64;
+    for pass in passes {
+        not_too_deep_at_once(evidence, pass.line, (deepest, pass.depth))?;
+        deepest = deepest.max(pass.depth);
     }
     let words = format!("the centre of a wheel Ø{} mm in C and X", shown(2.0 * wheel));
     concluded(worst, (passes, &words), (evidence.body, written))

@@ -331,3 +331,97 @@ fn words_beside_unknown_ones_are_not_passed_over() {
     let own = with_line(&text, |own| own.starts_with("G17"), |own| format!("M13\n{own} G98 G64 P0.01"));
     assert!(checked(&cam, &own, Some(4e-3)).is_ok_and(|(passes, ..)| passes));
 }
+
+/// What the check says of a program that is wrong.
+fn why_refused(cam: &Cam, text: &str, cutter: Option<f64>) -> String {
+    match checked(cam, text, cutter) {
+        Ok((false, _, note)) => note,
+        Ok(found) => panic!("passes: {found:?}\n{text}"),
+        Err(error) => error.to_string(),
+    }
+}
+
+#[test]
+fn the_radius_is_that_of_the_tool_of_the_design() {
+    let cam = cam("feeder", &["cut.depth=8mm", "cut.tool=3"]);
+    for controller in CONTROLLERS {
+        let text = program(&cam, request(controller, None));
+        let number = match controller {
+            Controller::LinuxCnc => "D3",
+            Controller::Fanuc => "D03",
+            _ => "D1",
+        };
+        let tool = if controller == Controller::Heidenhain { "TOOL CALL 3 Z" } else { "T3 M6" };
+        assert!(text.contains(tool), "{text}");
+        let other = text.replace(tool, &tool.replace('3', "5"));
+        assert!(why_refused(&cam, &other, None).contains("tool 5 cuts; it must be tool 3"), "{controller:?}");
+        let lost: String =
+            text.lines().filter(|line| !line.contains(tool)).map(|line| line.to_owned() + "\n").collect();
+        assert!(why_refused(&cam, &lost, None).contains("tool 3 was not changed in"), "{controller:?}");
+        if controller == Controller::Heidenhain {
+            continue;
+        }
+        let other = text.replace(&format!("G41 {number}"), "G41 D05");
+        assert!(why_refused(&cam, &other, None).contains("takes the radius D5; it must be D"), "{controller:?}");
+        let arc = |line: &str| line.starts_with("G2 ");
+        for word in ["D05", "D2", "G41 D5"] {
+            let changed = with_line(&text, arc, |line| format!("{word}\n{line}"));
+            let found = why_refused(&cam, &changed, None);
+            assert!(found.contains("changes while the cutter is kept") && found.contains("line "), "{word}: {found}");
+        }
+    }
+}
+
+#[test]
+fn a_spindle_that_does_not_turn_or_a_wrong_depth_sense_or_tolerance_is_refused() {
+    let sets = ["cut.depth=8mm", "cut.depth_per_pass=4mm", "cut.spindle=3000", "cut.tool=3"];
+    let (cam, cutter) = (cam("feeder", &sets), Some(4e-3));
+    let text = program(&cam, request(Controller::LinuxCnc, cutter));
+    let first = text.replacen("G1 Z-4.0", "G1 Z-7.9", 1);
+    for (wrong, why) in [
+        (text.replace("S3000 M3\n", ""), "was not started"),
+        (text.replace("S3000 M3", "M3"), "was not started"),
+        (text.replace("S3000 M3", "S3000 M4"), "counter-clockwise"),
+        (text.replace("S3000 M3", "S0 M3"), "stands"),
+        (text.replacen("G1 Z-4.0", "M5\nG1 Z-4.0", 1), "stands"),
+        (text.replace("T3 M6\nS3000 M3", "S3000 M3\nT3 M6"), "stands"),
+        (first, "7.9 mm at once"),
+        (text.replacen("F300", "F900", 1), "as fast as cut.feed"),
+        (text.replace("F100", "F300"), "as fast as cut.plunge_feed"),
+        (text.replacen("G0 Z5", "G64 P0.5\nG0 Z5", 1), "leave its path by 0.5 mm"),
+    ] {
+        assert_ne!(wrong, text, "{why}");
+        let found = why_refused(&cam, &wrong, cutter);
+        assert!(found.contains(why), "{why}: {found}");
+    }
+    let dialogue = program(&cam, request(Controller::Heidenhain, cutter));
+    let last = dialogue.rfind("R0 FMAX").and_then(|at| dialogue[..at].rfind('\n')).expect("a retract");
+    let end = dialogue[last + 1..].find('\n').expect("a line") + last + 1;
+    let lost = format!("{}{}", &dialogue[..last], &dialogue[end..]);
+    assert!(why_refused(&cam, &lost, cutter).contains("below the upper face"));
+    let loose = dialogue.replacen("8 TOOL", "8 CYCL DEF 32.0 TOLERANCE\n8 CYCL DEF 32.1 T0.5\n8 TOOL", 1);
+    assert_ne!(loose, dialogue);
+    assert!(why_refused(&cam, &loose, cutter).contains("leave its path by 0.5 mm"));
+    let up = self::cam("feeder", &[&sets[..], &["cut.direction=conventional"]].concat());
+    assert!(why_refused(&up, &text, cutter).contains("cut.direction is conventional"));
+}
+
+#[test]
+fn a_block_by_its_time_is_no_faster_than_the_feed_of_the_design() {
+    for (name, sets, cutter) in
+        [("barrel", &[][..], Some(6e-3)), ("feeder", &["cut.depth=8mm", "cut.form=polar"][..], Some(0.03))]
+    {
+        let cam = cam(name, sets);
+        let text = program(&cam, request(Controller::LinuxCnc, cutter));
+        let lost = with_line(&text, |line| line == "G94", |_| String::new());
+        let found = why_refused(&cam, &lost, cutter);
+        assert!(found.contains("as fast as cut.") && found.contains("line "), "{name}: {found}");
+        let turns = |line: &str| line.starts_with("G1 X") && (line.contains(" A") || line.contains(" C"));
+        let quick = |line: &str| {
+            let (words, rate) = line.rsplit_once('F').expect("a feed");
+            format!("{words}F{}", 10.0 * rate.parse::<f64>().expect("a number"))
+        };
+        let found = why_refused(&cam, &with_line(&text, turns, quick), cutter);
+        assert!(found.contains("as fast as cut.feed") && found.contains("line "), "{name}: {found}");
+    }
+}

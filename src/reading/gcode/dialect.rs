@@ -82,6 +82,22 @@ pub(super) fn moves_the_profile(block: &str) -> Option<&'static str> {
     (!zero).then_some("moves the datum (G52)")
 }
 
+/// By how much a block lets the control leave its path, in the unit of the program: G64 P of LinuxCNC; CYCLE832, CTOL and ADIS of SINUMERIK.
+pub(super) fn path_tolerance(block: &str, control: Option<Controller>) -> Option<f64> {
+    let block = block.to_ascii_uppercase();
+    let number = |rest: &str| {
+        let rest = rest.trim_start_matches(['(', '=', ' ']);
+        let end = rest.find(|c: char| !(c.is_ascii_digit() || ['.', '+'].contains(&c))).unwrap_or(rest.len());
+        rest.get(..end)?.parse().ok()
+    };
+    if control == Some(Controller::Sinumerik) {
+        return ["CYCLE832", "CTOL", "ADIS"].iter().find_map(|word| number(after(&block, word)?));
+    }
+    let exactly = after(&block, "G64").filter(|_| control != Some(Controller::Fanuc))?;
+    let at = exactly.find('P')?;
+    number(exactly.get(at + 1..)?)
+}
+
 /// Whether a block has a word.
 pub(super) fn has_word(block: &str, word: &str) -> bool {
     after(block, word).is_some()

@@ -1,6 +1,6 @@
 //! Programs in words of a letter and a number: LinuxCNC, FANUC, SINUMERIK.
 
-use super::dialect::{dialect, moves_the_profile};
+use super::dialect::{dialect, moves_the_profile, path_tolerance};
 use super::machine_state::{MachineState, at_line};
 use super::modal::{ModalWords, Situation, are_known, dwells, passed_over};
 use super::words::{REFERENCE, Word, counted, of, without_comments, words};
@@ -30,6 +30,9 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
         if let Some(what) = moves_the_profile(block) {
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
         }
+        if let Some(tolerance) = path_tolerance(block, control) {
+            state.keeps_path_within(line, modal.scale() * tolerance);
+        }
         if control == Some(Controller::Fanuc) {
             counted(line, block, modal.units())?;
         }
@@ -41,7 +44,7 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
             }
         }
     }
-    if modal.ended { Ok(state.program()) } else { Err(Refusal::new("the program has no end (M2 or M30)")) }
+    if modal.ended { state.program(control) } else { Err(Refusal::new("the program has no end (M2 or M30)")) }
 }
 
 /// A block that goes to a place of the machine, such as `G91 G28 Z0`: only upwards, or with the cutter above the part.
@@ -66,7 +69,7 @@ fn run(line: usize, words: &[Word], state: &mut MachineState, modal: &mut ModalW
         return to_the_machine(line, words, state, modal);
     }
     modal.block(line, words, Situation { has_moved: state.has_moved(), is_deep: state.is_deep() })?;
-    (state.feed, state.side) = (modal.feed_mm(), modal.side);
+    (state.feed, state.side, state.cutting) = (modal.feed_mm(), modal.side, modal.cutting());
     if dwells(words) {
         return Ok(());
     }
@@ -109,12 +112,12 @@ mod tests {
     #[test]
     fn a_program_is_read_as_a_control_reads_it() {
         let program = format!(
-            "%\nO1 (A (NESTED) NAME)\n{HEAD}n10 g0 z5. x10.y0 ; a comment\nG1Z-2.F100\nG3X-10.I-10.J0\nX10.I10.\nM30\nG91 X1\n"
+            "%\nO1 (A (NESTED) NAME)\n{HEAD}n10 g0 z5. x10.y0 ; a comment\nG1Z-2.F100\nG3X-10.I-10.J0\nX10.I10.\nG0Z5.\nM30\nG91 X1\n"
         );
         let read = read(&program, None).expect("a program");
-        assert_eq!(read.moves.len(), 3, "{read:?}");
+        assert_eq!(read.moves.len(), 4, "{read:?}");
         assert!(read.moves[0].is_upright() && read.moves[1].is_level());
-        let turned: f64 = read.moves[1..].iter().flat_map(CutterMove::segments).map(|arc| arc.sweep()).sum();
+        let turned: f64 = read.moves[1..3].iter().flat_map(CutterMove::segments).map(|arc| arc.sweep()).sum();
         assert!((turned - std::f64::consts::TAU).abs() < 1e-12, "{turned}");
     }
 
@@ -151,7 +154,7 @@ mod tests {
 
     #[test]
     fn a_number_without_a_point_is_one_of_increments_for_fanuc_alone() {
-        let body = "G17 G21 G40 G90\nG0 X1.5 Y0 Z5.\nG1 Z-1. F100\nG1 X10\nM30\n";
+        let body = "G17 G21 G40 G90\nG0 X1.5 Y0 Z5.\nG1 Z-1. F100\nG1 X10\nG0 Z5.\nM30\n";
         assert!(read(body, None).is_ok() && read(&format!("G91.1\n{body}"), Some(Controller::Fanuc)).is_ok());
         for (text, design) in [(format!("%\nO0001\n{body}"), None), (body.to_owned(), Some(Controller::Fanuc))] {
             let why = read(&text, design).expect_err("increments").to_string();
@@ -165,8 +168,9 @@ mod tests {
 
     #[test]
     fn a_cutter_is_kept_beside_its_path_by_a_radius_that_is_known() {
-        let body =
-            |head: &str, side: &str| format!("{head}\nG0 X0. Y0. Z5.\nG1 Z-1. F100\n{side}\nG1 X10.\nG40\nM30\n");
+        let body = |head: &str, side: &str| {
+            format!("{head}\nG0 X0. Y0. Z5.\nG1 Z-1. F100\n{side}\nG1 X10.\nG40\nG0 Z5.\nM30\n")
+        };
         let of = |head: &str, side: &str| read(&body(head, side), None);
         let (fanuc, linuxcnc, sinumerik) = ("O1\nG17 G21 G40 G90", "G17 G21 G40 G90 G91.1", "G17 G40 G90 G710");
         for (head, why) in

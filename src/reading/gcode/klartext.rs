@@ -1,8 +1,10 @@
 //! Programs in the dialogue of HEIDENHAIN controls (Klartext): `L`, `CC`, `C`.
 
+use super::cutting_state::{Spindle, whole};
 use super::dialect::moves_the_profile_of_a_dialogue;
 use super::machine_state::{MachineState, at_line};
 use super::{CutterProgram, CutterSide, MoveKind};
+use crate::machine::Controller;
 use crate::refusal::Refusal;
 use crate::units::LengthUnit;
 use nalgebra::Vector2;
@@ -12,7 +14,7 @@ const KNOWN_CYCLES: [&str; 7] = ["7", "8", "10", "11", "19", "26", "32"];
 
 /// Reads a program.
 pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
-    let (mut state, mut centre, mut ended) = (MachineState::default(), None, false);
+    let (mut state, mut centre, mut ended, mut stopped) = (MachineState::default(), None, false, false);
     for (index, whole) in text.lines().enumerate() {
         let line = index + 1;
         let block = whole.split(';').next().unwrap_or_default().to_ascii_uppercase();
@@ -27,10 +29,14 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
             _ if ended && !words.is_empty() => {
                 return Err(at_line(line, "there is more behind the end of the program"));
             }
+            // They end the program for the control.
+            ["M30" | "M2"] => stopped = true,
+            [word @ ("M3" | "M4" | "M5")] => turn(line, word, &mut state)?,
             []
-            | ["STOP" | "M0" | "M1" | "M3" | "M5" | "M6" | "M8" | "M9" | "M30" | "M2"]
+            | ["STOP" | "M0" | "M1" | "M6" | "M8" | "M9"]
             // Those of them that move the profile are refused above.
             | ["PLANE" | "TRANS", ..] => {}
+            ["CYCL", "DEF", "32.1", rest @ ..] => path_tolerance(line, rest, &mut state)?,
             ["CYCL", "DEF", cycle, ..] if KNOWN_CYCLES.contains(&cycle.split('.').next().unwrap_or_default()) => {}
             ["TOOL", "CALL", call @ ..] => tool_call(line, call, &mut state)?,
             ["BEGIN", "PGM", _, unit] => state.units = Some(unit_of(line, unit)?),
@@ -38,6 +44,7 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
                 return Err(at_line(line, "the unit is another one than at the beginning of the program"));
             }
             ["END", "PGM", ..] => ended = true,
+            _ if stopped => return Err(at_line(line, "M2 or M30 ends the program, and there is more behind it")),
             _ if state.units.is_none() => return Err(at_line(line, "the program does not begin with its name and unit")),
             ["CC", rest @ ..] => centre = Some(centre_of(line, rest)? * state.scale()),
             ["L", rest @ ..] => straight(line, rest, &mut state)?,
@@ -45,7 +52,11 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
             _ => state.unknown(line, block.trim())?,
         }
     }
-    if ended { Ok(state.program()) } else { Err(Refusal::new("the program has no end (END PGM)")) }
+    if ended {
+        state.program(Some(Controller::Heidenhain))
+    } else {
+        Err(Refusal::new("the program has no end (END PGM)"))
+    }
 }
 
 /// The unit of a program.
@@ -72,7 +83,21 @@ fn number(line: usize, word: &str) -> Result<f64, Refusal> {
 
 /// `TOOL CALL 1 Z S3000 F300 DL+0 DR+0`: no change of the tool may move the path or, where the control keeps it beside it, the profile.
 fn tool_call(line: usize, words: &[&str], state: &mut MachineState) -> Result<(), Refusal> {
-    state.radius_fault = (words.first() == Some(&"0")).then_some("no tool is called (TOOL CALL 0)");
+    // Without a number or a name the call changes the speed alone.
+    let first = words.first().copied().unwrap_or("Z");
+    if first.starts_with(|c: char| c.is_ascii_digit() || c == '"') {
+        if state.is_deep() || state.side != CutterSide::Centre {
+            return Err(at_line(
+                line,
+                "the tool changes below the upper face, or while the cutter is kept beside its path",
+            ));
+        }
+        state.cutting.tool = first.parse().ok().and_then(whole).filter(|tool| *tool > 0);
+        state.radius_fault = None;
+    }
+    if first == "0" {
+        state.radius_fault = Some("no tool is called (TOOL CALL 0)");
+    }
     for word in words {
         let value = |name: &str| word.strip_prefix(name).map(|value| number(line, value));
         if let Some(change) = value("DR2").or(value("DR")) {
@@ -86,9 +111,32 @@ fn tool_call(line: usize, words: &[&str], state: &mut MachineState) -> Result<()
             }
         } else if ["X", "Y", "U", "V", "W"].contains(word) {
             return Err(at_line(line, "the axis of the tool is not Z: arcs of a cam lie in the plane across it"));
+        } else if let Some(speed) = word.strip_prefix('S').and_then(|speed| speed.parse().ok()) {
+            state.speed = Some(speed);
+            state.cutting.spindle = state.spindle.at(state.speed);
         } else if let Some(feed) = word.strip_prefix('F').and_then(|feed| feed.parse().ok()) {
             state.feed = Some(self::feed(state, feed));
         }
+    }
+    Ok(())
+}
+
+/// M3, M4 and M5.
+fn turn(line: usize, word: &str, state: &mut MachineState) -> Result<(), Refusal> {
+    if word != "M3" && state.is_deep() {
+        return Err(at_line(line, "the spindle stops or turns back below the upper face"));
+    }
+    state.spindle = Spindle::of(number(line, word.trim_start_matches('M'))?).unwrap_or_default();
+    state.cutting.spindle = state.spindle.at(state.speed);
+    Ok(())
+}
+
+/// `CYCL DEF 32.1 T0.01`.
+fn path_tolerance(line: usize, words: &[&str], state: &mut MachineState) -> Result<(), Refusal> {
+    let words = words.concat();
+    if let Some(tolerance) = words.strip_prefix('T') {
+        let tolerance = state.scale() * number(line, tolerance)?;
+        state.keeps_path_within(line, tolerance);
     }
     Ok(())
 }
@@ -122,7 +170,8 @@ fn coordinates(
             ("DR+", _) => left = Some(true),
             ("DR-", _) => left = Some(false),
             ("FMAX", _) => rapid = true,
-            ("M3" | "M5" | "M8" | "M9" | "M2" | "M30", _) => {}
+            ("M3" | "M4" | "M5", _) => turn(line, word, state)?,
+            ("M8" | "M9" | "M2" | "M30", _) => {}
             (word, Some(axis)) => {
                 let value = state.scale() * number(line, word.get(1..).unwrap_or_default())?;
                 if let Some(own) = to.get_mut(axis) {
@@ -168,9 +217,9 @@ mod tests {
 
     #[test]
     fn a_dialogue_is_read_as_a_control_reads_it() {
-        let read = program("4 CC X+0 Y+0\n5 C X-10 Y+0 DR+\n6 C X+10 Y+0 DR+ ; back").expect("a program");
+        let read = program("4 CC X+0 Y+0\n5 C X-10 Y+0 DR+\n6 C X+10 Y+0 DR+ ; back\n7 L Z+5 FMAX").expect("a program");
         let turned: f64 =
-            read.moves[1..].iter().flat_map(super::super::CutterMove::segments).map(|arc| arc.sweep()).sum();
+            read.moves[1..3].iter().flat_map(super::super::CutterMove::segments).map(|arc| arc.sweep()).sum();
         assert!((turned - std::f64::consts::TAU).abs() < 1e-12, "{read:?}");
         let cases = [
             ("4 C X-10 Y+0 DR+", "no centre"),
@@ -183,10 +232,14 @@ mod tests {
             assert!(program(body).is_err_and(|why| why.to_string().contains(expected)), "{body}");
         }
         for (body, expected) in [
-            ("4 TOOL CALL 1 Z S3000 DR+0.05\n5 L X+9 RL F9", "(DR)"),
-            ("4 TOOL CALL 0 Z\n5 L X+9 RR", "TOOL CALL 0"),
-            ("4 TOOL CALL 1 Z DL+0.2", "(DL)"),
-            ("4 TOOL CALL 1 X", "axis"),
+            ("4 L Z+5 FMAX\n5 TOOL CALL 1 Z S3000 DR+0.05\n6 L X+9 RL F9", "(DR)"),
+            ("4 L Z+5 FMAX\n5 TOOL CALL 0 Z\n6 L X+9 RR", "TOOL CALL 0"),
+            ("4 L Z+5 FMAX\n5 TOOL CALL 1 Z DL+0.2", "(DL)"),
+            ("4 L Z+5 FMAX\n5 TOOL CALL 1 X", "axis"),
+            ("4 TOOL CALL 5 Z", "tool changes"),
+            ("4 L X+9 M5", "spindle"),
+            ("4 M30\n5 L X+9", "behind it"),
+            ("4 L X+9", "ends with the tool"),
             ("4 CYCL DEF 10.1 ROT+35", "turns the profile"),
             ("4 L X+9 F0", "at 0 mm/min"),
             ("4 L X+9 F-4", "-4 mm/min"),
@@ -195,14 +248,17 @@ mod tests {
             let found = program(body).expect_err(body).to_string();
             assert!(found.contains(expected) && found.contains("line"), "{body}: {found}");
         }
-        assert!(program("4 TOOL CALL 1 Z S3000 F9 DR+0 DL+0\n5 L X+9 RL\n6 L X+12 R0").is_ok());
+        assert!(program("4 L Z+5 FMAX\n5 TOOL CALL 1 Z S3000 F9 DR+0 DL+0\n6 L X+9 RL\n7 L X+12 R0").is_ok());
         // The centre is on the path: its radius is not asked for.
-        assert!(program("4 TOOL CALL 1 Z DR-0.1\n5 CYCL DEF 7.0 DATUM SHIFT\n6 CYCL DEF 7.1 X+0\n7 L X+9").is_ok());
+        assert!(
+            program("4 L Z+5 FMAX\n4 TOOL CALL 1 Z DR-0.1\n5 CYCL DEF 7.0 DATUM SHIFT\n6 CYCL DEF 7.1 X+0\n7 L X+9")
+                .is_ok()
+        );
         let inches = super::read(
-            "0 BEGIN PGM CAM INCH\n1 L Z+1 R0 FMAX\n2 L X+1 Y+0 R0 FMAX\n3 L Z-0.1 F40\n4 CC X+0 Y+0\n5 C X-1 Y+0 DR+\n6 END PGM CAM INCH\n",
+            "0 BEGIN PGM CAM INCH\n1 L Z+1 R0 FMAX\n2 L X+1 Y+0 R0 FMAX\n3 L Z-0.1 F40\n4 CC X+0 Y+0\n5 C X-1 Y+0 DR+\n6 L Z+1 FMAX\n6 END PGM CAM INCH\n",
         );
         let moves = inches.expect("a program in inches").moves;
-        assert_eq!(moves.last().map(|moved| (moved.to, moved.from[0])), Some(([-25.4, 0.0, -2.54], 25.4)));
+        assert_eq!(moves.get(1).map(|moved| (moved.to, moved.from[0])), Some(([-25.4, 0.0, -2.54], 25.4)));
         assert!(super::read("0 BEGIN PGM CAM INCH\n1 END PGM CAM MM\n").is_err());
         assert!(super::read("0 BEGIN PGM CAM ELL\n1 END PGM CAM ELL\n").is_err());
         assert!(super::read("0 BEGIN PGM CAM MM\n").is_err());

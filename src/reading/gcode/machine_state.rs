@@ -1,6 +1,8 @@
 //! Where the cutter is and what holds until it is changed, whatever the words of the control.
 
+use super::cutting_state::{CuttingFeed, CuttingState, Spindle};
 use super::{CutterMove, CutterProgram, CutterSide, FASTEST, MOST_MOVES, MoveKind, NO_MOVE, RADII};
+use crate::machine::Controller;
 use crate::refusal::Refusal;
 use crate::units::LengthUnit;
 use nalgebra::Vector2;
@@ -18,6 +20,11 @@ pub(super) struct MachineState {
     pub(super) side: CutterSide,
     /// Why the control does not know the radius of the cutter, where it does not.
     pub(super) radius_fault: Option<&'static str>,
+    /// How the spindle is to turn, and its speed, 1/min.
+    pub(super) spindle: Spindle,
+    pub(super) speed: Option<f64>,
+    /// With what it cuts.
+    pub(super) cutting: CuttingState,
     program: CutterProgram,
 }
 
@@ -43,8 +50,16 @@ impl MachineState {
     }
 
     /// What was read.
-    pub(super) fn program(self) -> CutterProgram {
-        CutterProgram { side_at_end: self.side, ..self.program }
+    pub(super) fn program(self, control: Option<Controller>) -> Result<CutterProgram, Refusal> {
+        if self.is_deep() {
+            return Err(Refusal::new("the program ends with the tool below the upper face"));
+        }
+        Ok(CutterProgram { side_at_end: self.side, control, ..self.program })
+    }
+
+    /// A tolerance of the path, mm.
+    pub(super) fn keeps_path_within(&mut self, line: usize, tolerance: f64) {
+        self.program.path_tolerances.push((line, tolerance));
     }
 
     /// A block that is not known.
@@ -72,6 +87,17 @@ impl MachineState {
     /// The place in the plane.
     pub(super) fn place(&self) -> Option<Vector2<f64>> {
         Some(Vector2::new(self.at[0]?, self.at[1]?))
+    }
+
+    /// Keeps with what a move at a feed cuts below the upper face.
+    fn cuts(&mut self, moved: &CutterMove) {
+        let deep = moved.from[2].min(moved.to[2]) < 0.0;
+        let rises = moved.is_upright() && moved.to[2] > moved.from[2];
+        if let Some(feed) = self.feed.filter(|_| deep && !rises && moved.kind != MoveKind::Rapid) {
+            let plunges = moved.to[2] < moved.from[2];
+            let state = CuttingState { compensated: self.side != CutterSide::Centre, ..self.cutting };
+            self.program.cuts_with(moved.line, state, CuttingFeed { line: moved.line, feed, plunges });
+        }
     }
 
     /// A move to the coordinates that are given.
@@ -127,6 +153,7 @@ impl MachineState {
             return Err(at_line(line, format!("the program has more than {MOST_MOVES} moves")));
         }
         self.program.moves.push(moved);
+        self.cuts(&moved);
         Ok(())
     }
 }

@@ -3,6 +3,7 @@
 //! It shares nothing with `write`: words are split, the modal state is kept, and an arc is found from its ends and its centre. A block
 //! that it does not know is passed over before the first move, where the shop's own lines stand, and refused after it.
 
+mod cutting_state;
 mod dialect;
 mod iso;
 mod klartext;
@@ -11,6 +12,7 @@ mod modal;
 mod turned;
 mod words;
 
+pub use cutting_state::{CuttingFeed, CuttingState, Spindle};
 pub use turned::{StandingMove, TurnedPass};
 
 use crate::geometry::contour::Segment;
@@ -143,6 +145,14 @@ pub struct CutterProgram {
     pub turned: Vec<TurnedPass>,
     /// The moves of such a program to its passes and away from them.
     pub standing: Vec<StandingMove>,
+    /// The control, where it is known.
+    pub control: Option<Controller>,
+    /// With what it cuts, from a line on.
+    pub states: Vec<(usize, CuttingState)>,
+    /// Its feeds below the upper face, in the order of its moves, but for those of the rows of a pass of `turned`.
+    pub feeds: Vec<CuttingFeed>,
+    /// By how much the control may leave its path, mm, and the line that says so.
+    pub path_tolerances: Vec<(usize, f64)>,
 }
 
 /// Whether bytes are a program: a dialogue begins with its name, other programs state in their head how their words are meant.

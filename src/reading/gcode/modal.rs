@@ -2,6 +2,7 @@
 //! under its tool; and the blocks that are passed over because they are the shop's own.
 
 use super::CutterSide;
+use super::cutting_state::{CuttingState, Spindle, whole};
 use super::machine_state::at_line;
 use super::words::{REFERENCE, Word, of};
 use crate::machine::Controller;
@@ -34,6 +35,11 @@ pub(super) struct ModalWords {
     tool: Option<f64>,
     changed: bool,
     offset: Option<f64>,
+    /// The tool in the spindle.
+    loaded: Option<f64>,
+    spindle: Spindle,
+    /// Speed of the spindle, 1/min.
+    speed: Option<f64>,
 }
 
 /// Where a program is when a block is read.
@@ -56,12 +62,14 @@ impl ModalWords {
         if ways.count() > 1 {
             return refused("two ways to move are given (G0 to G3)");
         }
+        let kept = self.side != CutterSide::Centre;
         for (_, number) in words.iter().filter(|(letter, _)| *letter == 'G') {
             self.set(line, 10.0 * number)?;
         }
         let feed = of(line, words, 'F')?;
         self.feed = if self.by_time { feed } else { feed.or(self.feed) };
-        self.tool(line, words, at.is_deep)?;
+        self.tool(line, words, (at.is_deep, kept))?;
+        self.spindle(line, words)?;
         if at.is_deep && words.iter().any(|word| [('M', 4.0), ('M', 5.0), ('G', 43.0), ('G', 49.0)].contains(word)) {
             return refused("the spindle stops or turns back, or the length of the tool changes, below the upper face");
         }
@@ -158,14 +166,48 @@ impl ModalWords {
         Ok(())
     }
 
+    /// What a block says of the spindle. On LinuxCNC a change of the tool stops it.
+    fn spindle(&mut self, line: usize, words: &[Word]) -> Result<(), Refusal> {
+        if !dwells(words) {
+            self.speed = of(line, words, 'S')?.or(self.speed);
+        }
+        let changes = words.contains(&('M', 6.0)) && self.control == Some(Controller::LinuxCnc);
+        if changes && self.spindle != Spindle::Unstated {
+            self.spindle = Spindle::Stopped;
+        }
+        let mut stated =
+            words.iter().filter(|(letter, _)| *letter == 'M').filter_map(|(_, number)| Spindle::of(*number));
+        self.spindle = stated.next_back().unwrap_or(self.spindle);
+        Ok(())
+    }
+
+    /// With what the program cuts; whether beside its path is not said here.
+    pub(super) fn cutting(&self) -> CuttingState {
+        let (tool, offset) = (self.loaded.and_then(whole), self.offset.and_then(whole));
+        CuttingState { tool, offset, compensated: false, spindle: self.spindle.at(self.speed) }
+    }
+
     /// What a block says of the tool and of the radius that is taken into account.
-    fn tool(&mut self, line: usize, words: &[Word], is_deep: bool) -> Result<(), Refusal> {
+    fn tool(&mut self, line: usize, words: &[Word], (is_deep, kept): (bool, bool)) -> Result<(), Refusal> {
         let changes = |word: &Word| *word == ('M', 6.0) || word.0 == 'T' || word.0 == 'H';
         if is_deep && words.iter().any(changes) {
             return Err(at_line(line, "the tool changes, or its length, while it is below the upper face"));
         }
         let offset = of(line, words, 'D')?;
+        // A radius that changes on the way is a step in the cam.
+        if kept
+            && self.side != CutterSide::Centre
+            && offset.is_some_and(|offset| offset != 0.0 && self.offset != Some(offset))
+        {
+            return Err(at_line(line, "the number of the radius (D) changes while the cutter is kept beside its path"));
+        }
+        if kept && words.contains(&('M', 6.0)) {
+            return Err(at_line(line, "the tool changes while the cutter is kept beside its path"));
+        }
         self.tool = of(line, words, 'T')?.or(self.tool);
+        if words.contains(&('M', 6.0)) {
+            self.loaded = self.tool;
+        }
         self.changed |= self.tool.is_some_and(|tool| tool > 0.0) && words.contains(&('M', 6.0));
         self.offset = offset.or(self.offset);
         if offset == Some(0.0) && self.side != CutterSide::Centre {

@@ -1,7 +1,8 @@
 //! Programs for a cam that is turned under its tool: the axis C turns a disc, or A a barrel, X and Y move the tool, Z sets its depth, and the control goes straight
 //! in all at once, in the time that each block gives (G93).
 
-use super::dialect::{dialect, moves_the_profile};
+use super::cutting_state::CuttingFeed;
+use super::dialect::{dialect, moves_the_profile, path_tolerance};
 use super::machine_state::at_line;
 use super::modal::{ModalWords, Situation, are_known, dwells, passed_over};
 use super::words::{REFERENCE, Word, counted, of, without_comments, words};
@@ -20,6 +21,8 @@ pub struct TurnedPass {
     pub depth: f64,
     /// Angle of the axis, degrees, X and Y, mm, from its start to its end.
     pub rows: Vec<[f64; 3]>,
+    /// Of each row after the first its line, and how many such blocks the control would run in a minute.
+    pub rates: Vec<(usize, f64)>,
 }
 
 /// A straight move below the face while the cam stands still, to a pass or away from it.
@@ -62,6 +65,7 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
     // Of a disc the tool stays over the axis, whatever is not said.
     let beside = (axis == 'C').then_some(0.0);
     let mut state = TurnedState { axis, at: [None, None, beside, None], ..TurnedState::default() };
+    state.program.control = control;
     let mut modal = ModalWords::of(control, true);
     for (index, whole) in text.lines().enumerate() {
         let line = index + 1;
@@ -72,6 +76,9 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
         }
         if let Some(what) = moves_the_profile(block) {
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
+        }
+        if let Some(tolerance) = path_tolerance(block, control) {
+            state.program.path_tolerances.push((line, modal.scale() * tolerance));
         }
         if control == Some(Controller::Fanuc) {
             counted(line, block, modal.units())?;
@@ -163,6 +170,9 @@ impl TurnedState {
             let what = format!("{} moves at a feed of X alone: it needs the time of each block (G93)", self.axis);
             return Err(at_line(line, what));
         }
+        if deep && !rises {
+            self.cuts(line, before, modal);
+        }
         match (deep, down) {
             (false, _) => Ok(()),
             (true, true) if rises => self.rise(line),
@@ -171,25 +181,52 @@ impl TurnedState {
                 self.plunged = Some(line);
                 Ok(())
             }
-            (true, false) => self.cut(line, before, (turns, along)),
+            (true, false) => self.cut(line, (before, modal), (turns, along)),
         }
     }
 
+    /// Keeps with what a move cuts, and how fast where the cam stands still; in G93 its feed is that of its length in its time.
+    fn cuts(&mut self, line: usize, before: [Option<f64>; 4], modal: &ModalWords) {
+        let by = |axis: usize| self.at[axis].zip(before[axis]).map_or(0.0, |(to, from)| to - from);
+        let [turned, x, y, z] = [0, 1, 2, 3].map(by);
+        let feed = modal.feed_mm().unwrap_or(0.0);
+        let length = libm::hypot(libm::hypot(x, y), z);
+        let feed = match (turned == 0.0, modal.by_time) {
+            (true, true) => feed * length,
+            (true, false) => feed,
+            // The rows of a pass keep their own.
+            (false, _) => 0.0,
+        };
+        // A wheel goes down beside its disc, and into it along X.
+        let plunges = if self.axis == 'C' { x < 0.0 } else { z < 0.0 };
+        self.program.cuts_with(line, modal.cutting(), CuttingFeed { line, feed, plunges: plunges && turned == 0.0 });
+    }
+
     /// A move at a feed below the face.
-    fn cut(&mut self, line: usize, before: [Option<f64>; 4], (turns, along): (bool, bool)) -> Result<(), Refusal> {
+    fn cut(
+        &mut self,
+        line: usize,
+        (before, modal): ([Option<f64>; 4], &ModalWords),
+        (turns, along): (bool, bool),
+    ) -> Result<(), Refusal> {
         let [Some(angle), Some(x), Some(y), Some(z)] = self.at else { return Ok(()) };
         let [Some(from), Some(from_x), Some(from_y), _] = before else { return Ok(()) };
+        let feed = modal.feed_mm().unwrap_or(0.0);
+        let rate = if modal.by_time { feed } else { feed / libm::hypot(x - from_x, y - from_y) };
         if turns {
             self.plunged = None;
             let axis = self.axis;
-            let start = || TurnedPass { line, axis, depth: -z, rows: vec![[from, from_x, from_y]] };
-            self.open.get_or_insert_with(start).rows.push([angle, x, y]);
+            let start = || TurnedPass { line, axis, depth: -z, rows: vec![[from, from_x, from_y]], rates: Vec::new() };
+            let pass = self.open.get_or_insert_with(start);
+            pass.rows.push([angle, x, y]);
+            pass.rates.push((line, rate));
             return Ok(());
         }
         if along && self.open.as_ref().is_some_and(|pass| pass.turned() < 360.0 - SAME) {
             // Straight within a pass.
             if let Some(pass) = &mut self.open {
                 pass.rows.push([angle, x, y]);
+                pass.rates.push((line, rate));
             }
             return Ok(());
         }

@@ -74,7 +74,7 @@ fn losses_leave_their_share_of_the_torque() {
     let found = cam.compensated_by(&second).expect("figures").in_losses.expect("losses");
     let press = machine.press().expect("a press");
     let (law, cylinder, r) = (press.bottom_law(35.0), press.cylinder(), press.bed.crank_radius);
-    let law = law.of_yoke().expect("a yoke").clone();
+    let law = *law.of_yoke().expect("a yoke");
     let length = |x: f64| (law.column - law.lead - x - law.displacement(x)) / law.column;
     let beyond = |x: f64| {
         let (turned, here) = (length(r), length(x));

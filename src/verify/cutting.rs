@@ -1,0 +1,124 @@
+//! Whether a program cuts with what its design says: the tool and the radius that the control takes, the spindle, the feeds, and how exactly the control keeps to
+//! its path.
+
+use super::check::{Evidence, WrittenProgram};
+use super::program::ProgramFault;
+use crate::geometry::MILLIMETRES;
+use crate::machine::{Controller, CuttingData};
+use crate::reading::gcode::{CutterProgram, CuttingState, Spindle, TurnedPass};
+use crate::report::shown;
+
+/// Seconds in a minute.
+const MINUTE: f64 = 60.0;
+/// A feed so many times that of its design is refused, but for rounding, mm/min: a shop sets its own, and a time that was taken for a feed is far off.
+const FASTER: f64 = 2.0;
+const ROUNDED: f64 = 0.03;
+/// A tolerance of the path so many times that of the cam is refused. Up to it, as shops give it to all their programs, it is told.
+const TOO_FREE: f64 = 10.0;
+/// Tolerances that differ by less are equal, as a share.
+const SAME: f64 = 1e-6;
+
+/// Refuses a program that cuts with something else.
+pub(super) fn as_designed(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<(), ProgramFault> {
+    let Ok(program) = &written.program else { return Ok(()) };
+    let design = evidence.body.machine().cutting();
+    for (line, tolerance) in &program.path_tolerances {
+        if *tolerance > TOO_FREE * evidence.tolerance_mm * (1.0 + SAME) {
+            let (tolerance, most) = (shown(*tolerance), shown(evidence.tolerance_mm));
+            let why = format!("line {line} lets the control leave its path by {tolerance} mm, more than {most} mm");
+            return Err(ProgramFault::new(why));
+        }
+    }
+    for (line, state) in &program.states {
+        let fault = wrong_tool(&design, program, state).or_else(|| wrong_spindle(&design, state.spindle));
+        if let Some(fault) = fault {
+            return Err(ProgramFault::new(format!("in line {line} {fault}")));
+        }
+    }
+    feeds(evidence, &design, program)
+}
+
+/// What is to be known of a program whose control may leave its path by more than the tolerance, for a note.
+pub(super) fn leaves_its_path(program: &CutterProgram, tolerance_mm: f64) -> String {
+    let widest =
+        program.path_tolerances.iter().copied().reduce(|widest, next| if next.1 > widest.1 { next } else { widest });
+    widest.filter(|(_, tolerance)| *tolerance > tolerance_mm * (1.0 + SAME)).map_or_else(
+        String::new,
+        |(line, tolerance)| {
+            format!("; line {line} lets the control leave its path by {} mm, more than the tolerance", shown(tolerance))
+        },
+    )
+}
+
+/// What is wrong with a tool, or with the number of its radius.
+fn wrong_tool(design: &CuttingData, program: &CutterProgram, state: &CuttingState) -> Option<String> {
+    let first = program.states.iter().find(|(_, other)| other.compensated).map_or(state, |(_, first)| first);
+    let wanted = design.tool.or(first.tool.filter(|_| state.compensated));
+    if state.tool != wanted && (design.tool.is_some() || state.compensated) {
+        let wanted = wanted.map_or_else(|| "the one before".to_owned(), |tool| format!("tool {tool}"));
+        return Some(match state.tool {
+            None => format!("the cutter cuts, and {wanted} was not changed in"),
+            Some(tool) => format!("tool {tool} cuts; it must be {wanted}"),
+        });
+    }
+    if !state.compensated {
+        return None;
+    }
+    // Without a number LinuxCNC takes the tool in the spindle, SINUMERIK its first edge. On FANUC the program numbers its radii as its tools.
+    let wanted = match (program.control, design.tool) {
+        (Some(Controller::Heidenhain), _) => None,
+        (Some(Controller::Sinumerik), Some(_)) => Some(1),
+        (_, Some(tool)) => Some(tool),
+        (Some(Controller::LinuxCnc), None) => state.tool.or(first.offset),
+        (_, None) => first.offset,
+    }?;
+    let offset = state.offset?;
+    (offset != wanted).then(|| format!("the control takes the radius D{offset}; it must be D{wanted}"))
+}
+
+/// What is wrong with the spindle.
+fn wrong_spindle(design: &CuttingData, spindle: Spindle) -> Option<String> {
+    match spindle {
+        Spindle::Stopped => Some("the cutter cuts with a spindle that stands (M5, S0)".to_owned()),
+        Spindle::CounterClockwise => {
+            Some("the spindle turns counter-clockwise (M4); it must turn clockwise (M3)".to_owned())
+        }
+        Spindle::Unstated if design.spindle.is_some() => {
+            Some("the cutter cuts, and the spindle was not started with a speed (S, M3)".to_owned())
+        }
+        Spindle::Unstated | Spindle::Clockwise => None,
+    }
+}
+
+/// No cut may be faster than the feeds of the design.
+fn feeds(evidence: &Evidence<'_>, design: &CuttingData, program: &CutterProgram) -> Result<(), ProgramFault> {
+    let refused = |line: usize, feed: f64, (most, key): (f64, &str)| {
+        let most = MINUTE * MILLIMETRES * most;
+        if feed <= FASTER * most + ROUNDED {
+            return Ok(());
+        }
+        let (feed, most) = (shown(feed), shown(most));
+        Err(ProgramFault::new(format!(
+            "line {line} cuts at {feed} mm/min, more than twice as fast as cut.{key} of {most} mm/min"
+        )))
+    };
+    let along = (design.feed, "feed");
+    for cut in &program.feeds {
+        refused(cut.line, cut.feed, if cut.plunges { (design.plunge_feed, "plunge_feed") } else { along })?;
+    }
+    let around = evidence.body.swept().and_then(|swept| swept.turned()).map(|cam| MILLIMETRES * cam.outside());
+    for pass in &program.turned {
+        for (pair, (line, rate)) in pass.rows.windows(2).zip(&pass.rates) {
+            refused(*line, rate * length(pass, pair, around), along)?;
+        }
+    }
+    Ok(())
+}
+
+/// The length of a row on the cam, mm: on the outside of a barrel, or on a spiral about the axis of a disc.
+fn length(pass: &TurnedPass, pair: &[[f64; 3]], around: Option<f64>) -> f64 {
+    let &[from, to] = pair else { return 0.0 };
+    let radius = around.filter(|_| pass.axis == 'A').unwrap_or(0.5 * (from[1] + to[1]));
+    let turned = radius * (to[0] - from[0]).to_radians();
+    libm::hypot(turned, libm::hypot(to[1] - from[1], to[2] - from[2]))
+}
