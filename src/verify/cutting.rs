@@ -8,6 +8,8 @@ use crate::machine::{Controller, CuttingData};
 use crate::reading::gcode::{CutterProgram, CuttingState, Spindle, TurnedPass};
 use crate::report::shown;
 
+/// Depths that differ by less are equal, mm: numbers of three decimals, and of four in inches, are off by less.
+pub(super) const SAME_DEPTH: f64 = 1.3e-3;
 /// Seconds in a minute.
 const MINUTE: f64 = 60.0;
 /// A feed so many times that of its design is refused, but for rounding, mm/min: a shop sets its own, and a time that was taken for a feed is far off.
@@ -36,6 +38,21 @@ pub(super) fn as_designed(evidence: &Evidence<'_>, written: &WrittenProgram) -> 
         }
     }
     feeds(evidence, &design, program)
+}
+
+/// No pass may go deeper below the one before on its flank than the design allows.
+pub(super) fn not_too_deep_at_once(
+    evidence: &Evidence<'_>,
+    line: usize,
+    (before, depth): (f64, f64),
+) -> Result<(), ProgramFault> {
+    let most = evidence.body.machine().cutting().depth_per_pass.map_or(f64::INFINITY, |most| MILLIMETRES * most);
+    if depth - before <= most + SAME_DEPTH {
+        return Ok(());
+    }
+    let (by, most) = (shown(depth - before), shown(most));
+    let what = format!("the pass from line {line} on cuts {by} mm at once, more than cut.depth_per_pass of {most} mm");
+    Err(ProgramFault::new(what))
 }
 
 /// What is to be known of a program whose control may leave its path by more than the tolerance, for a note.

@@ -6,7 +6,7 @@
 
 use super::check::{Evidence, FileCheck, WrittenProgram, place};
 use super::cutter_path::left_behind;
-use super::cutting::{as_designed, leaves_its_path};
+use super::cutting::{SAME_DEPTH, as_designed, leaves_its_path, not_too_deep_at_once};
 use super::program::{JudgedProgram, ProgramFault, remarks};
 use super::turned;
 use crate::body::milling::groove_width;
@@ -39,8 +39,6 @@ pub(super) const CHECK: FileCheck = FileCheck {
     run: check,
 };
 
-/// Depths that differ by less are equal, mm: numbers of three decimals, and of four in inches, are off by less.
-const SAME_DEPTH: f64 = 1.3e-3;
 /// Places nearer than this are one, mm: far below the numbers of a program.
 const SAME_PLACE: f64 = 1e-7;
 /// Depths of lead-ins and lead-outs are found to within this share of the tolerance.
@@ -289,21 +287,6 @@ fn sense(evidence: &Evidence<'_>, pass: &ClosedPass<'_>, hollow: bool) -> Result
     let line = pass.round.first().map_or(0, |moved| moved.line);
     let (is, wanted) = (word(is), word(wanted));
     Err(ProgramFault::new(format!("the pass from line {line} on is {is} milling; cut.direction is {wanted}")))
-}
-
-/// No pass may go deeper below the one before on its flank than the design allows.
-pub(super) fn not_too_deep_at_once(
-    evidence: &Evidence<'_>,
-    line: usize,
-    (before, depth): (f64, f64),
-) -> Result<(), ProgramFault> {
-    let most = evidence.body.machine().cutting().depth_per_pass.map_or(f64::INFINITY, |most| MILLIMETRES * most);
-    if depth - before <= most + SAME_DEPTH {
-        return Ok(());
-    }
-    let (by, most) = (shown(depth - before), shown(most));
-    let what = format!("the pass from line {line} on cuts {by} mm at once, more than cut.depth_per_pass of {most} mm");
-    Err(ProgramFault::new(what))
 }
 
 /// Whether the cutter is as wide as the groove: it touches both flanks wherever it is on its path.

@@ -5,7 +5,7 @@
 //! flanks.
 
 use super::check::{Evidence, WrittenProgram};
-use super::milling::not_too_deep_at_once;
+use super::cutting::{SAME_DEPTH, not_too_deep_at_once};
 use super::program::{JudgedProgram, ProgramFault, remarks};
 use crate::body::Body;
 use crate::body::four_axes::rounds;
@@ -18,8 +18,6 @@ use crate::reading::gcode::{CutterProgram, StandingMove, TurnedPass};
 use crate::report::shown;
 use nalgebra::Vector2;
 
-/// Depths that differ by less are equal, mm: numbers of three decimals are off by half of it.
-const SAME_DEPTH: f64 = 1.3e-3;
 /// Places between two rows of a barrel at which the tool is compared, at least, and the angle between two of them at most, degrees.
 const COMPARED: f64 = 8.0;
 const APART: f64 = 0.5;

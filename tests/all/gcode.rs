@@ -399,7 +399,7 @@ fn a_spindle_that_does_not_turn_or_a_wrong_depth_sense_or_tolerance_is_refused()
     let end = dialogue[last + 1..].find('\n').expect("a line") + last + 1;
     let lost = format!("{}{}", &dialogue[..last], &dialogue[end..]);
     assert!(why_refused(&cam, &lost, cutter).contains("below the upper face"));
-    let loose = dialogue.replacen("8 TOOL", "8 CYCL DEF 32.0 TOLERANCE\n8 CYCL DEF 32.1 T0.5\n8 TOOL", 1);
+    let loose = dialogue.replacen("7 TOOL", "7 CYCL DEF 32.0 TOLERANCE\n7 CYCL DEF 32.1 T0.5\n7 TOOL", 1);
     assert_ne!(loose, dialogue);
     assert!(why_refused(&cam, &loose, cutter).contains("leave its path by 0.5 mm"));
     let up = self::cam("feeder", &[&sets[..], &["cut.direction=conventional"]].concat());

@@ -239,7 +239,6 @@ mod tests {
             ("4 TOOL CALL 5 Z", "tool changes"),
             ("4 L X+9 M5", "spindle"),
             ("4 M30\n5 L X+9", "behind it"),
-            ("4 L X+9", "ends with the tool"),
             ("4 CYCL DEF 10.1 ROT+35", "turns the profile"),
             ("4 L X+9 F0", "at 0 mm/min"),
             ("4 L X+9 F-4", "-4 mm/min"),
@@ -248,6 +247,7 @@ mod tests {
             let found = program(body).expect_err(body).to_string();
             assert!(found.contains(expected) && found.contains("line"), "{body}: {found}");
         }
+        assert!(program("4 L X+9").is_err_and(|why| why.to_string().contains("ends with the tool")));
         assert!(program("4 L Z+5 FMAX\n5 TOOL CALL 1 Z S3000 F9 DR+0 DL+0\n6 L X+9 RL\n7 L X+12 R0").is_ok());
         // The centre is on the path: its radius is not asked for.
         assert!(
