@@ -287,7 +287,7 @@ impl Marker<'_> {
         half: Vector2<f64>,
     ) -> Option<(Extents, [SheetShape; 2])> {
         let found = places.iter().filter_map(|(at, towards)| {
-            let (field, leader) = place(self.taken, self.lettering, *at, *towards, (half, 0.0))?;
+            let (field, leader) = place_in(Room::Free, self.taken, self.lettering, (*at, *towards), (half, 0.0))?;
             let Some(SheetShape::Line(from, to)) = leader else { return None };
             let away = to - from;
             let arrow = [SheetShape::Line(from, to), triangle(from, -away.normalize(), HEAD * self.lettering)];

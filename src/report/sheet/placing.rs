@@ -163,15 +163,19 @@ impl OccupiedPaper {
 
     /// Whether a field lies in the region and is free.
     pub(in crate::report) fn free(&self, field: &Extents) -> bool {
-        self.free_of_texts(field) && self.cells(field).all(|cell| !self.lines.get(cell).copied().unwrap_or(true))
+        let taken = |cells: &[bool], cell: usize| cells.get(cell).copied().unwrap_or(true);
+        self.contains(field) && self.cells(field).all(|cell| !taken(&self.lines, cell) && !taken(&self.texts, cell))
     }
 
     /// Whether a field lies in the region and has no text.
     pub(in crate::report) fn free_of_texts(&self, field: &Extents) -> bool {
-        let inside = field.least.x >= self.region.least.x
+        self.contains(field) && self.cells(field).all(|cell| !self.texts.get(cell).copied().unwrap_or(true))
+    }
+
+    fn contains(&self, field: &Extents) -> bool {
+        field.least.x >= self.region.least.x
             && field.least.y >= self.region.least.y
             && field.largest.x <= self.region.largest.x
-            && field.largest.y <= self.region.largest.y;
-        inside && self.cells(field).all(|cell| !self.texts.get(cell).copied().unwrap_or(true))
+            && field.largest.y <= self.region.largest.y
     }
 }
