@@ -406,7 +406,10 @@ impl Search<'_> {
         self.explanations.retain(|found| found.remaining_mm <= most);
         let words = match self.explanations.as_slice() {
             [] if self.distance < TELLING * MILLIMETRES * self.tolerance => {
-                vec![format!("the outline is {:.4} mm off, too little beside the tolerance to tell why", self.distance)]
+                vec![format!(
+                    "the outline is {:.4} mm off, which is too little compared with the tolerance to tell why",
+                    self.distance
+                )]
             }
             [] => vec![format!(
                 "the outline is {:.4} mm off; it is not this cam mirrored, turned, shifted, scaled, offset or for another speed, and its \
