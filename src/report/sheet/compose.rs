@@ -324,20 +324,21 @@ impl Layout {
         let scale = self.scale;
         let covered = Extents { least: covered.least * scale, largest: covered.largest * scale };
         let mut marker = Marker { lettering: self.k, taken, covered, lines: [0.0; 2], texts: Vec::new() };
-        // Dimension lines come first, then what has a fixed place, datums and their texts; the labels take the rest.
-        let is_label =
+        // Dimension lines come first, then what has a fixed place and datums; the texts take the rest, the longest first, since their leaders
+        // are the longest as well and find no way between the others.
+        let is_text =
             |mark: &&Mark| matches!(mark, Mark::Label { .. } | Mark::Tolerance { .. } | Mark::Roughness { .. });
-        let (labels, mut fixed): (Vec<&Mark>, Vec<&Mark>) = view.marks.iter().partition(is_label);
+        let (texts, mut fixed): (Vec<&Mark>, Vec<&Mark>) = view.marks.iter().partition(is_text);
         fixed.sort_by_key(|mark| match mark {
             Mark::Distance { .. } => 0,
             Mark::Datum { .. } => 2,
             _ => 1,
         });
         let mut groups: Vec<ShapeGroup> = fixed.iter().flat_map(|mark| marker.groups(&mark.scaled(scale))).collect();
-        for text in std::mem::take(&mut marker.texts) {
-            groups.extend(marker.groups(&text));
-        }
-        groups.extend(labels.iter().flat_map(|mark| marker.groups(&mark.scaled(scale))));
+        let mut texts: Vec<Mark> =
+            std::mem::take(&mut marker.texts).into_iter().chain(texts.iter().map(|mark| mark.scaled(scale))).collect();
+        texts.sort_by_key(|mark| std::cmp::Reverse(mark.letters()));
+        groups.extend(texts.iter().flat_map(|mark| marker.groups(mark)));
         groups
     }
 }
@@ -415,6 +416,11 @@ fn stamp(field: &Extents, k: f64, report: &Report) -> Vec<ShapeGroup> {
 }
 
 impl Mark {
+    /// The letters of a text. A frame or a sign counts as the longest: it is left out where there is no room.
+    fn letters(&self) -> usize {
+        if let Mark::Label { text, .. } = self { text.chars().count() } else { usize::MAX }
+    }
+
     /// The mark on paper at a scale.
     fn scaled(&self, scale: f64) -> Self {
         let mut mark = self.clone();

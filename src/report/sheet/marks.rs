@@ -69,6 +69,8 @@ pub(in crate::report) fn label(
 enum Room {
     /// Of lines and texts, with a leader that crosses no text.
     Free,
+    /// As free, but farther away or in directions between.
+    Farther,
     /// The leader may cross texts.
     CrossedTexts,
     /// The text may cover lines as well.
@@ -84,7 +86,7 @@ fn place(
     towards: Vector2<f64>,
     sizes: (Vector2<f64>, f64),
 ) -> Option<(Extents, Option<SheetShape>)> {
-    [Room::Free, Room::CrossedTexts, Room::CoveredLines]
+    [Room::Free, Room::Farther, Room::CrossedTexts, Room::CoveredLines]
         .into_iter()
         .find_map(|room| place_in(room, taken, lettering, (at, towards), sizes))
 }
@@ -114,7 +116,7 @@ fn place_in(
             }
             let tied = apart > tied * lettering;
             let towards = (at - nearest) / apart.max(1e-9);
-            if tied && room == Room::Free && !taken.clear(at, nearest) {
+            if tied && matches!(room, Room::Free | Room::Farther) && !taken.clear(at, nearest) {
                 continue;
             }
             return Some((field, tied.then(|| SheetShape::Line(at, nearest + towards * (0.4 * lettering)))));
