@@ -61,11 +61,24 @@ pub(super) fn init(args: &InitArgs) -> Result<Outcome, Failure> {
     };
     let name = path.file_name().and_then(OsStr::to_str);
     let name = name.ok_or_else(|| Failure(format!("`{}` is not the name of a file", path.display())))?;
+    not_a_design(name)?;
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let output = Output { name: name.to_owned(), bytes: text.into_bytes() };
     put(folder, |place| Ok(((), stage_new(place, &[output]).map_err(Failure::new)?)), |()| Ok(()))?;
     print_message(&format!("wrote {0}; `camgen {command} {0}` makes its cam", path.display()));
     Ok(Outcome::Fine)
+}
+
+/// Refuses the name of an embedded machine or of a follower as that of a file: whoever gives it wants that machine or follower, and not a press.
+fn not_a_design(name: &str) -> Result<(), Failure> {
+    let wanted = if catalogue().names().contains(&name) {
+        format!("an embedded machine: `camgen machines show {name} > my-{name}.toml` saves it")
+    } else if machine::followers().contains(&name) {
+        format!("a follower: `camgen init --follower {name} my-{name}.toml` writes a program for it")
+    } else {
+        return Ok(());
+    };
+    Err(Failure(format!("`{name}` is {wanted}; for a file of that name give `{name}.toml`")))
 }
 
 /// A motion program under a follower.

@@ -192,6 +192,23 @@ mod tests {
         }
     }
 
+    /// A wide band has room for arcs that are smaller than the cutter, along which the cut runs backwards: the path is drawn without them.
+    /// Earlier, cutters of 40 mm to 200 mm were refused on this cam at 50 µm.
+    #[test]
+    fn a_path_within_a_wide_band_has_no_arc_smaller_than_the_cutter() {
+        let machine = Machine::load("feeder", &[]).expect("valid").0;
+        let cam = Spec::of_program(machine, None).expect("a motion").solve().expect("a cam");
+        for cutter in [20.0, 30.0, 40.0, 60.0] {
+            for side in [Side::Both, Side::Outside, Side::Inside] {
+                let fit = Fit { side, ..Fit::from(50e-6) };
+                let request = Request { cutter_radius: Some(1e-3 * cutter), ..Request::within(fit) };
+                let proven = cam.draw(request).expect("drawn").prove().expect("proved");
+                let found = proven.findings().iter().find(|f| f.check == "cutter_path").expect("checked");
+                assert_eq!(found.verdict, Verdict::Pass, "{cutter} {side:?}: {found:?}");
+            }
+        }
+    }
+
     /// A path that is slightly off, or of another cutter, fails; so does a missing path.
     #[test]
     fn a_wrong_path_fails() {

@@ -272,6 +272,17 @@ fn completions_and_pages_are_made_of_the_commands() {
 }
 
 #[test]
+fn a_template_is_not_written_under_the_name_of_a_design_or_follower() {
+    for (name, remedy) in [("feeder", "camgen machines show feeder"), ("swinging-roller", "--follower swinging-roller")]
+    {
+        let run = camgen(&["init", name]);
+        assert_eq!(run.code, 2, "{}", run.err);
+        assert!(run.err.contains(remedy), "{}", run.err);
+        assert!(!run.directory.path().join(name).exists(), "{name}");
+    }
+}
+
+#[test]
 fn init_writes_a_file_and_never_replaces_one() {
     let run = camgen(&["init", "press.toml"]);
     assert!(run.code == 0 && run.out.is_empty(), "{}", run.err);

@@ -231,6 +231,11 @@ pub(crate) fn profile_within(curves: Curves<'_>, fit: Fit) -> Result<(Outline, f
     parallel_outline(curves, curves.offset(), fit, room)
 }
 
+/// How often the tolerance of the path of a cutter is halved, at most, where its arcs turn too tightly.
+const HALVINGS: u32 = 8;
+/// Rounding of the radius of an arc, mm.
+const ROUNDED: f64 = 1e-8;
+
 /// The path of the centre of a cutter (radius in m) along the profile: parallel to the follower's curve at the difference of the
 /// radii, and at the distance from it, on the same side, that the cut may have from the profile.
 ///
@@ -238,10 +243,27 @@ pub(crate) fn profile_within(curves: Curves<'_>, fit: Fit) -> Result<(Outline, f
 /// [`OutlineError`] as for [`profile`]; also when the cutter does not get into a concave part.
 pub fn cutter_path(curves: Curves<'_>, cutter_radius: f64, fit: impl Into<Fit>) -> Result<Outline, OutlineError> {
     check_cutter_fits(curves, cutter_radius)?;
-    // A cutter along arcs and lines cuts arcs and lines, which the proof follows.
-    let fit = Fit { laid: SegmentKind::Arcs, ..fit.into().on_side_of(curves) };
+    let fit: Fit = fit.into();
     let distance = curves.offset() - curves.metal_side() * cutter_radius;
-    Ok(parallel_outline(curves, distance, fit, f64::INFINITY)?.0)
+    let least_radius = cutter_radius - 2.0 * fit.band().0.max(0.0);
+    // A cutter along arcs and lines cuts arcs and lines, which the proof follows.
+    let mut fit = Fit { laid: SegmentKind::Arcs, ..fit.on_side_of(curves) };
+    let mut path = parallel_outline(curves, distance, fit, f64::INFINITY)?.0;
+    for _ in 0..HALVINGS {
+        if !turns_too_tightly(&path.contour, curves.metal_side(), MILLIMETRES * least_radius) {
+            break;
+        }
+        fit.tolerance *= 0.5;
+        path = parallel_outline(curves, distance, fit, f64::INFINITY)?.0;
+    }
+    Ok(path)
+}
+
+/// Whether the path of a cutter has an arc about the metal that is smaller than the cutter (mm): there the cut runs backwards. A wide
+/// band has room for such arcs.
+fn turns_too_tightly(path: &Contour, metal_side: f64, radius: f64) -> bool {
+    let arcs = path.segments().into_iter().flatten().filter(|segment| metal_side * segment.bulge > 0.0);
+    arcs.into_iter().any(|arc| arc.radius() < radius - ROUNDED)
 }
 
 /// Refuses a cutter (radius in m) that does not get into a concave part.
