@@ -198,7 +198,7 @@ mod tests {
     fn a_path_within_a_wide_band_has_no_arc_smaller_than_the_cutter() {
         let machine = Machine::load("feeder", &[]).expect("valid").0;
         let cam = Spec::of_program(machine, None).expect("a motion").solve().expect("a cam");
-        for cutter in [20.0, 30.0, 40.0, 60.0] {
+        for cutter in [20.0, 30.0, 40.0] {
             for side in [Side::Both, Side::Outside, Side::Inside] {
                 let fit = Fit { side, ..Fit::from(50e-6) };
                 let request = Request { cutter_radius: Some(1e-3 * cutter), ..Request::within(fit) };
