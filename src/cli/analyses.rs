@@ -2,7 +2,7 @@
 
 use super::args::{
     AnalysisArgs, CompareArgs, DriveArgs, LawsArgs, RegimesArgs, ReportArgs, ScatterArgs, SizeArgs, SpringArgs, at_end,
-    machine_with_free,
+    machine_of_a_cam, machine_with_free,
 };
 #[cfg(feature = "linkage")]
 use super::args::{LinkageArgs, LinkageGoal};
@@ -67,7 +67,7 @@ pub(crate) fn regimes_of(args: &RegimesArgs, loaded: (Machine, String)) -> Resul
 pub(super) fn spring(args: &SpringArgs) -> Result<Outcome, Failure> {
     let standard = args.design.then(|| "spring_buffer.body.wire=standard".to_owned());
     let overrides: Vec<String> = args.analysis.set.iter().cloned().chain(standard).collect();
-    let loaded = Machine::load(&args.machine, &overrides).map_err(Failure::new)?;
+    let loaded = machine_of_a_cam(&args.machine, &overrides)?;
     let (mut analysis, name) = spring_of(args, loaded)?;
     analysis.notes.extend(replaced_wire(args));
     judge_and_write((analysis, name), &args.analysis)
@@ -99,7 +99,7 @@ pub(super) fn scatter(args: &ScatterArgs) -> Result<Outcome, Failure> {
     }
     let varied = args.vary.iter().map(|varied| format!("scatter.{}", varied.trim()));
     let overrides: Vec<String> = args.analysis.set.iter().cloned().chain(varied).collect();
-    let loaded = Machine::load(&args.machine, &overrides).map_err(Failure::new)?;
+    let loaded = machine_of_a_cam(&args.machine, &overrides)?;
     judge_and_write(scatter_of(args, loaded)?, &args.analysis)
 }
 
@@ -278,7 +278,7 @@ pub(crate) fn laws_of(args: &LawsArgs, (machine, name): (Option<Machine>, String
 
 impl AnalysisArgs {
     fn machine(&self, name: &str) -> Result<(Machine, String), Failure> {
-        Machine::load(name, &self.set).map_err(Failure::new)
+        machine_of_a_cam(name, &self.set)
     }
 }
 

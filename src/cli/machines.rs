@@ -12,7 +12,7 @@ pub(super) fn run(args: &MachinesArgs) -> Result<Outcome, Failure> {
         None | Some(MachinesCommand::List) => {
             let mut text = String::new();
             for embedded in &catalogue().embedded {
-                text.push_str(&format!("{:<16} {}\n", embedded.name, embedded.title()));
+                text.push_str(&format!("{:<16} {:<6} {}\n", embedded.name, embedded.command, embedded.title()));
             }
             print(&text)?;
         }

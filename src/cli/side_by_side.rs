@@ -1,12 +1,11 @@
 //! `camgen side-by-side`: two disc cams in one HTML report with a common cursor and their differences marked.
 
-use super::args::SideBySideArgs;
+use super::args::{SideBySideArgs, machine_of_a_cam};
 use super::put::put;
 use super::text::{self, Page};
 use super::{Failure, Outcome, print, print_message};
 use camgen::body::{RateTolerance, Request};
 use camgen::document::Input;
-use camgen::machine::Machine;
 use camgen::pipeline::{Cam, Output, Proven, Spec};
 use camgen::report::Report;
 use camgen::write::record::{WriteInputs, refuse_protected, stage_recorded};
@@ -54,7 +53,7 @@ pub(super) fn run(args: &SideBySideArgs) -> Result<Outcome, Failure> {
 impl SideBySideArgs {
     /// The disc cam of a file, and the stem of its files.
     fn solved(&self, name: &str) -> Result<(Cam, String), Failure> {
-        let (machine, stem) = Machine::load(name, &self.set).map_err(Failure::new)?;
+        let (machine, stem) = machine_of_a_cam(name, &self.set)?;
         let spec = match (machine.press().map(|press| press.design_rpm), machine.motion()) {
             (Err(_), Some(_)) => Spec::of_program(machine, self.rpm),
             (design, _) => {

@@ -5,21 +5,23 @@
 pub struct Embedded {
     /// Its name on the command line.
     pub name: &'static str,
+    /// The command that it is first of all for.
+    pub command: &'static str,
     /// Its text.
     pub toml: &'static str,
 }
 
 /// The embedded machines of the core; those of domains stand before them in the catalogue.
 pub const EMBEDDED: &[Embedded] = &[
-    Embedded { name: "barrel", toml: include_str!("../../profiles/barrel.toml") },
-    Embedded { name: "conjugate", toml: include_str!("../../profiles/conjugate.toml") },
-    Embedded { name: "feeder", toml: include_str!("../../profiles/feeder.toml") },
-    Embedded { name: "lever", toml: include_str!("../../profiles/lever.toml") },
-    Embedded { name: "groove", toml: include_str!("../../profiles/groove.toml") },
-    Embedded { name: "indexer", toml: include_str!("../../profiles/indexer.toml") },
-    Embedded { name: "yoke", toml: include_str!("../../profiles/yoke.toml") },
-    Embedded { name: "wedge", toml: include_str!("../../profiles/wedge.toml") },
-    Embedded { name: "valve", toml: include_str!("../../profiles/valve.toml") },
+    Embedded { name: "barrel", command: "make", toml: include_str!("../../profiles/barrel.toml") },
+    Embedded { name: "conjugate", command: "make", toml: include_str!("../../profiles/conjugate.toml") },
+    Embedded { name: "feeder", command: "make", toml: include_str!("../../profiles/feeder.toml") },
+    Embedded { name: "lever", command: "make", toml: include_str!("../../profiles/lever.toml") },
+    Embedded { name: "groove", command: "make", toml: include_str!("../../profiles/groove.toml") },
+    Embedded { name: "indexer", command: "make", toml: include_str!("../../profiles/indexer.toml") },
+    Embedded { name: "yoke", command: "make", toml: include_str!("../../profiles/yoke.toml") },
+    Embedded { name: "wedge", command: "make", toml: include_str!("../../profiles/wedge.toml") },
+    Embedded { name: "valve", command: "make", toml: include_str!("../../profiles/valve.toml") },
 ];
 
 impl Embedded {

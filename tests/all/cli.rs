@@ -288,6 +288,22 @@ fn a_shown_machine_is_a_file_to_start_from() {
     assert_eq!(camgen(&["machines", "show", "x"]).code, 2);
 }
 
+/// Each is made by the command that is listed beside it, and another command for cams says which one that is.
+#[test]
+fn every_embedded_machine_is_listed_with_its_command() {
+    for line in camgen(&["machines"]).out.lines() {
+        let mut words = line.split_whitespace();
+        let (name, command) = (words.next().expect("a name"), words.next().expect("a command"));
+        let run = camgen(&[command, name, "--dry-run"]);
+        assert_eq!(run.code, 0, "{line}: {}", run.err);
+        if !["make", "rotary"].contains(&command) {
+            let other = camgen(&["make", name]);
+            assert_eq!(other.code, 2, "{line}");
+            assert!(other.err.contains(&format!("camgen {command} {name}")), "{line}: {}", other.err);
+        }
+    }
+}
+
 #[test]
 fn an_output_directory_that_cannot_be_is_told_and_old_files_stay() {
     let directory = tempfile::tempdir().expect("a directory");

@@ -160,7 +160,7 @@ impl Body for Wedge {
     fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {
         if request.cutter_radius.is_some() {
             let refusal = Refusal::new("the path of a cutter is drawn around cams that turn, not around a plate");
-            return Err(refusal.remedy("leave the cutter out: limits.cutter_radius checks that it fits").into());
+            return Err(refusal.remedy("leave the cutter out: the program runs along the profile with G41 or G42, and limits.cutter_radius checks that the cutter fits").into());
         }
         Ok(Drawn::of(vec![Part::solid_plate(self.outline(request.fit)?)]))
     }

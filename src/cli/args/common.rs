@@ -5,8 +5,9 @@ use super::super::text::Page;
 use super::parse::{RateLimit, Speed, acceleration_error, accuracy, speed, tolerance, velocity_error, word};
 use camgen::analysis::size::FreeDimension;
 use camgen::body::{Accuracy, RateTolerance};
+use camgen::catalogue::catalogue;
 use camgen::domains::press::bed_motion::End;
-use camgen::machine::Machine;
+use camgen::machine::{Embedded, Machine};
 use clap::{Args, ValueHint};
 use std::io::IsTerminal;
 
@@ -100,13 +101,24 @@ pub(in crate::cli) fn at_end(
     Ok((machine.at_end(end).map_err(Failure::new)?, name))
 }
 
+/// The machine of a file with overrides. An embedded one of which nothing is cut is refused with the command for which it is.
+pub(in crate::cli) fn machine_of_a_cam(name: &str, overrides: &[String]) -> Result<(Machine, String), Failure> {
+    let embedded = catalogue().embedded.iter().find(|embedded| embedded.name == name);
+    match embedded.filter(|embedded| !matches!(embedded.command, "make" | "rotary")) {
+        Some(Embedded { command, .. }) => {
+            Err(Failure(format!("`{name}` describes no cam; the command for it is `camgen {command} {name}`")))
+        }
+        None => Machine::load(name, overrides).map_err(Failure::new),
+    }
+}
+
 /// The machine of a file with overrides, and with what is left free to be chosen.
 pub(in crate::cli) fn machine_with_free(
     name: &str,
     overrides: &[String],
     free: &[FreeDimension],
 ) -> Result<(Machine, String), Failure> {
-    let loaded = Machine::load(name, overrides).map_err(Failure::new)?;
+    let loaded = machine_of_a_cam(name, overrides)?;
     if free.is_empty() {
         return Ok(loaded);
     }

@@ -22,7 +22,7 @@ pub(crate) use analyses::{LinkageArgs, LinkageGoal};
 pub(crate) use analyses::{ShaftArgs, ShaftSolver};
 #[cfg(feature = "brake")]
 pub(crate) use brake::BrakeArgs;
-pub(super) use common::{AccuracyArgs, CommonArgs, ReportArgs, at_end, machine_with_free};
+pub(super) use common::{AccuracyArgs, CommonArgs, ReportArgs, at_end, machine_of_a_cam, machine_with_free};
 pub(super) use deferred::DeferredArgs;
 pub(super) use files::{CutterArgs, FileArgs, OutlineArgs, OutputArgs, PointsArgs};
 #[cfg(feature = "shaft")]

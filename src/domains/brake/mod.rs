@@ -56,8 +56,8 @@ pub const DOMAIN: Domain = Domain {
         ],
     }],
     embedded: &[
-        Embedded { name: "roll", toml: include_str!("../../../profiles/roll.toml") },
-        Embedded { name: "roll-level", toml: include_str!("../../../profiles/roll-level.toml") },
+        Embedded { name: "roll", command: "brake", toml: include_str!("../../../profiles/roll.toml") },
+        Embedded { name: "roll-level", command: "brake", toml: include_str!("../../../profiles/roll-level.toml") },
     ],
 };
 

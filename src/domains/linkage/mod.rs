@@ -37,7 +37,11 @@ pub const DOMAIN: Domain = Domain {
         ],
     }],
     embedded: &[
-        Embedded { name: "dpi-crank-slider", toml: include_str!("../../../profiles/dpi-crank-slider.toml") },
-        Embedded { name: "dpi-six-bar", toml: include_str!("../../../profiles/dpi-six-bar.toml") },
+        Embedded {
+            name: "dpi-crank-slider",
+            command: "rotary",
+            toml: include_str!("../../../profiles/dpi-crank-slider.toml"),
+        },
+        Embedded { name: "dpi-six-bar", command: "rotary", toml: include_str!("../../../profiles/dpi-six-bar.toml") },
     ],
 };

@@ -47,9 +47,9 @@ pub const DOMAIN: Domain = Domain {
     ],
     checks: checks::CHECKS,
     embedded: &[
-        Embedded { name: "dpi", toml: include_str!("../../../profiles/dpi.toml") },
-        Embedded { name: "dpi-paper", toml: include_str!("../../../profiles/dpi-paper.toml") },
-        Embedded { name: "dp", toml: include_str!("../../../profiles/dp.toml") },
+        Embedded { name: "dpi", command: "rotary", toml: include_str!("../../../profiles/dpi.toml") },
+        Embedded { name: "dpi-paper", command: "rotary", toml: include_str!("../../../profiles/dpi-paper.toml") },
+        Embedded { name: "dp", command: "drive", toml: include_str!("../../../profiles/dp.toml") },
     ],
 };
 

@@ -33,7 +33,11 @@ pub const DOMAIN: Domain = Domain {
         entries: &[&checks::CRITICAL_SPEED, &checks::LIFT_ERROR, &checks::SUPPORT_SLOPE, &checks::UNBALANCE],
     }],
     embedded: &[
-        Embedded { name: "dpi-shaft", toml: include_str!("../../../profiles/dpi-shaft.toml") },
-        Embedded { name: "press-cylinder", toml: include_str!("../../../profiles/press-cylinder.toml") },
+        Embedded { name: "dpi-shaft", command: "rotary", toml: include_str!("../../../profiles/dpi-shaft.toml") },
+        Embedded {
+            name: "press-cylinder",
+            command: "shaft",
+            toml: include_str!("../../../profiles/press-cylinder.toml"),
+        },
     ],
 };
