@@ -20,4 +20,9 @@ pub trait LoadAsCut {
     fn force_and_torque(&self, _at: (usize, f64), _lift: Jet) -> Option<[f64; 2]> {
         None
     }
+
+    /// Whether the follower is that of another disc on the shaft, whose torque is that of both: so it is of the counter disc of a pair.
+    fn is_of_another_disc(&self) -> bool {
+        false
+    }
 }

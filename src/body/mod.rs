@@ -67,7 +67,7 @@ use crate::geometry::contour::Contour;
 use crate::geometry::lead_in::LeadIn;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::Machine;
-use crate::motion::{Jet, Quantity};
+use crate::motion::{Jet, Motion, Quantity};
 use crate::numeric::extremum;
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{Fit, MotionTolerance, Outline, OutlineError};
@@ -504,9 +504,14 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         None
     }
 
+    /// The motion of its follower; `None` of a body whose sections differ.
+    fn follower_motion(&self) -> Option<&dyn Motion> {
+        curves_of(self).map(|curves| curves.motion)
+    }
+
     /// The stretches of its motion on which the values of a row are smooth, each with its piece.
     fn smooth_stretches(&self) -> Vec<(usize, (f64, f64))> {
-        let pieces = curves_of(self).map_or(&[][..], |curves| curves.motion.pieces());
+        let pieces = self.follower_motion().map_or(&[][..], |motion| motion.pieces());
         pieces.iter().enumerate().map(|(index, piece)| (index, (piece.start, piece.end))).collect()
     }
 

@@ -93,13 +93,12 @@ struct DiagramSource<'a> {
 /// The motion diagram of a body, with what is cut on an outline as written; `None` of a body whose sections differ.
 #[must_use]
 pub fn motion_diagram(body: &dyn Body, outline: Option<&Contour>) -> Option<MotionDiagram> {
-    let curves = curves_of(body)?;
-    let motion = curves.motion;
+    let motion = body.follower_motion()?;
     let (piece, (from, _)) = body.smooth_stretches().first().copied()?;
     let source =
         DiagramSource { body, motion, shown: chosen(&body.row_on(piece, from)?), stretches: motion.named_stretches() };
     let runs = source.runs();
-    let cut = outline.map(|outline| {
+    let cut = outline.zip(curves_of(body)).map(|(outline, curves)| {
         let mirrored = body.cuts().first().map_or(&[][..], |cut| cut.mirrored);
         FollowerOnChain::on(curves, outline, mirrored).lifts(CUT_SHARE)
     });

@@ -32,6 +32,11 @@ pub fn force_and_torque(body: &dyn Body, angle: f64) -> Option<[f64; 2]> {
     body.load()?.force_and_torque(at, motion.jet(at.0, at.1))
 }
 
+/// Whether a disc that is made with another one takes a torque of its own from their shaft.
+pub(crate) fn has_own_torque(body: &dyn Body) -> bool {
+    body.load().is_some_and(|load| !load.is_of_another_disc())
+}
+
 /// A disc whose follower is on its outline.
 struct TorqueOnOutline<'a> {
     body: &'a dyn Body,
@@ -91,6 +96,7 @@ pub(crate) fn trace(
 ) -> Option<Trace> {
     force_and_torque(body, 0.0)?;
     let one = TorqueOnOutline::new(body, on_outline)?;
+    let second = second.filter(|(second, _)| has_own_torque(*second));
     let on_second = second.and_then(followed);
     let two = match second {
         Some((second, _)) => Some(TorqueOnOutline::new(second, on_second.as_ref()?)?),

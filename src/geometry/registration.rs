@@ -150,6 +150,12 @@ impl RegistrationOutline {
             .map(|p| found.outside(registration.moved(*p)).0 / registration.scale + registration.offset);
         there.chain(back).map(f64::abs).fold(0.0, f64::max)
     }
+
+    /// The largest distance of one of these points from this outline, mm.
+    #[must_use]
+    pub fn farthest(&self, points: &[Vector2<f64>]) -> f64 {
+        points.iter().map(|point| self.outside(*point).0.abs()).fold(0.0, f64::max)
+    }
 }
 
 fn mean_square(model: &RegistrationOutline, points: &[Vector2<f64>], registration: &Registration) -> f64 {

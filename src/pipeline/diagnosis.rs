@@ -13,6 +13,7 @@ use crate::geometry::registration::{FreeParameters, Registration, RegistrationOu
 use crate::machine::{Machine, valid_rpm};
 use crate::numeric::extremum;
 use crate::report::{Finding, Section, Speeds, Verdict};
+use nalgebra::Vector2;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 use std::fmt;
@@ -178,6 +179,9 @@ fn drawn(body: &dyn Body, cut: usize, tolerance: f64) -> Option<Contour> {
     drawn.outlines().nth(cut).map(|(.., outline)| outline.contour.clone())
 }
 
+/// So many points show an outline well enough.
+const ENOUGH: usize = 8;
+
 /// Most straight segments of an outline of which each may be an arc that was lost: a plate has a few, a polyline of chords thousands.
 const MOST_LINES: usize = 16;
 
@@ -257,6 +261,7 @@ pub(super) fn of(
         Search { cam, cut, section, model, mirrored, found, contour, tolerance, distance, explanations: Vec::new() };
     search.alone();
     search.bulges();
+    search.straightened();
     search.other_sections();
     search.reversed();
     search.other_machines();
@@ -298,6 +303,22 @@ impl Search<'_> {
                 let remaining = self.model.remaining(&mended, &Registration::SAME);
                 self.consider(vec![change(cause, None, "", words)], remaining);
             }
+        }
+    }
+
+    /// Straight segments between vertices that lie on the outline: whatever the arcs were, they were lost. Arcs that are left lie on it as well.
+    fn straightened(&mut self) {
+        let Some(segments) = self.contour.segments() else { return };
+        let straight = segments.iter().filter(|segment| segment.bulge == 0.0).count();
+        let of_arcs = segments.iter().filter(|segment| segment.bulge != 0.0).map(|arc| arc.at(0.5).0);
+        let points: Vec<Vector2<f64>> = segments.iter().map(|segment| segment.start).chain(of_arcs).collect();
+        let remaining = self.model.farthest(&points);
+        if straight > 0 && points.len() >= ENOUGH && self.explanations.is_empty() {
+            let words = format!(
+                "with its {straight} straight segments as arcs: all vertices lie on it, and the bulges of its arcs were lost, or chords were \
+                 drawn for them"
+            );
+            self.consider(vec![change("bulges lost", None, "", words)], remaining);
         }
     }
 

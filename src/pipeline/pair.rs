@@ -29,9 +29,9 @@ impl AssemblyReport for PairReport {
     }
 
     fn sections(&self, first: &Proven, others: &[(String, Proven)]) -> Vec<Section> {
-        let counter = others.first().map(|(_, counter)| counter.body());
+        let counter = others.first().map(|(_, counter)| (counter.body(), counter.findings()));
         let found = closure((first.body(), first.outlines()), others).zip(counter);
-        found.map(|(found, counter)| conjugate::section(&found, counter)).into_iter().collect()
+        found.map(|(found, counter)| conjugate::section(&found, first.body(), counter)).into_iter().collect()
     }
 
     fn file_names(&self, first: &Proven, formats: &[&str]) -> Vec<&'static str> {

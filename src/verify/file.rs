@@ -3,9 +3,10 @@
 use super::check::{Evidence, FileCheck, place};
 use crate::check::{Check, CheckExplanation};
 use crate::geometry::contour::Edge;
-use crate::reading::{FileUnit, INCHES, OUTLINE_LAYER, OutlinePlace, Reading, StrayEntity, few};
-use crate::report::{Bound, Finding, Verdict};
+use crate::reading::{Chain, FileUnit, INCHES, OUTLINE_LAYER, OutlinePlace, Reading, StrayEntity, few};
+use crate::report::{Bound, Finding, Verdict, shown};
 use crate::units::LengthUnit;
+use nalgebra::Vector2;
 
 pub(super) const LAYER: FileCheck = FileCheck::on_file(
     "layer",
@@ -94,6 +95,9 @@ pub(super) const CLOSED: FileCheck = FileCheck::on_file(
 
 /// Most entities that are listed one by one.
 const MOST_LISTED: usize = 5;
+
+/// Ends whose distance is up to so many tolerances were meant to be one, for what is advised.
+const LOOSE: f64 = 20.0;
 
 /// Ends nearer than this share of the tolerance count as one: programs round coordinates to four to six decimals.
 const JOIN_SHARE: f64 = 0.1;
@@ -207,7 +211,11 @@ fn contours(reading: &Reading) -> Finding {
         [chain] if chain.closed => chain.contour().turns().abs(),
         _ => 1.0,
     };
-    let note = if found > 1 {
+    let note = if found > 1 && reading.chains.iter().all(|chain| !chain.closed) {
+        Some(format!(
+            "the outline is in {found} pieces whose ends do not meet, or there is more than the outline on its layer"
+        ))
+    } else if found > 1 {
         Some("the outline must be one contour; the rest belongs on other layers".to_owned())
     } else if round == 1.0 {
         None
@@ -218,13 +226,28 @@ fn contours(reading: &Reading) -> Finding {
 }
 
 fn closed(evidence: &Evidence<'_>, reading: &Reading) -> Option<Finding> {
-    let open = reading.chains.iter().filter(|chain| !chain.closed).max_by(|a, b| a.gap().total_cmp(&b.gap()));
-    let end = open.and_then(|chain| chain.edges.last()).map(Edge::end);
-    let gap = open.or(reading.chains.first())?.gap();
-    let found = CLOSED.found(gap, Some(join_reach(evidence.tolerance_mm)), Verdict::of(open.is_none()));
-    Some(Finding {
-        place: end.map(|point| place(evidence.body, point)).unwrap_or_default(),
-        note: open.map(|_| "the outline is open: its ends do not meet".to_owned()),
-        ..found
-    })
+    let limit = Some(join_reach(evidence.tolerance_mm));
+    let Some((gap, end)) = widest_gap(&reading.chains) else {
+        return Some(CLOSED.found(reading.chains.first()?.gap(), limit, Verdict::Pass));
+    };
+    let missed = format!("ends that should meet miss each other by up to {} mm", shown(gap));
+    let note = if gap <= LOOSE * evidence.tolerance_mm {
+        format!("the outline is open: {missed}; join them, or save the file with more decimals")
+    } else {
+        format!("the outline is open: {missed}")
+    };
+    Some(Finding { place: place(evidence.body, end), note: Some(note), ..CLOSED.found(gap, limit, Verdict::Fail) })
+}
+
+/// The largest distance of an open end from the nearest other one, and where; `None` where nothing is open.
+fn widest_gap(chains: &[Chain]) -> Option<(f64, Vector2<f64>)> {
+    let open = chains.iter().filter(|chain| !chain.closed);
+    let ends: Vec<Vector2<f64>> = open
+        .flat_map(|chain| chain.edges.first().map(Edge::start).into_iter().chain(chain.edges.last().map(Edge::end)))
+        .collect();
+    let gap = |(index, end): (usize, &Vector2<f64>)| {
+        let others = ends.iter().enumerate().filter(|(other, _)| *other != index);
+        (others.map(|(_, other)| (other - end).norm()).fold(f64::INFINITY, f64::min), *end)
+    };
+    ends.iter().enumerate().map(gap).max_by(|a, b| a.0.total_cmp(&b.0))
 }

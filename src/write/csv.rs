@@ -57,7 +57,7 @@ pub const FURTHER: Format = Format {
 
 fn rows(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutline], samples: u32) -> Vec<Row> {
     let mut rows = body.rows(samples);
-    if let Some(second) = second {
+    if let Some(second) = second.filter(|second| torque::has_own_torque(*second)) {
         for row in &mut rows {
             let at = row.cam_deg.map(f64::to_radians);
             row.torque_of_second = at.and_then(|at| torque::force_and_torque(second, at)).map(|[_, torque]| torque);

@@ -1,8 +1,8 @@
 //! The motion diagram as SVG: a sheet of its own.
 
 use super::{Format, FormatSelection, Rendering, svg};
+use crate::body::Body;
 use crate::body::motion_diagram::motion_diagram;
-use crate::body::{self, Body};
 use crate::refusal::Refusal;
 use crate::report::motion_diagram;
 use crate::report::sheet::Sheet;
@@ -23,7 +23,7 @@ pub const FORMAT: Format = Format {
 
 /// A cam whose sections differ has a motion for each of them.
 fn unfit(body: &dyn Body) -> Option<&'static str> {
-    let moves = || body::curves(body).is_some() && body.row_on(0, 0.0).is_some();
+    let moves = || body.follower_motion().is_some() && body.row_on(0, 0.0).is_some();
     (!moves()).then_some("its sections have motions of their own")
 }
 

@@ -260,3 +260,17 @@ fn a_disc_under_the_name_of_the_other_is_refused() {
         }
     }
 }
+
+/// The counter disc moves no follower of its own: the torque of the table and of the sheet is that of the pair, once.
+#[test]
+fn the_torque_of_a_pair_is_told_once() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let run = camgen_in(directory, &["make", "conjugate", "--name", "p", "--format", "csv,svg", "--out", "out"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let text = |name: &str| std::fs::read_to_string(run.directory.path().join("out").join(name)).expect("a file");
+    assert!(!text("p-main.csv").contains("torque_left_nm"));
+    let sheet = text("p-main.svg");
+    assert!(sheet.contains("Torque on the shaft") && !sheet.contains("compensating cam"));
+    assert!(sheet.contains("mm apart along the path") && run.out.contains("mm apart along the path"), "{}", run.out);
+    assert!(run.out.contains("checks of the counter disc"), "{}", run.out);
+}

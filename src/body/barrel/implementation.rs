@@ -9,7 +9,7 @@ use crate::check::Measures;
 use crate::geometry::contour::Contour;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::{Machine, Rotation};
-use crate::motion::Quantity;
+use crate::motion::{Motion, Quantity};
 use crate::profile::followed;
 use crate::profile::outline::{OutlineError, SegmentKind, Side};
 use crate::refusal::Refusal;
@@ -149,8 +149,8 @@ impl Body for Barrel {
         Some(self.row(TurnAngles { cam_deg, angle: parameter, crank_deg }, (piece, parameter)))
     }
 
-    fn smooth_stretches(&self) -> Vec<(usize, (f64, f64))> {
-        self.motion.pieces().iter().enumerate().map(|(index, piece)| (index, (piece.start, piece.end))).collect()
+    fn follower_motion(&self) -> Option<&dyn Motion> {
+        Some(&*self.motion)
     }
 
     fn sections(&self, found: &DrawingEvidence<'_>) -> Vec<Section> {

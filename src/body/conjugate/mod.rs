@@ -17,7 +17,7 @@ use crate::motion::{Motion, Quantity};
 use crate::profile::lifts;
 use crate::refusal::Refusal;
 pub(in crate::body) use motion::CounterMotion;
-pub(crate) use report::section;
+pub(crate) use report::{section, spacing};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -79,7 +79,7 @@ fn follower(main: &Disc, data: &CounterData, top: f64) -> Result<(Arc<dyn Follow
     match place {
         FollowerPlacement::Offset { radius } => {
             let offset = place.of(&**shape);
-            let height = ((prime - offset) * (prime + offset)).sqrt();
+            let height = height(prime, offset);
             let distance = data.distance.unwrap_or(2.0 * height + top);
             let own = distance - height - top;
             if !(own > 0.0) {
@@ -93,10 +93,7 @@ fn follower(main: &Disc, data: &CounterData, top: f64) -> Result<(Arc<dyn Follow
         }
         FollowerPlacement::Pivot { arm, radius, side } => {
             let pivot = place.of(&**shape);
-            let angle = |length: f64, prime: f64| {
-                libm::acos((pivot * pivot + length * length - prime * prime) / (2.0 * pivot * length))
-            };
-            let start = angle(arm, prime);
+            let start = angle(pivot, arm, prime);
             let included = data.included_angle.unwrap_or(2.0 * start + top);
             let (own, own_arm) = (included - start - top, data.arm.unwrap_or(arm));
             if !(own > 0.0 && own < PI) {
@@ -109,4 +106,23 @@ fn follower(main: &Disc, data: &CounterData, top: f64) -> Result<(Arc<dyn Follow
             Ok((Arc::new(roller), own_prime, 0.0))
         }
     }
+}
+
+/// The height of a roller over the shaft where it is lowest, from its prime radius and the offset of its path, m.
+fn height(prime: f64, offset: f64) -> f64 {
+    ((prime - offset) * (prime + offset)).sqrt()
+}
+
+/// The angle of an arm from the line between pivot and shaft where its roller is lowest, rad.
+fn angle(pivot: f64, arm: f64, prime: f64) -> f64 {
+    libm::acos((pivot * pivot + arm * arm - prime * prime) / (2.0 * pivot * arm))
+}
+
+/// Where the roller of a disc is lowest: its height over the shaft, m, or the angle of its arm, rad; `None` of a follower without a roller.
+fn lowest(follower: &dyn Follower) -> Option<f64> {
+    let (place, prime) = follower.place().zip(follower.prime_radius())?;
+    Some(match place {
+        FollowerPlacement::Offset { .. } => height(prime, place.of(follower)),
+        FollowerPlacement::Pivot { arm, .. } => angle(place.of(follower), arm, prime),
+    })
 }

@@ -1,6 +1,6 @@
 //! The figures of a disc that checks judge, and its load as an outline shows it.
 
-use super::{Disc, LARGEST_BASE, keyway_wall, residual_vibration};
+use super::{Disc, Hold, LARGEST_BASE, keyway_wall, residual_vibration};
 use crate::body::load_as_cut::LoadAsCut;
 use crate::body::{Figures, broken_limit, no_radius, passing, stress};
 use crate::check::contact_stress::ContactKind;
@@ -130,5 +130,9 @@ impl LoadAsCut for Disc {
 
     fn force_and_torque(&self, at: (usize, f64), lift: Jet) -> Option<[f64; 2]> {
         self.driving_force_and_torque(at, lift)
+    }
+
+    fn is_of_another_disc(&self) -> bool {
+        matches!(self.hold, Hold::Pair { counter: Some(_), .. })
     }
 }

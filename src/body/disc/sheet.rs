@@ -6,7 +6,7 @@ use crate::body::part::{as_turned, point_as_turned};
 use crate::body::sheet::{
     PATH_OVER_RADIUS, axes, bore, lost_motion, overall, pressure_angle, profile_table, roller, turning,
 };
-use crate::body::{Body, Drawn, Figures, Part};
+use crate::body::{Body, Drawn, Figures, Part, conjugate};
 use crate::follower::Element;
 use crate::geometry::contour::{Contour, Edge, Extents, Vertex};
 use crate::geometry::{Entity, MILLIMETRES, polar};
@@ -82,13 +82,19 @@ pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<SheetView, OutlineError
         marks: marks.into_iter().flatten().collect(),
         tables: part.map_or_else(Vec::new, |part| profile_table(&disc.machine, disc.curves(), &part.outline.contour)),
         facts: TitleFacts::of(&disc.machine, part.and_then(|part| part.weight(&disc.machine).mass_kg)),
-        notes: nothing_left.then(|| NOTHING_LEFT.to_owned()).into_iter().collect(),
+        notes: nothing_left.then(|| NOTHING_LEFT.to_owned()).into_iter().chain(rollers_of_pair(disc)).collect(),
         lost: if disc.least_radius().value <= disc.curves().offset().abs() {
             figures::lost_motion(disc.curves(), &|at| disc.place(at))
         } else {
             Vec::new()
         },
     })
+}
+
+/// How a pair sets its rollers, for the main disc.
+fn rollers_of_pair(disc: &Disc) -> Option<String> {
+    let (counter, _) = disc.other.as_ref()?;
+    conjugate::spacing(disc, &**counter, disc.machine.units())
 }
 
 /// A circle about the shaft with its radius, mm, in the legend.

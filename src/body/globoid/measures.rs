@@ -10,7 +10,8 @@ use crate::check::{
 };
 use crate::geometry::MILLIMETRES;
 use crate::profile::Worst;
-use crate::report::{Bound, Place};
+use crate::profile::size::{first_that_keeps, rounded_up};
+use crate::report::{Bound, Place, shown};
 
 /// Rounding of an angle at an end.
 const AT_END: f64 = 1e-9;
@@ -31,6 +32,9 @@ pub const MESHING: Check = Check {
         change: "a larger `cam.end_angle`, more `cam.rollers`",
     },
 };
+
+/// Largest growth of the distance of the turret that is tried.
+const LARGEST_GROWTH: f64 = 4.0;
 
 impl Globoid {
     /// Least number of rollers that touch each flank over their whole reach, with the cam angle where that is.
@@ -69,9 +73,24 @@ impl Globoid {
         if rib < bore { (rib, Some(at)) } else { (bore, None) }
     }
 
+    /// A distance of the turret with which the pressure angle, the flanks and the walls keep their limits.
+    fn remedy(&self) -> Option<String> {
+        let limits = self.machine.limits;
+        let least_wall = limits.least_wall(self.machine.cam.bore_radius);
+        let keeps = |distance: f64| {
+            self.at_distance(distance).is_some_and(|other| {
+                let free = other.least_fold().value > other.distances[0].max(other.distances[1]);
+                free && other.pressure_angle().value <= limits.pressure_angles()[0] && other.wall().0 >= least_wall
+            })
+        };
+        let distance = self.turret.distance;
+        let found = first_that_keeps(distance, LARGEST_GROWTH * distance, keeps).map(rounded_up)?;
+        keeps(found).then(|| format!("cam.turret_distance = \"{} mm\" keeps every limit", shown(MILLIMETRES * found)))
+    }
+
     pub(super) fn take_measures(&self, of: &mut Measures<'_>) {
         let at = |worst: &Worst| -> (Place, Option<String>) { (self.place(worst.at), None) };
-        let remedy = || None;
+        let remedy = || self.remedy();
         let subject = Subject { machine: &self.machine, curves: None, speed: self.speed(), at: &at, remedy: &remedy };
         let run = || [RunMotion { motion: &*self.motion, z: 0.0, speed: self.speed() }];
         let none = Worst { value: 0.0, at: 0.0, z: 0.0 };

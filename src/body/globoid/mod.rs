@@ -134,6 +134,13 @@ impl Globoid {
         Ok(found)
     }
 
+    /// The same with the turret at another distance, m; `None` where there is none.
+    fn at_distance(&self, distance: f64) -> Option<Self> {
+        let mut machine = Machine::clone(&self.machine);
+        machine.cam.track.turret = Some(TurretData { distance, ..self.turret });
+        Self::of(&machine, &self.motion, self.rpm).ok()
+    }
+
     /// Where the first roller stands at the start, less the lift there: a rib or a groove is in the middle.
     fn start(&self) -> f64 {
         let at_rest = if self.turret.rests_in_groove { 0.0 } else { -0.5 * self.turret.pitch() };
