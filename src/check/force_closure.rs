@@ -16,7 +16,8 @@ pub const CHECK: Check = Check {
     explained: CheckExplanation {
         bound: Bound::Above,
         formula: "F = air or spring + preload + c s' + m s'', along the follower's path, s' and s'' by time; for a swinging follower \
-                  the moment J ψ'' + c ψ' + k ψ + M0 over the distance of its contact from the pivot",
+                  the moment J ψ'' + c ψ' + k ψ + M0 over its arm, which is that of the roller's centre, or of a face the distance of the contact from \
+                  the pivot",
         usual: "above 0",
         change: "a higher `follower.*.preload` or `spring.preload`, a lower `follower.*.mass` or `inertia`, or a slower cam",
     },

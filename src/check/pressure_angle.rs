@@ -17,7 +17,8 @@ pub const CHECK: Check = Check {
         formula: "tan α = (ds/dθ − e)/(s + √(Rₚ² − e²)) of a translating roller with offset e and prime radius Rₚ; of a face on an arm \
                   tan α = f/ℓ with its offset f from the pivot and the distance ℓ of the contact along the face",
         usual: "30° translating (R. L. Norton, Design of Machinery, chapter on cams), 45° swinging, none for a flat face",
-        change: "a larger `cam.base_radius`, an offset `follower.roller.offset`, a lower lift or a longer rise; or a higher `limits.pressure_angle`",
+        change: "a larger `cam.base_radius`, an offset `follower.roller.offset`, a lower lift or a longer rise; or a higher `limits.pressure_angle`; for a barrel a larger \
+                 `cam.outer_radius`, for a globoid a larger `cam.turret_distance`",
     },
 };
 

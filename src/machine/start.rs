@@ -96,7 +96,12 @@ pub fn template_of_program(catalogue: &Catalogue, follower: &str) -> Option<Stri
     // The tables after those of the followers.
     let is_follower = |section: &&KeySection| FOLLOWERS.iter().any(|kind| kind.section.path == section.path);
     let after = catalogue.keys.sections.iter().rev().copied().take_while(|section| !is_follower(section));
-    let mut body: Vec<&KeySection> = after.filter(of_make).chain([kind.section]).collect();
+    let of_another = |section: &KeySection| {
+        let others = FOLLOWERS.iter().filter(|other| other.section.path != kind.section.path);
+        others.into_iter().any(|other| section.path.starts_with(&format!("{}.", other.section.path)))
+    };
+    let mut body: Vec<&KeySection> =
+        after.filter(of_make).filter(|section| !of_another(section)).chain([kind.section]).collect();
     body.reverse();
     let mut body = written("", &body, &[kind.section.path]);
     if swings || kind.section.path == FLAT {
@@ -124,6 +129,9 @@ mod tests {
             let machine =
                 Machine::from_toml("start.toml", &text, &[]).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
             assert!(machine.motion().is_some(), "{name}");
+            for other in followers().into_iter().filter(|other| *other != name) {
+                assert!(!text.contains(&format!("[follower.{other}.")), "{name}: {other}");
+            }
             assert!(!text.contains("[bed]") && !text.contains("crank_radius"), "{name}: {text}");
         }
         assert_eq!(template_of_program(catalogue(), "roler"), None);

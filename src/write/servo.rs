@@ -77,7 +77,9 @@ fn isg(body: &dyn Body, swings: bool, positions: &[f64], mark: &str) -> String {
 fn head(body: &dyn Body, table: &ServoTable, (mark, units): (&str, LengthUnit)) -> Vec<String> {
     let plain: String = body.machine().name().chars().filter(|c| c.is_ascii() && !"(*)".contains(*c)).collect();
     let unit = if table.swings { "deg" } else { units.symbol() };
-    vec![
+    let upside_down = "counter disc of a pair: the motion is upside down; a drive in the place of the cam takes the table of the main disc";
+    let of_counter = is_of_another_disc(body).then(|| upside_down.to_owned());
+    let lines = vec![
         mark.to_owned(),
         format!("machine: {plain}"),
         "master: deg of the cam, one turn".to_owned(),
@@ -85,7 +87,8 @@ fn head(body: &dyn Body, table: &ServoTable, (mark, units): (&str, LengthUnit)) 
         "interpolation: between two nodes the polynomial of degree 5 with position, velocity and acceleration of both"
             .to_owned(),
         format!("nodes: {}", table.nodes.len()),
-    ]
+    ];
+    lines.into_iter().chain(of_counter).collect()
 }
 
 fn csv(table: &ServoTable, units: LengthUnit, head: &[String]) -> String {
@@ -99,11 +102,16 @@ fn csv(table: &ServoTable, units: LengthUnit, head: &[String]) -> String {
     text
 }
 
+fn is_of_another_disc(body: &dyn Body) -> bool {
+    body.load().is_some_and(|load| load.is_of_another_disc())
+}
+
 /// The machine's name as a variable.
 fn variable(body: &dyn Body) -> String {
     let kept = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
     let name: String = body.machine().name().chars().map(kept).take(24).collect();
-    format!("Cam_{}", name.trim_matches('_'))
+    let which = if is_of_another_disc(body) { "_counter" } else { "" };
+    format!("Cam_{}{which}", name.trim_matches('_'))
 }
 
 fn comment(head: &[String]) -> String {

@@ -70,12 +70,10 @@ fn developed_marks(barrel: &Barrel, view: &mut SheetView) {
         away: at(0.0, -1.0),
         text: format!("{} = 360°", units.dimension(right - left)),
     });
-    view.marks.push(Mark::Distance {
-        from: at(left, low),
-        to: at(left, high),
-        away: at(-1.0, 0.0),
-        text: units.dimension(high - low),
-    });
+    let to_zero = (at(left, 0.0), format!("{} to z = 0", units.dimension(-low)));
+    for (to, text) in [to_zero, (at(left, high), units.dimension(high - low))] {
+        view.marks.push(Mark::Distance { from: at(left, low), to, away: at(-1.0, 0.0), text });
+    }
     let (piece, angle) = barrel.motion.locate(0.0);
     let axis = barrel.axis(piece, angle);
     let centre = at(x(0.0), MILLIMETRES * axis.along[0]);
@@ -171,7 +169,7 @@ fn tables(barrel: &Barrel) -> Vec<PlaceTable> {
     let heads = ["θ", "φ above", "z above", "φ below", "z below", "φ above", "z above", "φ below", "z below"];
     let of = |every: usize| PlaceTable {
         title: format!(
-            "Both flanks on R {outside} and on the floor R {floor}: angle φ, °, and height z, {}",
+            "Both flanks, first on R {outside}, then on the floor R {floor}: angle φ, °, and height z, {}",
             units.symbol()
         ),
         heads: heads.map(str::to_owned).to_vec(),

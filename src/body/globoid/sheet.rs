@@ -187,7 +187,7 @@ fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
     let [outside, floor] = [globoid.outside, globoid.floor].map(|from| units.dimension(MILLIMETRES * from));
     let of = |every: usize| PlaceTable {
         title: format!(
-            "Both flanks of groove 1 at R {outside} and at the floor R {floor} about the turret: angle φ, °, radius r and height z, {}",
+            "Both flanks of groove 1, first at R {outside} about the turret, then at the floor R {floor}: angle φ, °, radius r and height z, {}",
             units.symbol()
         ),
         heads: heads.clone(),

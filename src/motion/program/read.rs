@@ -169,7 +169,9 @@ fn end_farther(segments: &[TableReader<'_>], steps: &mut [SegmentSpec], (start, 
             "a turn of the cam moves the turret on by {moved:.6} deg instead of {:.6} deg, cam.advance of its rollers",
             angle.to_degrees()
         );
-        let help = format!("the last `to` must be {} deg", (start + angle).to_degrees());
+        // Without the rounding of the conversion.
+        let degrees = (1e9 * (start + angle).to_degrees()).round() / 1e9;
+        let help = format!("the last `to` must be {degrees} deg");
         segments.last()?.fail(&TO, message, Some(help));
         return None;
     }

@@ -217,7 +217,7 @@ pub(super) fn places(mut writer: PanelWriter, table: &PlaceTable) -> SheetPanel 
             let mut x = left;
             for cell in cells {
                 x += column;
-                let (_, size) = font::fitted_in_one(cell, TEXT, column - 1.0);
+                let (_, size) = font::fitted_in_one(cell, TEXT, column - 2.0);
                 writer.text("facts", x, size, TextAnchor::End, cell.clone());
             }
             writer.down += LINE;

@@ -11,6 +11,9 @@ const NEAR: f64 = 0.5 * CELL;
 /// Most points of a curve: a curve far larger than any paper is followed coarsely.
 const MOST: f64 = 4000.0;
 
+/// Free paper between a text and the edge of the region, mm.
+const MARGIN: f64 = 0.7;
+
 /// How soon the corner of a text, not its side, is nearest to its place.
 const LEAN: f64 = 1.6;
 
@@ -101,6 +104,8 @@ impl OccupiedPaper {
                 for (start, end) in [(a, b), (b, c), (c, a)] {
                     self.put_line(*start, *end);
                 }
+                // A leader through the head of an arrow looks like that of the arrow.
+                self.fill(&Extents { least: a.inf(b).inf(c), largest: a.sup(b).sup(c) });
             }
             SheetShape::Text { .. } => {}
         }
@@ -173,6 +178,7 @@ impl OccupiedPaper {
     }
 
     fn contains(&self, field: &Extents) -> bool {
+        let field = Extents { least: field.least.add_scalar(-MARGIN), largest: field.largest.add_scalar(MARGIN) };
         field.least.x >= self.region.least.x
             && field.least.y >= self.region.least.y
             && field.largest.x <= self.region.largest.x
