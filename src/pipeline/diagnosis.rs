@@ -20,7 +20,8 @@ use std::fmt;
 use std::sync::Arc;
 
 /// Checks of the outline: when one of them fails, it is asked why.
-const OF_THE_OUTLINE: [&str; 3] = ["outline", "rolling", "rolling_flank"];
+const OF_THE_OUTLINE: [&str; 4] = ["outline", "rolling", "rolling_flank", PROGRAM];
+const PROGRAM: &str = "program";
 /// What remains must be this share of what was found, or less; and two changes must leave that share of what one leaves. Within the
 /// tolerance a larger share is enough: the outline of the file is itself off by as much.
 const EXPLAINED: f64 = 0.1;
@@ -267,7 +268,10 @@ pub(super) fn of(
     search.other_machines();
     search.other_speeds();
     search.together();
-    Some(search.section())
+    // A program may fail by more than what it cuts.
+    let unexplained = search.explanations.is_empty() || search.distance <= MILLIMETRES * tolerance;
+    let of_program = checks.iter().any(|finding| finding.check == PROGRAM);
+    (!(of_program && unexplained)).then(|| search.section())
 }
 
 impl Search<'_> {

@@ -1,7 +1,7 @@
 //! The proof of a cutter's path and of a table of points that were edited or written by another program.
 
 use super::check::CutSection;
-use super::{Cam, Error, ExpectedFile, report};
+use super::{Cam, Error, ExpectedFile, diagnosis, report};
 use crate::body::milling::{depth_of, widest_cutter};
 use crate::body::points::{PointCurve, PointErrors, PointTable, radius_of_roller, traced};
 use crate::body::{Layer, Request};
@@ -121,7 +121,12 @@ impl Cam {
         }]);
         let evidence = self.nothing_written(MILLIMETRES * request.fit.tolerance, request)?;
         let checks = verify::run(&Evidence { programs: Some(&programs), ..evidence });
-        Ok(self.report_on("program", request, checks))
+        let alone = cuts.len() == 1 && cuts.iter().all(|cut| cut.curves.is_some() && !cut.is_hollow());
+        let left = programs.as_ref().ok().and_then(|all| all.first()).filter(|_| alone).and_then(verify::left_by);
+        let cause = diagnosis::of(self, (0, None), left.as_ref(), (&checks, request.fit.tolerance));
+        let mut report = self.report_on("program", request, checks);
+        report.sections.extend(cause);
+        Ok(report)
     }
 
     /// Whether a table for a servo drive moves it as this cam moves its follower.

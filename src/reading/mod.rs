@@ -27,6 +27,8 @@ mod walk;
 pub use join::Chain;
 pub use limits::{LARGEST_FILE, MOST_SEGMENTS};
 
+use crate::geometry::contour::Edge;
+use crate::geometry::edge_tree::EdgeTree;
 use crate::refusal::Refusal;
 use contents::DxfContents;
 use join::JoinedChains;
@@ -234,6 +236,16 @@ pub fn read_with_outline(bytes: &[u8], join: f64, layer: Option<&str>) -> Result
         place = OutlinePlace::OnlyContour;
     }
     outline.iter().try_for_each(Chain::check_length)?;
+    if layer.is_some()
+        && let Some(outermost) = around_all(&outline)
+    {
+        let (own, holes): (Vec<_>, Vec<_>) =
+            outline.into_iter().enumerate().partition(|(index, _)| *index == outermost);
+        walk.remarks
+            .push(format!("{} contours inside the outline lie on its layer and are taken for its holes", holes.len()));
+        outline = own.into_iter().map(|(_, chain)| chain).collect();
+        others.extend(holes.into_iter().map(|(_, chain)| chain));
+    }
     Ok(Reading {
         unit: contents.unit,
         outline: place,
@@ -248,6 +260,22 @@ pub fn read_with_outline(bytes: &[u8], join: f64, layer: Option<&str>) -> Result
         hidden: walk.hidden.into_iter().collect(),
         splines: walk.curves,
     })
+}
+
+/// The one of several closed chains that lies around all others, by its index.
+fn around_all(chains: &[Chain]) -> Option<usize> {
+    if chains.len() < 2 || chains.iter().any(|chain| !chain.closed) {
+        return None;
+    }
+    let area = |chain: &Chain| chain.contour().area_and_centroid().0.abs();
+    let (index, largest) = chains.iter().enumerate().max_by(|a, b| area(a.1).total_cmp(&area(b.1)))?;
+    let contour = largest.counter_clockwise();
+    let tree = EdgeTree::new(&contour);
+    let within = |edge: &Edge| {
+        [0.0, 0.5].into_iter().all(|share| tree.nearest(edge.at(share).0).is_some_and(|nearest| nearest.left > 0.0))
+    };
+    let mut rest = chains.iter().enumerate().filter(|(other, _)| *other != index);
+    rest.all(|(_, chain)| chain.edges.iter().all(within)).then_some(index)
 }
 
 #[cfg(test)]
@@ -323,6 +351,23 @@ mod tests {
         assert_eq!((reading.chains.len(), reading.unreadable.len(), reading.duplicates.len()), (2, 0, 2));
         assert_eq!(reading.information[0].kind, "TEXT");
         assert_eq!(reading.layers, ["BORE", "CAM_PROFILE"]);
+    }
+
+    /// Programs that save everything on one layer.
+    #[test]
+    fn holes_on_the_layer_that_is_named_for_the_outline_are_holes() {
+        let circle = |x: f64, radius: f64| EntityType::Circle(dxf::entities::Circle::new(point(x, 0.0), radius));
+        let chains = |x: f64, radius: f64, layer: Option<&str>| {
+            let mut all: Vec<_> = slot().into_iter().map(|(_, entity)| ("0", entity)).collect();
+            all.push(("0", circle(x, radius)));
+            let reading = read_with_outline(&drawing(all, Units::Millimeters), 1e-6, layer).expect("read");
+            (reading.chains.len(), reading.others.len())
+        };
+        assert_eq!(chains(20.0, 3.0, Some("0")), (1, 1));
+        // It crosses the outline, or lies beside it.
+        assert_eq!(chains(20.0, 15.0, Some("0")), (2, 0));
+        assert_eq!(chains(90.0, 3.0, Some("0")), (2, 0));
+        assert_eq!(chains(20.0, 3.0, None), (0, 2));
     }
 
     #[test]

@@ -114,7 +114,7 @@ pub(super) fn left_behind(
 }
 
 /// What a cutter of this radius (mm) leaves on the left of its path; `None` where the path is not of arcs and lines.
-fn moved_inwards(path: &Contour, radius: f64) -> Option<Contour> {
+pub(super) fn moved_inwards(path: &Contour, radius: f64) -> Option<Contour> {
     let segments: Vec<Segment> = path.segments()?;
     let before = segments.iter().cycle().skip(segments.len().saturating_sub(1));
     let left = |tangent: Vector2<f64>| Vector2::new(-tangent.y, tangent.x) * radius;

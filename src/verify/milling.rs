@@ -5,7 +5,7 @@
 //! cut to the full depth, lead-ins and lead-outs must keep clear of the metal, and no rapid move may go below the upper face.
 
 use super::check::{Evidence, FileCheck, WrittenProgram, place};
-use super::cutter_path::left_behind;
+use super::cutter_path::{left_behind, moved_inwards};
 use super::cutting::{SAME_DEPTH, as_designed, leaves_its_path, not_too_deep_at_once};
 use super::program::{JudgedProgram, ProgramFault, remarks};
 use super::turned;
@@ -116,6 +116,16 @@ fn passes(program: &CutterProgram) -> Result<Vec<LevelPass<'_>>, ProgramFault> {
 fn pass(program: &CutterProgram, start: usize, end: usize) -> Option<LevelPass<'_>> {
     let moves = program.moves.get(start..end)?;
     Some(LevelPass { depth: -moves.first()?.to[2], moves })
+}
+
+/// What the first pass of a program leaves, counter-clockwise; `None` where it does not close, or the way round it leaves nothing.
+pub(crate) fn left_by(written: &WrittenProgram) -> Option<Contour> {
+    let passes = passes(written.program.as_ref().ok()?).ok()?;
+    let pass = ClosedPass::of(passes.first()?).ok()?;
+    match written.cutter {
+        Some(radius) => moved_inwards(&pass.contour, radius),
+        None => Some(pass.contour),
+    }
 }
 
 /// The moves of a pass that close, and those before and behind them.

@@ -41,6 +41,7 @@ pub use check::{
 pub use file::join_reach;
 pub(crate) use lead_in::is_lead_in;
 pub use list::CHECKS;
+pub(crate) use milling::left_by;
 pub use solid::shell_reach;
 pub use swept_files::WrittenSwept;
 

@@ -1,5 +1,6 @@
 //! Programs for milling machines as their controls read them: every body and control, and planted faults.
 
+use crate::common::program::camgen_in;
 use camgen::body::milling::Milling;
 use camgen::machine::Controller;
 use camgen::reading::gcode::{CutterMove, CutterSide, MoveKind, read};
@@ -424,4 +425,34 @@ fn a_block_by_its_time_is_no_faster_than_the_feed_of_the_design() {
         let found = why_refused(&cam, &with_line(&text, turns, quick), cutter);
         assert!(found.contains("as fast as cut.feed") && found.contains("line "), "{name}: {found}");
     }
+}
+
+/// What an edited program leaves is told as for an outline; a fault that is not one of the path has no such cause.
+#[test]
+fn a_shifted_program_is_told_as_shifted() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let run = camgen_in(directory, &["make", "feeder", "--format", "gcode", "--name", "p", "--out", "out"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let path = run.directory.path().join("out/p.ngc");
+    let text = std::fs::read_to_string(&path).expect("a program");
+    let moved = |word: &str| match word.strip_prefix('X').and_then(|number| number.parse::<f64>().ok()) {
+        Some(x) => format!("X{:.4}", x + 12.5),
+        None => word.to_owned(),
+    };
+    let shifted: Vec<String> =
+        text.lines()
+            .map(|line| {
+                if line.starts_with('(') {
+                    line.into()
+                } else {
+                    line.split(' ').map(moved).collect::<Vec<_>>().join(" ")
+                }
+            })
+            .collect();
+    std::fs::write(&path, shifted.join("\n") + "\n").expect("written");
+    let run = camgen_in(run.directory, &["check", "out/p.ngc", "feeder"]);
+    assert!(run.code == 1 && run.out.contains("shifted by 12.50"), "{}{}", run.out, run.err);
+    std::fs::write(&path, text.replace("G1 Z-15.0", "G1 Z-14.0")).expect("written");
+    let run = camgen_in(run.directory, &["check", "out/p.ngc", "feeder"]);
+    assert!(run.code == 1 && !run.out.contains("diagnosis"), "{}{}", run.out, run.err);
 }
