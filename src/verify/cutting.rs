@@ -5,7 +5,7 @@ use super::check::{Evidence, WrittenProgram};
 use super::program::ProgramFault;
 use crate::geometry::MILLIMETRES;
 use crate::machine::{Controller, CuttingData};
-use crate::reading::gcode::{CutterProgram, CuttingState, Spindle, TurnedPass};
+use crate::reading::gcode::{CutterProgram, CuttingState, Spindle, ToolLength, TurnedPass};
 use crate::report::shown;
 
 /// Depths that differ by less are equal, mm: numbers of three decimals, and of four in inches, are off by less.
@@ -32,7 +32,9 @@ pub(super) fn as_designed(evidence: &Evidence<'_>, written: &WrittenProgram) -> 
         }
     }
     for (line, state) in &program.states {
-        let fault = wrong_tool(&design, program, state).or_else(|| wrong_spindle(&design, state.spindle));
+        let fault = wrong_tool(&design, program, state)
+            .or_else(|| wrong_length(&design, program, state))
+            .or_else(|| wrong_spindle(&design, state.spindle));
         if let Some(fault) = fault {
             return Err(ProgramFault::new(format!("in line {line} {fault}")));
         }
@@ -91,6 +93,32 @@ fn wrong_tool(design: &CuttingData, program: &CutterProgram, state: &CuttingStat
     }?;
     let offset = state.offset?;
     (offset != wanted).then(|| format!("the control takes the radius D{offset}; it must be D{wanted}"))
+}
+
+/// What is wrong with the length of the tool: by another the cutter goes down to another depth.
+fn wrong_length(design: &CuttingData, program: &CutterProgram, state: &CuttingState) -> Option<String> {
+    let letter = if program.control == Some(Controller::Sinumerik) { 'D' } else { 'H' };
+    // That of the tool by its number, of its first edge on SINUMERIK, or else the one of the cuts before.
+    let known = match (program.control, design.tool) {
+        (Some(Controller::Sinumerik), Some(_)) => Some(1),
+        (Some(Controller::LinuxCnc), None) => state.tool,
+        (_, tool) => tool,
+    };
+    let before = program.states.iter().find(|(_, other)| other.tool == state.tool).map(|(_, first)| first.length);
+    match (state.length, known.map(ToolLength::Number).or(before)?) {
+        (ToolLength::Cancelled, _) => Some(
+            "the cutter cuts without the length of its tool (G49, H0, D0, or a change of the tool without G43)"
+                .to_owned(),
+        ),
+        (ToolLength::Unstated, _) => None,
+        (ToolLength::Number(_), _) if before == Some(ToolLength::Unstated) => {
+            Some("the control takes the length of the tool (G43), and did not for the cuts before".to_owned())
+        }
+        (ToolLength::Number(number), wanted @ ToolLength::Number(other)) if wanted != state.length => {
+            Some(format!("the control takes the length {letter}{number} of the tool; it must be {letter}{other}"))
+        }
+        (ToolLength::Number(_), _) => None,
+    }
 }
 
 /// What is wrong with the spindle.

@@ -1,5 +1,7 @@
 //! With what a program cuts: its tool, the radius that the control takes, the spindle and the feed.
 
+use super::tool_length::ToolLength;
+
 /// How the spindle turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Spindle {
@@ -40,6 +42,8 @@ pub struct CuttingState {
     pub compensated: bool,
     /// Number of the radius by which it does (D), where the program gives one.
     pub offset: Option<u32>,
+    /// Which length of the tool the control takes into account.
+    pub length: ToolLength,
     /// How the spindle turns.
     pub spindle: Spindle,
 }

@@ -2,8 +2,8 @@
 
 use super::dialect::{dialect, moves_the_profile, path_tolerance};
 use super::machine_state::{MachineState, at_line};
-use super::modal::{ModalWords, Situation, are_known, dwells, passed_over};
-use super::words::{REFERENCE, Word, counted, of, without_comments, words};
+use super::modal::{ModalWords, Situation, are_known, dwells, leaves, passed_over};
+use super::words::{Word, counted, of, without_comments, words};
 use super::{CutterProgram, CutterSide, MoveKind};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
@@ -48,13 +48,7 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
 }
 
 /// A block that goes to a place of the machine, such as `G91 G28 Z0`: only upwards, or with the cutter above the part.
-fn to_the_machine(
-    line: usize,
-    words: &[Word],
-    state: &mut MachineState,
-    modal: &mut ModalWords,
-) -> Result<(), Refusal> {
-    modal.leave(words);
+fn to_the_machine(line: usize, words: &[Word], state: &mut MachineState) -> Result<(), Refusal> {
     let axes = ['X', 'Y', 'Z'].map(|axis| words.iter().any(|(letter, _)| *letter == axis));
     if state.side != CutterSide::Centre {
         return Err(at_line(line, "the cutter leaves for a place of the machine while it is kept beside its path"));
@@ -65,11 +59,17 @@ fn to_the_machine(
 /// Does what a block says: first what is modal, then its move.
 fn run(line: usize, words: &[Word], state: &mut MachineState, modal: &mut ModalWords) -> Result<(), Refusal> {
     let is = |code: &f64| words.contains(&('G', *code));
-    if REFERENCE.iter().any(is) {
-        return to_the_machine(line, words, state, modal);
+    let leaves = leaves(words);
+    // From below the face it leaves upwards alone, and is then above it.
+    let is_deep = state.is_deep() && !leaves;
+    modal.block(line, words, Situation { has_moved: state.has_moved(), is_deep })?;
+    if leaves {
+        to_the_machine(line, words, state)?;
     }
-    modal.block(line, words, Situation { has_moved: state.has_moved(), is_deep: state.is_deep() })?;
     (state.feed, state.side, state.cutting) = (modal.feed_mm(), modal.side, modal.cutting());
+    if leaves {
+        return Ok(());
+    }
     if dwells(words) {
         return Ok(());
     }

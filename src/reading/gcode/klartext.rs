@@ -3,6 +3,7 @@
 use super::cutting_state::{Spindle, whole};
 use super::dialect::moves_the_profile_of_a_dialogue;
 use super::machine_state::{MachineState, at_line};
+use super::tool_length::ToolLength;
 use super::{CutterProgram, CutterSide, MoveKind};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
@@ -94,8 +95,10 @@ fn tool_call(line: usize, words: &[&str], state: &mut MachineState) -> Result<()
         }
         state.cutting.tool = first.parse().ok().and_then(whole).filter(|tool| *tool > 0);
         state.radius_fault = None;
+        state.cutting.length = ToolLength::Unstated;
     }
     if first == "0" {
+        state.cutting.length = ToolLength::Cancelled;
         state.radius_fault = Some("no tool is called (TOOL CALL 0)");
     }
     for word in words {

@@ -9,10 +9,12 @@ mod iso;
 mod klartext;
 mod machine_state;
 mod modal;
+mod tool_length;
 mod turned;
 mod words;
 
 pub use cutting_state::{CuttingFeed, CuttingState, Spindle};
+pub use tool_length::ToolLength;
 pub use turned::{StandingMove, TurnedPass};
 
 use crate::geometry::contour::Segment;

@@ -4,6 +4,7 @@
 use super::CutterSide;
 use super::cutting_state::{CuttingState, Spindle, whole};
 use super::machine_state::at_line;
+use super::tool_length::{LengthWords, ToolChange, of_another_kind};
 use super::words::{REFERENCE, Word, of};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
@@ -37,6 +38,7 @@ pub(super) struct ModalWords {
     offset: Option<f64>,
     /// The tool in the spindle.
     loaded: Option<f64>,
+    length: LengthWords,
     spindle: Spindle,
     /// Speed of the spindle, 1/min.
     speed: Option<f64>,
@@ -52,7 +54,7 @@ pub(super) struct Situation {
 
 impl ModalWords {
     pub(super) fn of(control: Option<Controller>, turned: bool) -> Self {
-        Self { control, turned, ..Self::default() }
+        Self { control, turned, length: LengthWords::of(control), ..Self::default() }
     }
 
     /// Takes what is modal in a block.
@@ -63,12 +65,17 @@ impl ModalWords {
             return refused("two ways to move are given (G0 to G3)");
         }
         let kept = self.side != CutterSide::Centre;
-        for (_, number) in words.iter().filter(|(letter, _)| *letter == 'G') {
+        // A block that leaves for a place of the machine may make coordinates incremental for it.
+        let leaves = leaves(words);
+        for (_, number) in words.iter().filter(|(letter, number)| *letter == 'G' && !(leaves && *number == 91.0)) {
             self.set(line, 10.0 * number)?;
         }
+        self.absolute &= !words.contains(&('G', 91.0));
         let feed = of(line, words, 'F')?;
         self.feed = if self.by_time { feed } else { feed.or(self.feed) };
-        self.tool(line, words, (at.is_deep, kept))?;
+        let change = self.tool(line, words, (at.is_deep, kept))?;
+        self.length.block((line, words), self.control, (change, self.loaded, at.has_moved))?;
+        of_another_kind(line, words)?;
         self.spindle(line, words)?;
         if at.is_deep && words.iter().any(|word| [('M', 4.0), ('M', 5.0), ('G', 43.0), ('G', 49.0)].contains(word)) {
             return refused("the spindle stops or turns back, or the length of the tool changes, below the upper face");
@@ -126,11 +133,6 @@ impl ModalWords {
         self.feed.map(|feed| if self.by_time { feed } else { self.scale() * feed })
     }
 
-    /// A block that leaves for a place of the machine may make coordinates incremental for it.
-    pub(super) fn leave(&mut self, words: &[Word]) {
-        self.absolute &= !words.contains(&('G', 91.0));
-    }
-
     /// Sets what a G word holds until another is read.
     fn set(&mut self, line: usize, tenths: f64) -> Result<(), Refusal> {
         let is = |number: f64| (number - tenths).abs() < 1e-6;
@@ -184,11 +186,11 @@ impl ModalWords {
     /// With what the program cuts; whether beside its path is not said here.
     pub(super) fn cutting(&self) -> CuttingState {
         let (tool, offset) = (self.loaded.and_then(whole), self.offset.and_then(whole));
-        CuttingState { tool, offset, compensated: false, spindle: self.spindle.at(self.speed) }
+        CuttingState { tool, offset, compensated: false, length: self.length.is, spindle: self.spindle.at(self.speed) }
     }
 
     /// What a block says of the tool and of the radius that is taken into account.
-    fn tool(&mut self, line: usize, words: &[Word], (is_deep, kept): (bool, bool)) -> Result<(), Refusal> {
+    fn tool(&mut self, line: usize, words: &[Word], (is_deep, kept): (bool, bool)) -> Result<ToolChange, Refusal> {
         let changes = |word: &Word| *word == ('M', 6.0) || word.0 == 'T' || word.0 == 'H';
         if is_deep && words.iter().any(changes) {
             return Err(at_line(line, "the tool changes, or its length, while it is below the upper face"));
@@ -205,14 +207,23 @@ impl ModalWords {
             return Err(at_line(line, "the tool changes while the cutter is kept beside its path"));
         }
         self.tool = of(line, words, 'T')?.or(self.tool);
+        let mut change = None;
         if words.contains(&('M', 6.0)) {
+            change = Some((self.loaded, self.tool));
             self.loaded = self.tool;
+            // SINUMERIK then takes the first edge.
+            self.offset = self.offset.filter(|_| self.control != Some(Controller::Sinumerik));
         }
         self.changed |= self.tool.is_some_and(|tool| tool > 0.0) && words.contains(&('M', 6.0));
         self.offset = offset.or(self.offset);
         if offset == Some(0.0) && self.side != CutterSide::Centre {
             return Err(at_line(line, "D0 ends the compensation: the cutter would take its radius out of the cam"));
         }
+        self.radius_is_known(line, words).map(|()| change)
+    }
+
+    /// Refuses to keep the cutter beside its path by a radius that is not known.
+    fn radius_is_known(&self, line: usize, words: &[Word]) -> Result<(), Refusal> {
         let begins = words.contains(&('G', 41.0)) || words.contains(&('G', 42.0));
         if !begins || self.offset.is_some_and(|offset| offset > 0.0 && offset.fract() == 0.0) {
             return Ok(());
@@ -239,16 +250,21 @@ impl ModalWords {
     }
 }
 
+/// Whether a block leaves for a reference point, or a place of the machine.
+pub(super) fn leaves(words: &[Word]) -> bool {
+    REFERENCE.iter().any(|code| words.contains(&('G', *code)))
+}
+
 /// Whether a block makes the control wait (G4): its X is a time then.
 pub(super) fn dwells(words: &[Word]) -> bool {
     words.contains(&('G', 4.0))
 }
 
 /// Codes in tenths whose effect on the path is known: G91.1 is 911.
-const KNOWN: [f64; 44] = [
+const KNOWN: [f64; 46] = [
     0.0, 10.0, 20.0, 30.0, 170.0, 180.0, 190.0, 200.0, 210.0, 400.0, 410.0, 420.0, 700.0, 710.0, 7000.0, 7100.0, 900.0,
     901.0, 910.0, 911.0, 930.0, 940.0, 950.0, 90.0, 540.0, 550.0, 560.0, 570.0, 580.0, 590.0, 600.0, 610.0, 611.0,
-    640.0, 430.0, 490.0, 690.0, 500.0, 501.0, 800.0, 970.0, 980.0, 990.0, 150.0,
+    640.0, 430.0, 432.0, 440.0, 490.0, 690.0, 500.0, 501.0, 800.0, 970.0, 980.0, 990.0, 150.0,
 ];
 
 /// Whether the effect of all words of a block on the path is known; of a cam that is turned about an axis that of its letter, too.

@@ -4,8 +4,8 @@
 use super::cutting_state::CuttingFeed;
 use super::dialect::{dialect, moves_the_profile, path_tolerance};
 use super::machine_state::at_line;
-use super::modal::{ModalWords, Situation, are_known, dwells, passed_over};
-use super::words::{REFERENCE, Word, counted, of, without_comments, words};
+use super::modal::{ModalWords, Situation, are_known, dwells, leaves, passed_over};
+use super::words::{Word, counted, of, without_comments, words};
 use super::{CutterProgram, FASTEST};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
@@ -104,8 +104,9 @@ impl TurnedState {
         let refused = |what: &str| Err(at_line(line, what));
         let is_deep = self.at[3].is_some_and(|z| z < 0.0);
         let letters = [self.axis, 'X', 'Y', 'Z'];
-        if REFERENCE.iter().any(|code| words.contains(&('G', *code))) {
-            modal.leave(words);
+        let away = leaves(words);
+        modal.block(line, words, Situation { has_moved: self.has_moved, is_deep: is_deep && !away })?;
+        if away {
             let leaves = letters.map(|axis| words.iter().any(|(letter, _)| *letter == axis));
             if is_deep && leaves != [false, false, false, true] {
                 return refused("the tool leaves for a place of the machine from below the upper face");
@@ -118,7 +119,6 @@ impl TurnedState {
             }
             return Ok(());
         }
-        modal.block(line, words, Situation { has_moved: self.has_moved, is_deep })?;
         if dwells(words) {
             return Ok(());
         }
