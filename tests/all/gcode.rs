@@ -455,4 +455,54 @@ fn a_shifted_program_is_told_as_shifted() {
     std::fs::write(&path, text.replace("G1 Z-15.0", "G1 Z-14.0")).expect("written");
     let run = camgen_in(run.directory, &["check", "out/p.ngc", "feeder"]);
     assert!(run.code == 1 && !run.out.contains("diagnosis"), "{}{}", run.out, run.err);
+
+#[test]
+fn the_length_is_that_of_the_tool() {
+    let sets = ["cut.depth=8mm", "cut.depth_per_pass=4mm", "cut.tool=1"];
+    let (cam, cutter) = (cam("feeder", &sets), Some(4e-3));
+    let passes = |text: &str| checked(&cam, text, cutter).expect("a program");
+    for (controller, number) in [(Controller::LinuxCnc, "H1"), (Controller::Fanuc, "H01")] {
+        let text = program(&cam, request(controller, cutter));
+        let takes = format!("G0 G43 {number} Z5.0");
+        assert_eq!(text.matches(&takes).count(), 1, "{text}");
+        let second = |words: &str| {
+            let at = text.rfind("G1 Z-8.0").expect("a second pass");
+            format!("{}{words}\n{}", &text[..at], &text[at..])
+        };
+        for (wrong, why) in [
+            (text.replace(&takes, "G0 G43 H2 Z5.0"), "the length H2 of the tool; it must be H1"),
+            (second("G43 H2"), "the length H2"),
+            (second("G49"), "without the length"),
+            (second("G43 H0"), "without the length"),
+            (text.replace(&takes, "G43 H00\nG0 Z5.0"), "without the length"),
+            (text.replace(&takes, "G0 Z5.0").replace("G1 Z-8.0", "G43 H1\nG1 Z-8.0"), "did not for the cuts before"),
+            (text.replace(&takes, "G0 Z5.0").replace("G1 Z-8.0", "G49\nG1 Z-8.0"), "without the length"),
+            (text.replace("G43", "G44"), "G44"),
+            (text.replace("G43", "G43.2"), "G43.2"),
+        ] {
+            assert_ne!(wrong, text);
+            let found = why_refused(&cam, &wrong, cutter);
+            assert!(found.contains(why), "{controller:?} {why}: {found}");
+        }
+        for right in [
+            text.replace(&takes, "G0 Z5.0"),
+            text.replace("G17", "G40 G49 G80\nG49 H0\nG17"),
+            text.replace("M30", "G49\nG91 G28 Z0 M5\nG49 H0\nM30"),
+            text.replace(&takes, "G0 Z5.0 G43 H001"),
+            second("G43 H1"),
+            text.replace("T1 M6", "G91 G28 Z0 G49\nG90\nT1 M6"),
+            text.replace("T1 M6", "G91 G28 Z0 T1 M6\nG90"),
+        ] {
+            let found = passes(&right);
+            assert!(found.0, "{controller:?}: {found:?}\n{right}");
+        }
+    }
+    let text = program(&cam, request(Controller::Sinumerik, cutter));
+    for (words, why) in [("D0", "without the length"), ("D2", "the length D2 of the tool; it must be D1")] {
+        let found = why_refused(&cam, &text.replacen("G0 Z5.0", &format!("{words}\nG0 Z5.0"), 1), cutter);
+        assert!(found.contains(why), "{words}: {found}");
+    }
+    for right in [text.replace("T1 M6", "G0 G53 Z300 D0\nT1 M6"), text.replace("T1 M6", "T1 M6\nD1")] {
+        assert!(passes(&right).0, "{right}");
+    }
 }

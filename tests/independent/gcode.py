@@ -69,7 +69,7 @@ def iso(text):
         for letter, number in words:
             if letter == "G":
                 code = number.lstrip("0") or "0"
-                assert code in {"0", "1", "2", "3", "17", "21", "40", "41", "42", "54", "90", "91.1", "94", "710"}, f"line {line}: G{number}"
+                assert code in {"0", "1", "2", "3", "17", "21", "40", "41", "42", "43", "54", "90", "91.1", "94", "710"}, f"line {line}: G{number}"
                 states.add(code)
                 motion = code if code in "0123" else motion
                 machine.side = {"40": 0, "41": 1, "42": -1}.get(code, machine.side)
@@ -124,7 +124,7 @@ def polar(text):
         assert "".join(a + b for a, b in words) == block.replace("%", ""), f"line {line}: {block}"
         values = {letter: float(number) for letter, number in words if letter != "G"}
         for number in (number for letter, number in words if letter == "G"):
-            assert number in {"0", "1", "17", "21", "40", "90", "91.1", "93", "94", "710"}, f"line {line}: G{number}"
+            assert number in {"0", "1", "17", "21", "40", "43", "90", "91.1", "93", "94", "710"}, f"line {line}: G{number}"
             states.add(number)
             motion = number if number in "01" else motion
             by_time = {"93": True, "94": False}.get(number, by_time)

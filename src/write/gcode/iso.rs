@@ -81,7 +81,13 @@ impl IsoText<'_> {
         if let Some(speed) = cutting.spindle {
             self.line(&format!("S{} M3", short(speed, SPEED_DECIMALS)));
         }
-        self.up();
+        let length = match (self.program.controller, cutting.tool) {
+            (Controller::LinuxCnc, Some(tool)) => format!(" G43 H{tool}"),
+            (Controller::Fanuc, Some(tool)) => format!(" G43 H{tool:02}"),
+            // SINUMERIK takes the length with the tool.
+            _ => String::new(),
+        };
+        self.rise(&length);
     }
 
     fn end(&mut self) {
@@ -104,8 +110,13 @@ impl IsoText<'_> {
     }
 
     pub(super) fn up(&mut self) {
+        self.rise("");
+    }
+
+    /// To the clearance height, with more words.
+    fn rise(&mut self, words: &str) {
         let clearance = self.number(MILLIMETRES * self.program.cutting.clearance);
-        self.line(&format!("G0 Z{clearance}"));
+        self.line(&format!("G0{words} Z{clearance}"));
     }
 
     /// The words of a place that differ from where the cutter is.
