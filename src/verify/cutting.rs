@@ -12,7 +12,7 @@ use crate::report::shown;
 pub(super) const SAME_DEPTH: f64 = 1.3e-3;
 /// Seconds in a minute.
 const MINUTE: f64 = 60.0;
-/// A feed so many times that of its design is refused, but for rounding, mm/min: a shop sets its own, and a time that was taken for a feed is far off.
+/// A feed so many times that of its design is refused, and a speed of the spindle that is so many times higher or lower, but for rounding, mm/min: a shop sets its own, and a time that was taken for a feed is far off.
 const FASTER: f64 = 2.0;
 const ROUNDED: f64 = 0.03;
 /// A tolerance of the path so many times that of the cam is refused. Up to it, as shops give it to all their programs, it is told.
@@ -26,6 +26,12 @@ pub(super) fn as_designed(evidence: &Evidence<'_>, written: &WrittenProgram) -> 
     let design = evidence.body.machine().cutting();
     for (line, tolerance) in &program.path_tolerances {
         if *tolerance > TOO_FREE * evidence.tolerance_mm * (1.0 + SAME) {
+            if tolerance.is_infinite() {
+                let why = format!(
+                    "line {line} lets the control leave its path as far as it likes (G64): write G64 P with a value"
+                );
+                return Err(ProgramFault::new(why));
+            }
             let (tolerance, most) = (shown(*tolerance), shown(evidence.tolerance_mm));
             let why = format!("line {line} lets the control leave its path by {tolerance} mm, more than {most} mm");
             return Err(ProgramFault::new(why));
@@ -34,7 +40,7 @@ pub(super) fn as_designed(evidence: &Evidence<'_>, written: &WrittenProgram) -> 
     for (line, state) in &program.states {
         let fault = wrong_tool(&design, program, state)
             .or_else(|| wrong_length(&design, program, state))
-            .or_else(|| wrong_spindle(&design, state.spindle));
+            .or_else(|| wrong_spindle(&design, state));
         if let Some(fault) = fault {
             return Err(ProgramFault::new(format!("in line {line} {fault}")));
         }
@@ -122,9 +128,15 @@ fn wrong_length(design: &CuttingData, program: &CutterProgram, state: &CuttingSt
 }
 
 /// What is wrong with the spindle.
-fn wrong_spindle(design: &CuttingData, spindle: Spindle) -> Option<String> {
-    match spindle {
-        Spindle::Stopped => Some("the cutter cuts with a spindle that stands (M5, S0)".to_owned()),
+fn wrong_spindle(design: &CuttingData, state: &CuttingState) -> Option<String> {
+    if let Some((speed, wanted)) = state.speed.zip(design.spindle).filter(|_| state.spindle == Spindle::Clockwise)
+        && !(wanted / FASTER..=wanted * FASTER).contains(&speed)
+    {
+        let (speed, wanted) = (shown(speed), shown(wanted));
+        return Some(format!("the spindle turns at {speed} 1/min, and cut.spindle is {wanted} 1/min"));
+    }
+    match state.spindle {
+        Spindle::Stopped => Some("the cutter cuts with a spindle that stands (M5, S0, or M6 after M3)".to_owned()),
         Spindle::CounterClockwise => {
             Some("the spindle turns counter-clockwise (M4); it must turn clockwise (M3)".to_owned())
         }

@@ -506,3 +506,66 @@ fn the_length_is_that_of_the_tool() {
         assert!(passes(&right).0, "{right}");
     }
 }
+
+#[test]
+fn the_speed_of_the_spindle_is_that_of_the_design() {
+    let (cam, cutter) = (cam("feeder", &["cut.depth=8mm", "cut.spindle=2000", "cut.tool=1"]), Some(4e-3));
+    for controller in CONTROLLERS {
+        let text = program(&cam, request(controller, cutter));
+        for speed in ["S20", "S990", "S4010", "S20000"] {
+            let found = why_refused(&cam, &text.replace("S2000", speed), cutter);
+            assert!(found.contains("cut.spindle is 2000 1/min"), "{controller:?} {speed}: {found}");
+        }
+        for speed in ["S1000", "S4000"] {
+            assert!(checked(&cam, &text.replace("S2000", speed), cutter).is_ok_and(|found| found.0), "{controller:?}");
+        }
+        if controller != Controller::Heidenhain {
+            let before = text.replace("T1 M6\nS2000 M3", "S2000 M3\nT1 M6");
+            assert!(why_refused(&cam, &before, cutter).contains("M6 after M3"), "{controller:?}");
+            assert!(why_refused(&cam, &text.replace("S2000", "G96 S2000"), cutter).contains("G96"), "{controller:?}");
+        }
+    }
+}
+
+#[test]
+fn letters_beyond_ascii_may_stand_in_comments_alone() {
+    let cam = cam("feeder", &["cut.depth=8mm"]);
+    let passes = |bytes: &[u8]| {
+        let report = cam.check_file(bytes, &ExpectedFile { cutter: Some(4e-3), ..ExpectedFile::default() }, TOLERANCE);
+        report.is_ok_and(|report| {
+            report.checks.iter().all(|finding| finding.check != "program" || finding.verdict == Verdict::Pass)
+        })
+    };
+    let latin =
+        |text: &str| text.chars().map(|letter| u8::try_from(u32::from(letter)).expect("Latin-1")).collect::<Vec<u8>>();
+    for controller in CONTROLLERS {
+        let text = program(&cam, request(controller, Some(4e-3)));
+        let comment = match controller {
+            Controller::Heidenhain => "1 ; Fr\u{e4}ser",
+            Controller::Sinumerik => "; Fr\u{e4}ser",
+            _ => "(Fr\u{e4}ser)",
+        };
+        let commented =
+            with_line(&text, |line| line.contains("camgen") || line.contains("CAMGEN"), |_| comment.to_owned());
+        assert!(passes(commented.as_bytes()) && passes(&latin(&commented)), "{controller:?}");
+        let rapid = if controller == Controller::Heidenhain { "FMAX" } else { "G0 X" };
+        let inside = text.replacen(rapid, &format!("\u{e4}{rapid}"), 1);
+        assert!(!passes(inside.as_bytes()) && !passes(&latin(&inside)), "{controller:?}");
+    }
+}
+
+#[test]
+fn a_path_that_linuxcnc_may_leave_as_far_as_it_likes_is_refused() {
+    let (cam, cutter) = (cam("feeder", &["cut.depth=8mm"]), Some(4e-3));
+    let text = program(&cam, request(Controller::LinuxCnc, cutter));
+    let with = |words: &str| text.replacen("G17", &format!("{words}\nG17"), 1);
+    for words in ["G64", "G64 P0.005\nG64", "G61\nG64"] {
+        let found = why_refused(&cam, &with(words), cutter);
+        assert!(found.contains("G64 P with a value"), "{words}: {found}");
+    }
+    for words in ["G64 P0.005", "G64\nG64 P0.005", "G64\nG61"] {
+        assert!(checked(&cam, &with(words), cutter).is_ok_and(|found| found.0), "{words}");
+    }
+    let fanuc = program(&cam, request(Controller::Fanuc, cutter));
+    assert!(checked(&cam, &fanuc.replacen("G17", "G64\nG17", 1), cutter).is_ok_and(|found| found.0));
+}

@@ -34,7 +34,7 @@ impl Spindle {
 }
 
 /// What holds while the tool cuts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CuttingState {
     /// Number of the tool in the spindle; `None` where the program changes none in, or one with a name.
     pub tool: Option<u32>,
@@ -46,6 +46,8 @@ pub struct CuttingState {
     pub length: ToolLength,
     /// How the spindle turns.
     pub spindle: Spindle,
+    /// Its speed, 1/min, where the program gives one.
+    pub speed: Option<f64>,
 }
 
 /// The feed of a cut.

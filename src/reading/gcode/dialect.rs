@@ -82,7 +82,8 @@ pub(super) fn moves_the_profile(block: &str) -> Option<&'static str> {
     (!zero).then_some("moves the datum (G52)")
 }
 
-/// By how much a block lets the control leave its path, in the unit of the program: G64 P of LinuxCNC; CYCLE832, CTOL and ADIS of SINUMERIK.
+/// By how much a block lets the control leave its path, in the unit of the program: G61, G64 and G64 P of LinuxCNC, without P as far as it likes; CYCLE832, CTOL
+/// and ADIS of SINUMERIK.
 pub(super) fn path_tolerance(block: &str, control: Option<Controller>) -> Option<f64> {
     let block = block.to_ascii_uppercase();
     let number = |rest: &str| {
@@ -93,9 +94,15 @@ pub(super) fn path_tolerance(block: &str, control: Option<Controller>) -> Option
     if control == Some(Controller::Sinumerik) {
         return ["CYCLE832", "CTOL", "ADIS"].iter().find_map(|word| number(after(&block, word)?));
     }
-    let exactly = after(&block, "G64").filter(|_| control != Some(Controller::Fanuc))?;
-    let at = exactly.find('P')?;
-    number(exactly.get(at + 1..)?)
+    let of_linuxcnc = control == Some(Controller::LinuxCnc);
+    if of_linuxcnc && ["G61", "G61.1"].iter().any(|word| has_word(&block, word)) {
+        return Some(0.0);
+    }
+    let freely = after(&block, "G64").filter(|_| control != Some(Controller::Fanuc))?;
+    match freely.find('P') {
+        Some(at) => number(freely.get(at + 1..)?),
+        None => of_linuxcnc.then_some(f64::INFINITY),
+    }
 }
 
 /// Whether a block has a word.

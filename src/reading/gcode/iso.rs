@@ -31,7 +31,7 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
         }
         if let Some(tolerance) = path_tolerance(block, control) {
-            state.keeps_path_within(line, modal.scale() * tolerance);
+            state.keeps_path_within(line, modal.scale() * tolerance, control);
         }
         if control == Some(Controller::Fanuc) {
             counted(line, block, modal.units())?;

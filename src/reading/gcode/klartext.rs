@@ -115,8 +115,8 @@ fn tool_call(line: usize, words: &[&str], state: &mut MachineState) -> Result<()
         } else if ["X", "Y", "U", "V", "W"].contains(word) {
             return Err(at_line(line, "the axis of the tool is not Z: arcs of a cam lie in the plane across it"));
         } else if let Some(speed) = word.strip_prefix('S').and_then(|speed| speed.parse().ok()) {
-            state.speed = Some(speed);
-            state.cutting.spindle = state.spindle.at(state.speed);
+            state.cutting.speed = Some(speed);
+            state.cutting.spindle = state.spindle.at(state.cutting.speed);
         } else if let Some(feed) = word.strip_prefix('F').and_then(|feed| feed.parse().ok()) {
             state.feed = Some(self::feed(state, feed));
         }
@@ -130,7 +130,7 @@ fn turn(line: usize, word: &str, state: &mut MachineState) -> Result<(), Refusal
         return Err(at_line(line, "the spindle stops or turns back below the upper face"));
     }
     state.spindle = Spindle::of(number(line, word.trim_start_matches('M'))?).unwrap_or_default();
-    state.cutting.spindle = state.spindle.at(state.speed);
+    state.cutting.spindle = state.spindle.at(state.cutting.speed);
     Ok(())
 }
 
@@ -139,7 +139,7 @@ fn path_tolerance(line: usize, words: &[&str], state: &mut MachineState) -> Resu
     let words = words.concat();
     if let Some(tolerance) = words.strip_prefix('T') {
         let tolerance = state.scale() * number(line, tolerance)?;
-        state.keeps_path_within(line, tolerance);
+        state.keeps_path_within(line, tolerance, None);
     }
     Ok(())
 }

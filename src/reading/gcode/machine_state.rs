@@ -20,9 +20,8 @@ pub(super) struct MachineState {
     pub(super) side: CutterSide,
     /// Why the control does not know the radius of the cutter, where it does not.
     pub(super) radius_fault: Option<&'static str>,
-    /// How the spindle is to turn, and its speed, 1/min.
+    /// How the spindle is to turn.
     pub(super) spindle: Spindle,
-    pub(super) speed: Option<f64>,
     /// With what it cuts.
     pub(super) cutting: CuttingState,
     program: CutterProgram,
@@ -58,7 +57,11 @@ impl MachineState {
     }
 
     /// A tolerance of the path, mm.
-    pub(super) fn keeps_path_within(&mut self, line: usize, tolerance: f64) {
+    pub(super) fn keeps_path_within(&mut self, line: usize, tolerance: f64, control: Option<Controller>) {
+        // The words of LinuxCNC (G61, G64) end each other.
+        if control == Some(Controller::LinuxCnc) && !self.has_moved() {
+            self.program.path_tolerances.clear();
+        }
         self.program.path_tolerances.push((line, tolerance));
     }
 

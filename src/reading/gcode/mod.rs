@@ -21,6 +21,7 @@ use crate::geometry::contour::Segment;
 use crate::machine::Controller;
 use crate::refusal::Refusal;
 use nalgebra::Vector2;
+use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 
 /// Largest program, bytes, and the most moves of one.
@@ -185,8 +186,13 @@ pub fn read_for(bytes: &[u8], design: Option<Controller>) -> Result<CutterProgra
     if bytes.len() > LARGEST_PROGRAM {
         return Err(Refusal::new(format!("the program has more than {LARGEST_PROGRAM} bytes")));
     }
-    let text =
-        std::str::from_utf8(bytes).map_err(|_| Refusal::new("the program has characters that no control reads"))?;
+    // What is not UTF-8 is Latin-1: its letters beyond ASCII may stand in comments.
+    let text = match std::str::from_utf8(bytes) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) if bytes.contains(&0) => return Err(Refusal::new("the program has characters that no control reads")),
+        Err(_) => Cow::Owned(bytes.iter().copied().map(char::from).collect()),
+    };
+    let text = text.as_ref();
     if text.to_ascii_uppercase().contains("BEGIN PGM") {
         klartext::read(text)
     } else if let Some(axis) = turned::axis_of(text) {

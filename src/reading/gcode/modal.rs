@@ -156,6 +156,7 @@ impl ModalWords {
             () if is(930.0) && self.turned => self.by_time = true,
             () if is(940.0) => self.by_time = false,
             () if is(930.0) || is(950.0) => return refused("the feed is not by the minute (G94)"),
+            () if is(960.0) => return refused("the speed of the spindle becomes one of a surface (G96): write G97"),
             () if is(400.0) => self.side = CutterSide::Centre,
             () if (is(410.0) || is(420.0)) && self.turned => {
                 return refused("the control keeps the tool beside its path (G41, G42)");
@@ -168,13 +169,12 @@ impl ModalWords {
         Ok(())
     }
 
-    /// What a block says of the spindle. On LinuxCNC a change of the tool stops it.
+    /// What a block says of the spindle. A change of the tool stops it.
     fn spindle(&mut self, line: usize, words: &[Word]) -> Result<(), Refusal> {
         if !dwells(words) {
             self.speed = of(line, words, 'S')?.or(self.speed);
         }
-        let changes = words.contains(&('M', 6.0)) && self.control == Some(Controller::LinuxCnc);
-        if changes && self.spindle != Spindle::Unstated {
+        if words.contains(&('M', 6.0)) && self.spindle != Spindle::Unstated {
             self.spindle = Spindle::Stopped;
         }
         let mut stated =
@@ -186,7 +186,8 @@ impl ModalWords {
     /// With what the program cuts; whether beside its path is not said here.
     pub(super) fn cutting(&self) -> CuttingState {
         let (tool, offset) = (self.loaded.and_then(whole), self.offset.and_then(whole));
-        CuttingState { tool, offset, compensated: false, length: self.length.is, spindle: self.spindle.at(self.speed) }
+        let (length, spindle) = (self.length.is, self.spindle.at(self.speed));
+        CuttingState { tool, offset, compensated: false, length, spindle, speed: self.speed }
     }
 
     /// What a block says of the tool and of the radius that is taken into account.
@@ -261,10 +262,10 @@ pub(super) fn dwells(words: &[Word]) -> bool {
 }
 
 /// Codes in tenths whose effect on the path is known: G91.1 is 911.
-const KNOWN: [f64; 46] = [
+const KNOWN: [f64; 47] = [
     0.0, 10.0, 20.0, 30.0, 170.0, 180.0, 190.0, 200.0, 210.0, 400.0, 410.0, 420.0, 700.0, 710.0, 7000.0, 7100.0, 900.0,
     901.0, 910.0, 911.0, 930.0, 940.0, 950.0, 90.0, 540.0, 550.0, 560.0, 570.0, 580.0, 590.0, 600.0, 610.0, 611.0,
-    640.0, 430.0, 432.0, 440.0, 490.0, 690.0, 500.0, 501.0, 800.0, 970.0, 980.0, 990.0, 150.0,
+    640.0, 430.0, 432.0, 440.0, 490.0, 690.0, 500.0, 501.0, 800.0, 960.0, 970.0, 980.0, 990.0, 150.0,
 ];
 
 /// Whether the effect of all words of a block on the path is known; of a cam that is turned about an axis that of its letter, too.

@@ -78,6 +78,9 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
         }
         if let Some(tolerance) = path_tolerance(block, control) {
+            if control == Some(Controller::LinuxCnc) && !state.has_moved {
+                state.program.path_tolerances.clear();
+            }
             state.program.path_tolerances.push((line, modal.scale() * tolerance));
         }
         if control == Some(Controller::Fanuc) {
