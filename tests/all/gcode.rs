@@ -455,6 +455,7 @@ fn a_shifted_program_is_told_as_shifted() {
     std::fs::write(&path, text.replace("G1 Z-15.0", "G1 Z-14.0")).expect("written");
     let run = camgen_in(run.directory, &["check", "out/p.ngc", "feeder"]);
     assert!(run.code == 1 && !run.out.contains("diagnosis"), "{}{}", run.out, run.err);
+}
 
 #[test]
 fn the_length_is_that_of_the_tool() {
