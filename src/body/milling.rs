@@ -114,6 +114,8 @@ const LARGER: f64 = 1.1;
 const TOUCHES: f64 = 0.1;
 /// Radii that differ by less are equal, m.
 const SAME_RADIUS: f64 = 1e-9;
+/// Largest number of a program for FANUC.
+const LARGEST_PROGRAM: u32 = 9999;
 /// Most passes, and most blocks of a program.
 const MOST_PASSES: f64 = 1000.0;
 const MOST_BLOCKS: usize = 200_000;
@@ -189,6 +191,7 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
     let grid = Grid::of_lengths(decimals, units);
     let drawn = drawn(body, request, (cutter, decimals))?;
     let depths = depths(body, &cutting, grid)?;
+    let of_counter = body.load().is_some_and(|load| load.is_of_another_disc());
     let mut first = 0;
     let mut programs = Vec::with_capacity(drawn.parts.len());
     for (part, drawn_part) in drawn.parts.iter().enumerate() {
@@ -200,7 +203,8 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
             let what = format!("the program would have {blocks} blocks, more than {MOST_BLOCKS}");
             return Err(Refusal::new(what).remedy("give a larger cut.depth_per_pass, or a coarser --tolerance").into());
         }
-        let (cutting, depths) = (cutting.clone(), depths.clone());
+        let number = numbered(cutting.program, part + usize::from(of_counter));
+        let (cutting, depths) = (CuttingData { program: number, ..cutting.clone() }, depths.clone());
         let turned = None;
         programs.push(MillingProgram {
             part,
@@ -216,6 +220,12 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
         });
     }
     Ok(programs)
+}
+
+/// The number of a further program of a design: a control keeps one program of a number.
+fn numbered(first: u32, further: usize) -> u32 {
+    let further = u32::try_from(further).unwrap_or(0);
+    (first.saturating_sub(1) + further) % LARGEST_PROGRAM + 1
 }
 
 /// The drawing within what rounding leaves of the tolerance, with the paths of the cutter where its centre is moved.

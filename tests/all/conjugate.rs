@@ -274,3 +274,17 @@ fn the_torque_of_a_pair_is_told_once() {
     assert!(sheet.contains("mm apart along the path") && run.out.contains("mm apart along the path"), "{}", run.out);
     assert!(run.out.contains("checks of the counter disc"), "{}", run.out);
 }
+
+/// A control keeps one program of a number, and a drive one table of a name.
+#[test]
+fn programs_and_tables_of_both_discs_have_names_of_their_own() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let words =
+        ["make", "conjugate", "--name", "p", "--format", "gcode,servo-xyva", "--controller", "fanuc", "--out", "out"];
+    let run = camgen_in(directory, &words);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let text = |name: &str| std::fs::read_to_string(run.directory.path().join("out").join(name)).expect("a file");
+    assert!(text("p-main.nc").contains("O0001 ") && text("p-counter.nc").contains("O0002 "));
+    assert!(text("p-main-xyva.st").contains(" Cam_Conjugate : "));
+    assert!(text("p-counter-xyva.st").contains(" Cam_Conjugate_counter : "));
+}
