@@ -39,5 +39,8 @@ pub(super) fn remarks(body: &dyn Body, written: &WrittenProgram) -> String {
     let rib = rib.map(|rib| {
         format!("; a rib of {} mm stands between the passes, to be cleared before", shown(MILLIMETRES * rib))
     });
-    unknown + &rib.unwrap_or_default()
+    let named = written.program.as_ref().is_ok_and(|program| program.states.iter().any(|(_, state)| state.named));
+    let tool = body.machine().cutting().tool.filter(|_| named);
+    let tool = tool.map(|tool| format!("; a tool is called by its name, which is not compared with cut.tool = {tool}"));
+    unknown + &tool.unwrap_or_default() + &rib.unwrap_or_default()
 }

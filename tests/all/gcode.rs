@@ -570,3 +570,141 @@ fn a_path_that_linuxcnc_may_leave_as_far_as_it_likes_is_refused() {
     let fanuc = program(&cam, request(Controller::Fanuc, cutter));
     assert!(checked(&cam, &fanuc.replacen("G17", "G64\nG17", 1), cutter).is_ok_and(|found| found.0));
 }
+
+/// A program with lines before the one that begins with these words; those of a dialogue get their number.
+fn with_lines(text: &str, before: &str, lines: &str) -> String {
+    let dialogue = text.starts_with("0 BEGIN PGM");
+    let lines = lines.lines().map(|line| if dialogue { format!("0 {line}\n") } else { format!("{line}\n") });
+    let lines: String = lines.collect();
+    let begins = |line: &str| {
+        line.trim_start_matches(|c: char| dialogue && (c.is_ascii_digit() || c == ' ')).starts_with(before)
+    };
+    with_line(text, begins, |line| format!("{lines}{line}"))
+}
+
+const SHOP: [&str; 3] = ["cut.depth=8mm", "cut.spindle=2000", "cut.tool=1"];
+
+#[test]
+fn allowances_and_written_variables_are_refused_and_those_of_zero_are_not() {
+    use Controller::{Fanuc, Heidenhain, LinuxCnc, Sinumerik};
+    let cam = cam("feeder", &SHOP);
+    for (controller, before, wrong, right) in [
+        (
+            Sinumerik,
+            "G17",
+            &[
+                "OFFN=0.3",
+                "TOFFR=0.3",
+                "TOFFL=1",
+                "TOFF[3]=1",
+                "DL=1",
+                "$TC_DP6[1,1]=10",
+                "GEOAX(1,Y,2,X)",
+                "TOROT",
+                "TCARR=1",
+                "CYCLE800(1)",
+                "CYCLE832(0.5,1,1)",
+            ][..],
+            &["OFFN=0", "TOFFL=0", "GEOAX()", "TOROTOF", "CYCLE832(0.005,1,1)", "MSG(\"G1 X9\")", "SOFT", "CYCLE800()"]
+                [..],
+        ),
+        (LinuxCnc, "G17", &["M61 Q2", "G92.3", "#5221=100"], &["G92.1", "#1=5"]),
+        (Fanuc, "G17", &["#13001=5.", "#5221=100.", "G45 D05"], &["#100=5."]),
+        (Heidenhain, "L Z+5", &["M136", "FN 17: SYSWRITE ID10 NR1 IDX1 = +5"], &["FN 0: Q1 =+300"]),
+    ] {
+        let text = program(&cam, request(controller, None));
+        for line in wrong {
+            let found = why_refused(&cam, &with_lines(&text, before, line), None);
+            assert!(found.contains("line") && !found.contains("not known"), "{controller:?} {line}: {found}");
+        }
+        for line in right {
+            let found = checked(&cam, &with_lines(&text, before, line), None);
+            assert!(found.as_ref().is_ok_and(|found| found.0), "{controller:?} {line}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn calls_and_jumps_are_refused_in_every_dialect() {
+    use Controller::{Fanuc, Heidenhain, LinuxCnc, Sinumerik};
+    let cam = cam("feeder", &SHOP);
+    for (controller, before, wrong, right) in [
+        (
+            Heidenhain,
+            "L Z+5",
+            &[
+                "CALL PGM ROUGH.H",
+                "CALL LBL 1 REP2",
+                "CYCL CALL",
+                "CYCL DEF 12.1 PGM X.H",
+                "FN 9: IF +1 EQU +1 GOTO LBL 9",
+                "FN12: IF +Q1 LT +1 GOTO LBL 9",
+                "M99",
+                "L M99",
+            ][..],
+            &["LBL 1"][..],
+        ),
+        (Fanuc, "G17", &["GOTO100", "GOTO 100", "IF[1EQ1]GOTO100", "M198 P5", "M98 P5", "G65 P9811"], &["M19"]),
+        (
+            Sinumerik,
+            "G17",
+            &["ROUGH_SUB", "ROUGH_SUB(1)", "L100", "RET", "M17", "GOTOF ENDE", "N10 EXTCALL(\"X\")"],
+            &["FFWON", "ENDE:", "R1=5"],
+        ),
+        (LinuxCnc, "G17", &["o100 call", "M98 P100"], &["M19"]),
+    ] {
+        let text = program(&cam, request(controller, None));
+        for line in wrong {
+            let found = why_refused(&cam, &with_lines(&text, before, line), None);
+            assert!(found.contains("line "), "{controller:?} {line}: {found}");
+        }
+        for line in right {
+            let found = checked(&cam, &with_lines(&text, before, line), None);
+            assert!(found.as_ref().is_ok_and(|found| found.0), "{controller:?} {line}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn everyday_words_of_controls_are_read() {
+    let cam = cam("feeder", &SHOP);
+    let text = program(&cam, request(Controller::Heidenhain, None));
+    let comma =
+        |line: &str| if line.contains(';') { format!("{line}\n") } else { format!("{}\n", line.replace('.', ",")) };
+    let passes = |text: &str, note: &str| {
+        let found = checked(&cam, text, None).expect("a program");
+        assert!(found.0 && found.2.contains(note), "{found:?}\n{text}");
+    };
+    passes(&text.replace("FMAX M3", "FMAX M13"), "");
+    passes(&text.lines().map(comma).collect::<String>(), "");
+    passes(&text.replace("TOOL CALL 1 Z", "TOOL CALL \"MILL 8\" Z"), "not compared with cut.tool = 1");
+    passes(&text.replace("S2000", "S2000 F300").replace("RL F300", "RL F AUTO"), "");
+    for line in ["L Z-1 R0 FMAX M91", "L M140 MB MAX", "L Z-1 R0 FMAX M92"] {
+        passes(&with_lines(&text, "TOOL CALL", line), "");
+        passes(&with_lines(&text, "M30", line), "");
+        // From the depth they retract.
+        let last = text.rfind("L Z+5.0").expect("a retract");
+        let end = last + text[last..].find('\n').expect("a line");
+        passes(&format!("{}{line}{}", &text[..last], &text[end..]), "");
+    }
+    for (wrong, why) in [
+        (text.replace("FMAX M3", "FMAX M14"), "counter-clockwise"),
+        (text.replace("RL F300", "RL F AUTO"), "gives none"),
+        (text.replace("S2000", "S2000 F3000").replace("RL F300", "RL F AUTO"), "as fast as cut.feed"),
+        (text.replacen("L Z-8.0 R0 F100", "L X+0 Y+0 R0 FMAX M91\n0 L Z-8.0 R0 F100", 1), "not known"),
+        (text.replace(" R0\n", " R0 M91\n"), "kept beside its path"),
+        (text.replace("TOOL CALL 1 Z", "TOOL CALL 0 Z"), "TOOL CALL 0"),
+    ] {
+        assert_ne!(wrong, text, "{why}");
+        let found = why_refused(&cam, &wrong, None);
+        assert!(found.contains(why), "{why}: {found}");
+    }
+    let text = program(&cam, request(Controller::Sinumerik, None));
+    passes(&text.replace("T1 M6", "T=\"MILL8\" M6"), "not compared with cut.tool = 1");
+    passes(&with_lines(&text, "T1 M6", "SUPA G0 Z300 D0"), "");
+    passes(&with_lines(&text, "M30", "G0 SUPA Z300 D0"), "");
+    let after = with_lines(&text, "S2000", "SUPA G0 Z300 D0");
+    assert!(why_refused(&cam, &after, None).contains("without the length"));
+    let fanuc = program(&cam, request(Controller::Fanuc, None)).replace("T1 M6", "T=\"MILL8\" M6");
+    assert!(why_refused(&cam, &fanuc, None).contains("not by a name"));
+}

@@ -38,6 +38,8 @@ impl Spindle {
 pub struct CuttingState {
     /// Number of the tool in the spindle; `None` where the program changes none in, or one with a name.
     pub tool: Option<u32>,
+    /// Whether it was changed in by its name.
+    pub named: bool,
     /// Whether the control keeps the cutter beside its path.
     pub compensated: bool,
     /// Number of the radius by which it does (D), where the program gives one.

@@ -5,7 +5,7 @@ use crate::machine::Controller;
 /// Lines in which a program says for which control it is.
 const HEAD: usize = 40;
 /// Words that move, turn, mirror or scale what a program says, or that take its coordinates in another way.
-const MOVING: [(&str, &str); 19] = [
+const MOVING: [(&str, &str); 32] = [
     ("G10", "writes offsets of the control (G10)"),
     ("G12", "makes the control calculate with a rotary axis (G12)"),
     ("G12.1", "makes the control calculate with a rotary axis (G12.1)"),
@@ -25,9 +25,33 @@ const MOVING: [(&str, &str); 19] = [
     ("G68", "turns the profile (G68)"),
     ("G68.2", "tilts the plane (G68.2)"),
     ("G92", "moves the datum (G92)"),
+    ("G92.3", "moves the datum by what was stored (G92.3)"),
+    ("G45", "lengthens moves by an offset (G45)"),
+    ("G46", "shortens moves by an offset (G46)"),
+    ("G47", "lengthens moves by an offset (G47)"),
+    ("G48", "shortens moves by an offset (G48)"),
+    ("G291", "goes on in the words of another control (G291)"),
+    ("TOROT", "turns the profile with the tool (TOROT)"),
+    ("TOROTX", "turns the profile with the tool (TOROTX)"),
+    ("TOROTY", "turns the profile with the tool (TOROTY)"),
+    ("TOROTZ", "turns the profile with the tool (TOROTZ)"),
+    ("TOFRAME", "turns the profile with the tool (TOFRAME)"),
+    ("PAROT", "turns the profile with the part (PAROT)"),
+    ("TRACON", "makes the control calculate with a rotary axis (TRACON)"),
+];
+/// Words of SINUMERIK that change the cut by the number that is assigned to them.
+const ASSIGNED: [(&str, &str); 8] = [
+    ("OFFN", "leaves an allowance on the profile (OFFN)"),
+    ("TOFFR", "changes the radius of the tool (TOFFR)"),
+    ("TOFFL", "changes the length of the tool (TOFFL)"),
+    ("TOFFLR", "changes the length and the radius of the tool (TOFFLR)"),
+    ("TOFF", "changes the length of the tool (TOFF)"),
+    ("DL", "changes the tool by an offset of its place (DL)"),
+    ("TCARR", "turns the tool with its carrier (TCARR)"),
+    ("RNDM", "rounds the corners of the profile (RNDM)"),
 ];
 /// The frames of SINUMERIK; alone in a block such a word ends all of them.
-const FRAMES: [(&str, &str); 11] = [
+const FRAMES: [(&str, &str); 12] = [
     ("TRANS", "moves the profile (TRANS)"),
     ("ATRANS", "moves the profile (ATRANS)"),
     ("ROT", "turns the profile (ROT)"),
@@ -39,6 +63,7 @@ const FRAMES: [(&str, &str); 11] = [
     ("MIRROR", "mirrors the profile (MIRROR)"),
     ("AMIRROR", "mirrors the profile (AMIRROR)"),
     ("CYCLE800", "tilts the plane (CYCLE800)"),
+    ("GEOAX", "exchanges axes (GEOAX)"),
 ];
 
 /// The control that a program is for: by words that only one of them has, by the number (`O0001`, `:0001`) or the name (`<CAM>`) with which a
@@ -65,21 +90,58 @@ pub(super) fn dialect(text: &str, design: Option<Controller>) -> Option<Controll
 }
 
 /// What a block does to the profile, in words of letters and numbers or of SINUMERIK; `None` where it does nothing to it.
-pub(super) fn moves_the_profile(block: &str) -> Option<&'static str> {
+pub(super) fn moves_the_profile(block: &str, control: Option<Controller>) -> Option<&'static str> {
     let block = block.to_ascii_uppercase();
     let found = |(word, what): &(&str, &'static str)| Some((*what, after(&block, word)?));
     if let Some((what, _)) = MOVING.iter().find_map(found) {
         return Some(what);
     }
+    // Shifts of 0 shift nothing.
+    let zero = |shift: &str| {
+        shift.split(|c: char| c.is_ascii_alphabetic()).skip(1).all(|number| number.trim().parse() == Ok(0.0))
+    };
     if let Some((what, rest)) = FRAMES.iter().find_map(found) {
-        return (!["", "()"].contains(&rest.trim())).then_some(what);
+        let ends = ["", "()"].contains(&rest.trim()) || (what.contains("TRANS") && zero(rest));
+        return (!ends).then_some(what);
     }
-    if block.trim_start().starts_with("#5") || block.contains("$P_") {
-        return Some("writes a variable of the control in which its offsets are");
+    let assigns = |(word, what): &(&str, &'static str)| {
+        let (_, number) = after(&block, word)?.split_once('=')?;
+        (number.split_ascii_whitespace().next()?.parse() != Ok(0.0)).then_some(*what)
+    };
+    if let Some(what) = ASSIGNED.iter().find_map(assigns) {
+        return Some(what);
+    }
+    if control.is_none_or(|control| control == Controller::LinuxCnc) && has_word(&block, "M61") {
+        return Some("takes the data of a tool that it does not change in (M61)");
+    }
+    if writes_variable(&block, control) {
+        return Some("writes a variable of the control, in which its offsets may be");
     }
     let shift = after(&block, "G52")?;
-    let zero = shift.split(|c: char| c.is_ascii_alphabetic()).skip(1).all(|number| number.trim().parse() == Ok(0.0));
-    (!zero).then_some("moves the datum (G52)")
+    (!zero(shift)).then_some("moves the datum (G52)")
+}
+
+/// Whether a block writes a variable of the control rather than of the program: `#5221=1`, `$TC_DP6[1,1]=4`.
+fn writes_variable(block: &str, control: Option<Controller>) -> bool {
+    if block.contains("$P_") {
+        return true;
+    }
+    let Some((written, _)) = block.split_once('=') else { return false };
+    // FANUC has them from 1000 on, LinuxCNC from 5000 on.
+    let first = if control == Some(Controller::Fanuc) { 1000 } else { 5000 };
+    let number = written.rsplit('#').next().unwrap_or_default().trim();
+    let system = number.starts_with('[') || number.parse::<u32>().is_ok_and(|number| number >= first);
+    written.contains('$') || (written.contains('#') && system)
+}
+
+/// A block in which SINUMERIK's words for a place of the machine are those of the other controls.
+pub(super) fn with_machine_places(block: &str, control: Option<Controller>) -> String {
+    let upper = block.to_ascii_uppercase();
+    let named = ["SUPA", "G153"].iter().find(|word| has_word(&upper, word));
+    match named.filter(|_| control == Some(Controller::Sinumerik)) {
+        Some(word) => upper.replacen(word, "G53", 1),
+        None => block.to_owned(),
+    }
 }
 
 /// By how much a block lets the control leave its path, in the unit of the program: G61, G64 and G64 P of LinuxCNC, without P as far as it likes; CYCLE832, CTOL
@@ -112,14 +174,33 @@ pub(super) fn has_word(block: &str, word: &str) -> bool {
 
 /// What follows a word in a block, where the block has it as a word of its own.
 fn after<'b>(block: &'b str, word: &str) -> Option<&'b str> {
-    let is_g = word.starts_with('G') && word.as_bytes().get(1).is_some_and(u8::is_ascii_digit);
+    let is_code = word.starts_with(['G', 'M']) && word.as_bytes().get(1).is_some_and(u8::is_ascii_digit);
     block.match_indices(word).find_map(|(at, _)| {
         let (before, rest) = (block.get(..at)?, block.get(at + word.len()..)?);
         let begins = !before.ends_with(|c: char| c.is_ascii_alphabetic() || c == '_');
         let goes_on =
-            |c: char| if is_g { c.is_ascii_digit() || c == '.' } else { c.is_ascii_alphanumeric() || c == '_' };
+            |c: char| if is_code { c.is_ascii_digit() || c == '.' } else { c.is_ascii_alphanumeric() || c == '_' };
         (begins && !rest.starts_with(goes_on)).then_some(rest)
     })
+}
+
+/// What a block of the dialogue does that is not seen in it: it goes elsewhere, writes data of the control, or makes the feed another.
+pub(super) fn does_unseen_in_a_dialogue(words: &[&str]) -> Option<&'static str> {
+    let joined = words.concat();
+    let function = joined.strip_prefix("FN").and_then(|rest| rest.split(':').next()?.parse::<u32>().ok());
+    match (words, function) {
+        (_, Some(9..=12)) | (["IF" | "GOTO", ..], _) => Some("jumps to a label (FN 9 to FN 12)"),
+        (_, Some(17)) => Some("writes data of the control (FN 17)"),
+        (["CALL", ..] | ["CYCL", "CALL", ..] | ["SEL", "PGM" | "CONTOUR" | "PATTERN", ..], _) => {
+            Some("calls a program, a label or a cycle")
+        }
+        (["CYCL", "DEF", cycle, ..], _) if cycle.split('.').next() == Some("12") => {
+            Some("calls a program (CYCL DEF 12)")
+        }
+        _ if words.iter().any(|word| ["M89", "M99"].contains(word)) => Some("calls a cycle (M89, M99)"),
+        _ if words.contains(&"M136") => Some("has its feeds by the turn of the spindle (M136)"),
+        _ => None,
+    }
 }
 
 /// What a block of the dialogue does to the profile; `None` where it does nothing to it, or takes such a change back.
@@ -175,9 +256,22 @@ mod tests {
             "G17 G16",
             "DIAMON",
             "CYCLE800(1,\"TC\")",
+            "G92.3",
+            "M61 Q2",
+            "m61q2",
+            "OFFN=0.3",
+            "TOFFR=0.3",
+            "TOFFL[1] = -1",
+            "DL=1",
+            "N10 $TC_DP6[1,1]=4",
+            "GEOAX(1,Y,2,X)",
+            "TOROT",
+            "TCARR=1",
+            "N5 #5221=3",
+            "#[5220+1]=3",
         ];
         for block in moving {
-            assert!(moves_the_profile(block).is_some(), "{block}");
+            assert!(moves_the_profile(block, None).is_some(), "{block}");
         }
         for block in [
             "G69",
@@ -193,9 +287,21 @@ mod tests {
             "CYCLE800()",
             "G5.1 Q1",
             "TRANSFER",
+            "TRANS X0 Y0 Z0",
+            "OFFN=0",
+            "TCARR=0",
+            "GEOAX()",
+            "TOROTOF",
+            "R1=$AA_IM[X]",
+            "#1=5",
+            "#<_depth>=3",
+            "#1001=5",
+            "M610",
         ] {
-            assert_eq!(moves_the_profile(block), None, "{block}");
+            assert_eq!(moves_the_profile(block, None), None, "{block}");
         }
+        assert!(moves_the_profile("#1001=5", Some(Controller::Fanuc)).is_some());
+        assert_eq!(moves_the_profile("M61", Some(Controller::Fanuc)), None);
         let of_dialogue = |block: &str| {
             let words: Vec<&str> = block.split_ascii_whitespace().collect();
             moves_the_profile_of_a_dialogue(&words)

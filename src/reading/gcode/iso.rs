@@ -1,6 +1,6 @@
 //! Programs in words of a letter and a number: LinuxCNC, FANUC, SINUMERIK.
 
-use super::dialect::{dialect, moves_the_profile, path_tolerance};
+use super::dialect::{dialect, moves_the_profile, path_tolerance, with_machine_places};
 use super::machine_state::{MachineState, at_line};
 use super::modal::{ModalWords, Situation, are_known, dwells, leaves, passed_over};
 use super::words::{Word, counted, of, without_comments, words};
@@ -18,8 +18,9 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
         if modal.ended {
             continue;
         }
-        let block = without_comments(whole).ok_or_else(|| at_line(line, "a comment does not end"))?;
-        let block = block.trim();
+        let block = without_comments(whole, control).ok_or_else(|| at_line(line, "a comment does not end"))?;
+        let block = with_machine_places(block.trim(), control);
+        let block = block.as_str();
         if block.is_empty() || (block == "%" && !modal.begun) {
             continue;
         }
@@ -27,7 +28,7 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
             return Err(at_line(line, "`%` ends the program for the control, before M2 or M30"));
         }
         modal.begun = true;
-        if let Some(what) = moves_the_profile(block) {
+        if let Some(what) = moves_the_profile(block, control) {
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
         }
         if let Some(tolerance) = path_tolerance(block, control) {
@@ -40,7 +41,7 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
             Some(words) if are_known(&words, None) => run(line, &words, &mut state, &mut modal)?,
             _ => {
                 state.unknown(line, block)?;
-                passed_over(line, block)?;
+                passed_over(line, block, control)?;
             }
         }
     }

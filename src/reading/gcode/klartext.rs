@@ -1,9 +1,10 @@
 //! Programs in the dialogue of HEIDENHAIN controls (Klartext): `L`, `CC`, `C`.
 
 use super::cutting_state::{Spindle, whole};
-use super::dialect::moves_the_profile_of_a_dialogue;
+use super::dialect::{does_unseen_in_a_dialogue, moves_the_profile_of_a_dialogue};
 use super::machine_state::{MachineState, at_line};
 use super::tool_length::ToolLength;
+use super::words::unquoted;
 use super::{CutterProgram, CutterSide, MoveKind};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
@@ -12,13 +13,16 @@ use nalgebra::Vector2;
 
 /// The cycles that set a frame, and that of the tolerance.
 const KNOWN_CYCLES: [&str; 7] = ["7", "8", "10", "11", "19", "26", "32"];
+/// Words by which a move leaves for a place of the machine, or upwards along the tool.
+const PLACES: [&str; 3] = ["M91", "M92", "M140"];
 
 /// Reads a program.
 pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
     let (mut state, mut centre, mut ended, mut stopped) = (MachineState::default(), None, false, false);
     for (index, whole) in text.lines().enumerate() {
         let line = index + 1;
-        let block = whole.split(';').next().unwrap_or_default().to_ascii_uppercase();
+        // A name may have blanks; a comma is a decimal point.
+        let block = unquoted(whole.split(';').next().unwrap_or_default()).to_ascii_uppercase().replace(',', ".");
         let mut words: Vec<&str> = block.split_ascii_whitespace().collect();
         if words.first().is_some_and(|word| word.bytes().all(|byte| byte.is_ascii_digit())) {
             words.remove(0);
@@ -26,14 +30,19 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
         if let Some(what) = moves_the_profile_of_a_dialogue(&words) {
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
         }
+        if let Some(what) = does_unseen_in_a_dialogue(&words) {
+            return Err(at_line(line, format!("the program {what}: what it then does is not seen here")));
+        }
         match words.as_slice() {
             _ if ended && !words.is_empty() => {
                 return Err(at_line(line, "there is more behind the end of the program"));
             }
             // They end the program for the control.
             ["M30" | "M2"] => stopped = true,
-            [word @ ("M3" | "M4" | "M5")] => turn(line, word, &mut state)?,
+            [word @ ("M3" | "M4" | "M5" | "M13" | "M14")] => turn(line, word, &mut state)?,
             []
+            // Without a call a label does nothing.
+            | ["LBL", _]
             | ["STOP" | "M0" | "M1" | "M6" | "M8" | "M9"]
             // Those of them that move the profile are refused above.
             | ["PLANE" | "TRANS", ..] => {}
@@ -94,6 +103,7 @@ fn tool_call(line: usize, words: &[&str], state: &mut MachineState) -> Result<()
             ));
         }
         state.cutting.tool = first.parse().ok().and_then(whole).filter(|tool| *tool > 0);
+        state.cutting.named = first.starts_with('"');
         state.radius_fault = None;
         state.cutting.length = ToolLength::Unstated;
     }
@@ -118,18 +128,21 @@ fn tool_call(line: usize, words: &[&str], state: &mut MachineState) -> Result<()
             state.cutting.speed = Some(speed);
             state.cutting.spindle = state.spindle.at(state.cutting.speed);
         } else if let Some(feed) = word.strip_prefix('F').and_then(|feed| feed.parse().ok()) {
-            state.feed = Some(self::feed(state, feed));
+            state.called_feed = Some(self::feed(state, feed));
+            state.feed = state.called_feed;
         }
     }
     Ok(())
 }
 
-/// M3, M4 and M5.
+/// M3, M4 and M5, M13 and M14.
 fn turn(line: usize, word: &str, state: &mut MachineState) -> Result<(), Refusal> {
-    if word != "M3" && state.is_deep() {
+    // M13 and M14 are M3 and M4 with the coolant.
+    let way = Spindle::of(number(line, word.trim_start_matches('M'))? % 10.0).unwrap_or_default();
+    if way != Spindle::Clockwise && state.is_deep() {
         return Err(at_line(line, "the spindle stops or turns back below the upper face"));
     }
-    state.spindle = Spindle::of(number(line, word.trim_start_matches('M'))?).unwrap_or_default();
+    state.spindle = way;
     state.cutting.spindle = state.spindle.at(state.cutting.speed);
     Ok(())
 }
@@ -173,7 +186,12 @@ fn coordinates(
             ("DR+", _) => left = Some(true),
             ("DR-", _) => left = Some(false),
             ("FMAX", _) => rapid = true,
-            ("M3" | "M4" | "M5", _) => turn(line, word, state)?,
+            ("F", _) if words.contains(&"AUTO") => {}
+            ("FAUTO" | "AUTO", _) => {
+                let missing = || at_line(line, "F AUTO takes the feed of TOOL CALL, which gives none");
+                state.feed = Some(state.called_feed.ok_or_else(missing)?);
+            }
+            ("M3" | "M4" | "M5" | "M13" | "M14", _) => turn(line, word, state)?,
             ("M8" | "M9" | "M2" | "M30", _) => {}
             (word, Some(axis)) => {
                 let value = state.scale() * number(line, word.get(1..).unwrap_or_default())?;
@@ -190,7 +208,25 @@ fn coordinates(
     Ok((to, left, rapid))
 }
 
+/// `L Z-1 R0 FMAX M91` goes to a place of the machine, `L M140 MB MAX` upwards.
+fn to_the_machine(line: usize, words: &[&str], state: &mut MachineState) -> Result<(), Refusal> {
+    if state.side != CutterSide::Centre {
+        return Err(at_line(line, "the cutter leaves for a place of the machine while it is kept beside its path"));
+    }
+    let other = |word: &&str| !(PLACES.contains(word) || *word == "MAX" || word.starts_with("MB"));
+    let words_of_move: Vec<&str> = words.iter().copied().filter(other).collect();
+    let (to, left, _) = coordinates(line, &words_of_move, state)?;
+    let (axes, upwards) = (to.map(|axis| axis.is_some()), words.contains(&"M140"));
+    if left.is_some() || state.side != CutterSide::Centre || (upwards && axes != [false; 3]) {
+        return Err(at_line(line, "M91, M92 and M140 stand in a block with more than the place to leave for"));
+    }
+    state.leave(line, if upwards { [false, false, true] } else { axes })
+}
+
 fn straight(line: usize, words: &[&str], state: &mut MachineState) -> Result<(), Refusal> {
+    if words.iter().any(|word| PLACES.contains(word)) {
+        return to_the_machine(line, words, state);
+    }
     let (to, left, rapid) = coordinates(line, words, state)?;
     if left.is_some() {
         return Err(at_line(line, "a straight line does not turn (DR)"));

@@ -16,6 +16,8 @@ pub(super) struct MachineState {
     pub(super) units: Option<LengthUnit>,
     /// Feed, mm/min, once it is given.
     pub(super) feed: Option<f64>,
+    /// That of the last call of a tool, mm/min.
+    pub(super) called_feed: Option<f64>,
     /// The side of the cutter.
     pub(super) side: CutterSide,
     /// Why the control does not know the radius of the cutter, where it does not.

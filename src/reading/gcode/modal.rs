@@ -5,7 +5,7 @@ use super::CutterSide;
 use super::cutting_state::{CuttingState, Spindle, whole};
 use super::machine_state::at_line;
 use super::tool_length::{LengthWords, ToolChange, of_another_kind};
-use super::words::{REFERENCE, Word, of};
+use super::words::{NAMED_TOOL, REFERENCE, Word, of, unquoted};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
 use crate::units::LengthUnit;
@@ -186,8 +186,9 @@ impl ModalWords {
     /// With what the program cuts; whether beside its path is not said here.
     pub(super) fn cutting(&self) -> CuttingState {
         let (tool, offset) = (self.loaded.and_then(whole), self.offset.and_then(whole));
+        let named = self.loaded == Some(NAMED_TOOL);
         let (length, spindle) = (self.length.is, self.spindle.at(self.speed));
-        CuttingState { tool, offset, compensated: false, length, spindle, speed: self.speed }
+        CuttingState { tool, named, offset, compensated: false, length, spindle, speed: self.speed }
     }
 
     /// What a block says of the tool and of the radius that is taken into account.
@@ -207,7 +208,11 @@ impl ModalWords {
         if kept && words.contains(&('M', 6.0)) {
             return Err(at_line(line, "the tool changes while the cutter is kept beside its path"));
         }
-        self.tool = of(line, words, 'T')?.or(self.tool);
+        let called = of(line, words, 'T')?;
+        if called == Some(NAMED_TOOL) && self.control.is_some_and(|control| control != Controller::Sinumerik) {
+            return Err(at_line(line, "the control calls a tool by its number, not by a name (T)"));
+        }
+        self.tool = called.or(self.tool);
         let mut change = None;
         if words.contains(&('M', 6.0)) {
             change = Some((self.loaded, self.tool));
@@ -289,19 +294,19 @@ pub(super) fn are_known(words: &[Word], axis: Option<char>) -> bool {
 }
 
 /// G codes of a block with unknown words that would be lost with it: those that move, or say how coordinates and feeds are meant.
-const STATED: [f64; 26] = [
-    0.0, 1.0, 2.0, 3.0, 17.0, 18.0, 19.0, 20.0, 21.0, 28.0, 30.0, 40.0, 41.0, 42.0, 53.0, 65.0, 66.0, 70.0, 71.0, 90.0,
-    91.0, 93.0, 94.0, 95.0, 700.0, 710.0,
+const STATED: [f64; 29] = [
+    0.0, 1.0, 2.0, 3.0, 17.0, 18.0, 19.0, 20.0, 21.0, 28.0, 30.0, 40.0, 41.0, 42.0, 43.0, 44.0, 49.0, 53.0, 65.0, 66.0,
+    70.0, 71.0, 90.0, 91.0, 93.0, 94.0, 95.0, 700.0, 710.0,
 ];
 /// Words that call other programs, go elsewhere in this one, or change how the control calculates.
-const CALLS: [&str; 16] = [
-    "CALL", "SUB", "GOTO", "GOTOF", "GOTOB", "IF", "WHILE", "FOR", "REPEAT", "LOOP", "EXTCALL", "PCALL", "MCALL",
-    "TRAORI", "CYCLE81", "TRAANG",
+const CALLS: [&str; 18] = [
+    "GOTOC", "GOTOS", "CALL", "SUB", "GOTO", "GOTOF", "GOTOB", "IF", "WHILE", "FOR", "REPEAT", "LOOP", "EXTCALL",
+    "PCALL", "MCALL", "TRAORI", "CYCLE81", "TRAANG",
 ];
 
 /// Refuses a block that would be passed over where it has more than a shop's own words: it may do what is then not seen.
-pub(super) fn passed_over(line: usize, block: &str) -> Result<(), Refusal> {
-    let block = block.to_ascii_uppercase();
+pub(super) fn passed_over(line: usize, block: &str, control: Option<Controller>) -> Result<(), Refusal> {
+    let block = unquoted(&block.to_ascii_uppercase());
     let refused = |word: &str| {
         let what = format!("`{word}` stands in a block with words that are not known");
         let remedy = "write what moves, calls a program or states coordinates in blocks of their own";
@@ -311,9 +316,20 @@ pub(super) fn passed_over(line: usize, block: &str) -> Result<(), Refusal> {
         return refused("/");
     }
     let mut names = block.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
-    if let Some(name) = names.find(|name| CALLS.contains(name)) {
+    // The number of a block may stand behind its word without a blank.
+    let calls =
+        |name: &str| CALLS.contains(&name) || CALLS.contains(&name.trim_end_matches(|c: char| c.is_ascii_digit()));
+    if let Some(name) = names.find(|name| calls(name)) {
         return refused(name);
     }
+    if let Some(name) = subprogram(&block).filter(|_| control == Some(Controller::Sinumerik)) {
+        return refused(name);
+    }
+    // Spindle, change of the tool, ends and calls.
+    let of_machine: &[f64] = match control {
+        Some(Controller::Sinumerik) => &[2.0, 3.0, 4.0, 5.0, 6.0, 17.0, 30.0],
+        _ => &[2.0, 3.0, 4.0, 5.0, 6.0, 30.0, 96.0, 97.0, 98.0, 99.0, 198.0],
+    };
     let mut rest = block.as_str();
     let mut before = ' ';
     while let Some(letter) = rest.chars().next() {
@@ -327,14 +343,33 @@ pub(super) fn passed_over(line: usize, block: &str) -> Result<(), Refusal> {
         };
         let lost = match letter {
             'G' => STATED.contains(&value),
-            'M' => [2.0, 30.0, 97.0, 98.0, 99.0].contains(&value),
-            letter => "XYZABCUVWL".contains(letter),
+            'M' => of_machine.contains(&value),
+            // H is no length on SINUMERIK.
+            'H' => control != Some(Controller::Sinumerik),
+            letter => "XYZABCDUVWL".contains(letter),
         };
         if lost {
             return refused(&format!("{letter}{value}"));
         }
     }
     Ok(())
+}
+
+/// Names with which a block of SINUMERIK may begin that is no call of a subprogram: dynamics, look-ahead, compressor, messages, and such as end frames.
+const WORDS_OF_SINUMERIK: &str = " ACC BRISK BRISKA CDOF CDOF2 CDON CFC CFIN CFTCP COMPCAD COMPCURV COMPOF COMPON COMPSURF CUTCONOF CUTCONON CYCLE832 DEF DIAMOF DISPLOF \
+    DISPLON DRFOF DRIVE DYNFINISH DYNNORM DYNPOS DYNPREC DYNROUGH DYNSEMIFIN FCUB FFWOF FFWON FIFOCTRL FLIN FNORM GEOAX GROUP_BEGIN GROUP_END KONT \
+    KONTC KONTT LIMS MIRROR MSG NORM PROC ROT ROTS RTLIOF RTLION SCALE SETMS SOFT SOFTA STARTFIFO STOPFIFO STOPRE TCOABS TCOFR TOFRAMEOF TOROTOF TRAFOOF TRANS \
+    WORKPIECE CYCLE800 AROT ATRANS ASCALE AMIRROR ";
+
+/// The name that a block of SINUMERIK calls as a subprogram: one that is no word of the control, gets no number, and is no label.
+fn subprogram(block: &str) -> Option<&str> {
+    let number = block.strip_prefix('N').map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
+    let block = number.filter(|rest| rest.len() + 1 < block.len()).unwrap_or(block).trim_start();
+    let end = block.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(block.len());
+    let (name, behind) = block.split_at_checked(end)?;
+    let is_name = name.len() > 1 && name.bytes().take(2).all(|byte| byte.is_ascii_uppercase() || byte == b'_');
+    let assigned = behind.trim_start().starts_with(['=', '[', ':']);
+    (is_name && !assigned && !WORDS_OF_SINUMERIK.contains(&format!(" {name} "))).then_some(name)
 }
 
 #[cfg(test)]
@@ -349,6 +384,9 @@ mod tests {
             "G18 M13",
             "G41 D1 M13",
             "G93 M13",
+            "G43 H2 M13",
+            "S2000 M4 M50",
+            "D0 M50",
             "G0 X10 M13",
             "/G91",
             "/ G64",
@@ -364,10 +402,21 @@ mod tests {
             "IF #1 GT 2 GOTO 10",
             "Y=5 A90",
         ] {
-            assert!(passed_over(1, block).is_err(), "{block}");
+            assert!(passed_over(1, block, None).is_err(), "{block}");
         }
         for block in ["CYCLE832", "G641 ADIS=0.1", "G5.1 Q1", "M13", "M88 P3", "SOFT", "FFWON", "G187 P3 E0.01"] {
-            assert!(passed_over(1, block).is_ok(), "{block}");
+            assert!(passed_over(1, block, None).is_ok(), "{block}");
+        }
+        for block in ["GOTO100", "M198 P5", "IF[1EQ1]GOTO5"] {
+            assert!(passed_over(1, block, Some(Controller::Fanuc)).is_err(), "{block}");
+        }
+        for block in ["ROUGH", "ROUGH_SUB", "N20 ROUGH(1,2)", "_SUB", "RET", "M17", "L100", "GOTOF ENDE", "X=5"] {
+            assert!(passed_over(1, block, Some(Controller::Sinumerik)).is_err(), "{block}");
+        }
+        for block in
+            ["N10 SOFT", "FFWON COMPCAD", "MSG(\"G1 X10\")", "ENDE:", "R1=5", "SPOS=0", "CYCLE832(0.01,_FINISH,1)"]
+        {
+            assert!(passed_over(1, block, Some(Controller::Sinumerik)).is_ok(), "{block}");
         }
     }
 }

@@ -2,7 +2,7 @@
 //! in all at once, in the time that each block gives (G93).
 
 use super::cutting_state::CuttingFeed;
-use super::dialect::{dialect, moves_the_profile, path_tolerance};
+use super::dialect::{dialect, moves_the_profile, path_tolerance, with_machine_places};
 use super::machine_state::at_line;
 use super::modal::{ModalWords, Situation, are_known, dwells, leaves, passed_over};
 use super::words::{Word, counted, of, without_comments, words};
@@ -54,7 +54,7 @@ struct TurnedState {
 
 /// The axis that a program turns, C or A; `None` where it turns none.
 pub(super) fn axis_of(text: &str) -> Option<char> {
-    let blocks = text.lines().filter_map(without_comments);
+    let blocks = text.lines().filter_map(|line| without_comments(line, None));
     let mut letters = blocks.filter_map(|block| words(block.trim())).flatten().map(|(letter, _)| letter);
     letters.find(|letter| ['A', 'C'].contains(letter))
 }
@@ -69,12 +69,13 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
     let mut modal = ModalWords::of(control, true);
     for (index, whole) in text.lines().enumerate() {
         let line = index + 1;
-        let block = without_comments(whole).ok_or_else(|| at_line(line, "a comment does not end"))?;
-        let block = block.trim();
+        let block = without_comments(whole, control).ok_or_else(|| at_line(line, "a comment does not end"))?;
+        let block = with_machine_places(block.trim(), control);
+        let block = block.as_str();
         if modal.ended || block.is_empty() || block == "%" {
             continue;
         }
-        if let Some(what) = moves_the_profile(block) {
+        if let Some(what) = moves_the_profile(block, control) {
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
         }
         if let Some(tolerance) = path_tolerance(block, control) {
@@ -89,7 +90,7 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
         match words(block) {
             Some(words) if are_known(&words, Some(axis)) => state.run(line, &words, &mut modal)?,
             _ if !state.has_moved && [0, 1, 3].iter().all(|axis| state.at[*axis].is_none()) => {
-                passed_over(line, block)?;
+                passed_over(line, block, control)?;
                 state.program.unknown.push(block.to_owned());
             }
             _ => return Err(at_line(line, format!("`{block}` is not known, and what it does to the path neither"))),

@@ -1,6 +1,7 @@
 //! The words of a block: letters with their numbers.
 
 use super::machine_state::at_line;
+use crate::machine::Controller;
 use crate::refusal::Refusal;
 use crate::units::LengthUnit;
 
@@ -19,8 +20,14 @@ fn increment(units: LengthUnit) -> f64 {
 /// G28, G30 and G53: to a reference point, or to a place of the machine.
 pub(super) const REFERENCE: [f64; 3] = [28.0, 30.0, 53.0];
 
-/// A block without what stands in parentheses or behind a semicolon; `None` where a parenthesis is left open.
-pub(super) fn without_comments(block: &str) -> Option<String> {
+/// The number of a tool that is called by its name.
+pub(super) const NAMED_TOOL: f64 = f64::INFINITY;
+
+/// A block without what stands behind a semicolon or, but on SINUMERIK, in parentheses; `None` where a parenthesis is left open.
+pub(super) fn without_comments(block: &str, control: Option<Controller>) -> Option<String> {
+    if control == Some(Controller::Sinumerik) {
+        return block.split(';').next().map(str::to_owned);
+    }
     let mut depth = 0_u32;
     let mut kept = String::with_capacity(block.len());
     for character in block.chars() {
@@ -35,6 +42,11 @@ pub(super) fn without_comments(block: &str) -> Option<String> {
     (depth == 0).then_some(kept)
 }
 
+/// A block with empty quotes.
+pub(super) fn unquoted(block: &str) -> String {
+    block.split('"').step_by(2).collect::<Vec<&str>>().join("\"\"")
+}
+
 /// The words of a block; `None` where it has something else.
 pub(super) fn words(block: &str) -> Option<Vec<Word>> {
     let mut words = Vec::new();
@@ -45,6 +57,12 @@ pub(super) fn words(block: &str) -> Option<Vec<Word>> {
             continue;
         }
         let number = rest.trim_start();
+        if let Some(name) = number.strip_prefix('=').filter(|_| letter.eq_ignore_ascii_case(&'T')) {
+            let (_, behind) = name.trim_start().strip_prefix('"')?.split_once('"')?;
+            words.push(('T', NAMED_TOOL));
+            rest = behind;
+            continue;
+        }
         let end = number.find(|c: char| !(c.is_ascii_digit() || ['.', '+', '-'].contains(&c))).unwrap_or(number.len());
         let (digits, after) = (number.get(..end)?, number.get(end..)?);
         if !letter.is_ascii_alphabetic() || after.starts_with(['=', '[', '#']) {
