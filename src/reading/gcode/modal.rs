@@ -3,6 +3,7 @@
 
 use super::CutterSide;
 use super::cutting_state::{CuttingState, Spindle, whole};
+use super::dialect::has_word;
 use super::machine_state::at_line;
 use super::tool_length::{LengthWords, ToolChange, of_another_kind};
 use super::words::{NAMED_TOOL, REFERENCE, Word, of, unquoted};
@@ -315,6 +316,10 @@ pub(super) fn passed_over(line: usize, block: &str, control: Option<Controller>)
     if block.starts_with('/') {
         return refused("/");
     }
+    // One that is not of zeros is refused before.
+    if ["TRANS", "ATRANS"].iter().any(|word| has_word(&block, word)) {
+        return Ok(());
+    }
     let mut names = block.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
     // The number of a block may stand behind its word without a blank.
     let calls =
@@ -336,7 +341,7 @@ pub(super) fn passed_over(line: usize, block: &str, control: Option<Controller>)
         rest = rest.get(letter.len_utf8()..).unwrap_or_default();
         let begins = letter.is_ascii_alphabetic() && !(before.is_ascii_alphabetic() || before == '_');
         before = letter;
-        let number = rest.trim_start();
+        let number = rest.trim_start().trim_start_matches('=').trim_start();
         let end = number.find(|c: char| !(c.is_ascii_digit() || ['.', '+', '-'].contains(&c))).unwrap_or(number.len());
         let Some(value) = number.get(..end).filter(|_| begins).and_then(|digits| digits.parse::<f64>().ok()) else {
             continue;
