@@ -1,7 +1,5 @@
 //! With what a program cuts: its tool, the radius that the control takes, the spindle and the feed.
 
-use super::tool_length::ToolLength;
-
 /// How the spindle turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Spindle {
@@ -31,6 +29,18 @@ impl Spindle {
             (way, _) => way,
         }
     }
+}
+
+/// The length of the tool that the control takes into account.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ToolLength {
+    /// The program does not say.
+    #[default]
+    Unstated,
+    /// That with a number: H with G43, D on SINUMERIK.
+    Number(u32),
+    /// None: G49, H0, D0, or another tool was changed in since.
+    Cancelled,
 }
 
 /// What holds while the tool cuts.

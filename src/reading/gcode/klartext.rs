@@ -1,9 +1,8 @@
 //! Programs in the dialogue of HEIDENHAIN controls (Klartext): `L`, `CC`, `C`.
 
-use super::cutting_state::{Spindle, whole};
+use super::cutting_state::{Spindle, ToolLength, whole};
 use super::dialect::{does_unseen_in_a_dialogue, moves_the_profile_of_a_dialogue};
 use super::machine_state::{MachineState, at_line};
-use super::tool_length::ToolLength;
 use super::words::unquoted;
 use super::{CutterProgram, CutterSide, MoveKind};
 use crate::machine::Controller;

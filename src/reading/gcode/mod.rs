@@ -13,8 +13,7 @@ mod tool_length;
 mod turned;
 mod words;
 
-pub use cutting_state::{CuttingFeed, CuttingState, Spindle};
-pub use tool_length::ToolLength;
+pub use cutting_state::{CuttingFeed, CuttingState, Spindle, ToolLength};
 pub use turned::{StandingMove, TurnedPass};
 
 use crate::geometry::contour::Segment;

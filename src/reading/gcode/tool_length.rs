@@ -1,22 +1,10 @@
 //! Which length of the tool the control takes into account: by G43 and H, on SINUMERIK by D.
 
-use super::cutting_state::whole;
+use super::cutting_state::{ToolLength, whole};
 use super::machine_state::at_line;
 use super::words::{Word, of};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
-
-/// The length of the tool that the control takes into account.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ToolLength {
-    /// The program does not say.
-    #[default]
-    Unstated,
-    /// That with a number: H with G43, D on SINUMERIK.
-    Number(u32),
-    /// None: G49, H0, D0, or another tool was changed in since.
-    Cancelled,
-}
 
 /// The words of a program about it.
 #[derive(Debug, Default)]
