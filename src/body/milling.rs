@@ -4,7 +4,7 @@
 //! else the profile, along which the control keeps its own cutter. Bore, keyway and holes are not in it.
 
 use super::swept::TurnedCam;
-use super::{Body, Cut, DrawError, Drawn, Layer, Part, Request};
+use super::{Body, Cut, DrawError, Drawn, Layer, LoadAsCut, Part, Request};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::blocks::{Block, Grid};
 use crate::geometry::contour::{Contour, Edge, Segment};
@@ -191,7 +191,7 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
     let grid = Grid::of_lengths(decimals, units);
     let drawn = drawn(body, request, (cutter, decimals))?;
     let depths = depths(body, &cutting, grid)?;
-    let of_counter = body.load().is_some_and(|load| load.is_of_another_disc());
+    let of_counter = body.load().is_some_and(LoadAsCut::is_of_another_disc);
     let mut first = 0;
     let mut programs = Vec::with_capacity(drawn.parts.len());
     for (part, drawn_part) in drawn.parts.iter().enumerate() {

@@ -116,14 +116,13 @@ fn wrong_length(design: &CuttingData, program: &CutterProgram, state: &CuttingSt
             "the cutter cuts without the length of its tool (G49, H0, D0, or a change of the tool without G43)"
                 .to_owned(),
         ),
-        (ToolLength::Unstated, _) => None,
         (ToolLength::Number(_), _) if before == Some(ToolLength::Unstated) => {
             Some("the control takes the length of the tool (G43), and did not for the cuts before".to_owned())
         }
         (ToolLength::Number(number), wanted @ ToolLength::Number(other)) if wanted != state.length => {
             Some(format!("the control takes the length {letter}{number} of the tool; it must be {letter}{other}"))
         }
-        (ToolLength::Number(_), _) => None,
+        (ToolLength::Unstated | ToolLength::Number(_), _) => None,
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::number::{plain, shortest};
 use super::{Format, FormatSelection, Rendering};
-use crate::body::Body;
 use crate::body::servo::{self, ServoTable};
+use crate::body::{Body, LoadAsCut};
 use crate::refusal::Refusal;
 use crate::units::LengthUnit;
 
@@ -103,7 +103,7 @@ fn csv(table: &ServoTable, units: LengthUnit, head: &[String]) -> String {
 }
 
 fn is_of_another_disc(body: &dyn Body) -> bool {
-    body.load().is_some_and(|load| load.is_of_another_disc())
+    body.load().is_some_and(LoadAsCut::is_of_another_disc)
 }
 
 /// The machine's name as a variable.
