@@ -364,7 +364,7 @@ mod tests {
             (reading.chains.len(), reading.others.len())
         };
         assert_eq!(chains(20.0, 3.0, Some("0")), (1, 1));
-        // It crosses the outline, or lies beside it.
+        // It crosses the outline, or lies outside.
         assert_eq!(chains(20.0, 15.0, Some("0")), (2, 0));
         assert_eq!(chains(90.0, 3.0, Some("0")), (2, 0));
         assert_eq!(chains(20.0, 3.0, None), (0, 2));

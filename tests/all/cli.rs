@@ -288,14 +288,14 @@ fn a_shown_machine_is_a_file_to_start_from() {
     assert_eq!(camgen(&["machines", "show", "x"]).code, 2);
 }
 
-/// Each is made by the command that is listed beside it, and another command for cams says which one that is.
+/// Each runs with the command that is listed with it, and another command for cams names that one.
 #[test]
 fn every_embedded_machine_is_listed_with_its_command() {
     for line in camgen(&["machines"]).out.lines() {
         let mut words = line.split_whitespace();
         let (name, command) = (words.next().expect("a name"), words.next().expect("a command"));
         let run = camgen(&[command, name, "--dry-run"]);
-        // The brake of the paper does not hold its web, which is told.
+        // The brake of the paper does not hold its web: its check fails.
         assert!(run.code < 2, "{line}: {}", run.err);
         if !["make", "rotary"].contains(&command) {
             let other = camgen(&["make", name]);

@@ -427,7 +427,7 @@ fn a_block_by_its_time_is_no_faster_than_the_feed_of_the_design() {
     }
 }
 
-/// What an edited program leaves is told as for an outline; a fault that is not one of the path has no such cause.
+/// The report names how the cut of an edited program differs, as for an outline; a fault that is not in the path has no such diagnosis.
 #[test]
 fn a_shifted_program_is_told_as_shifted() {
     let directory = tempfile::tempdir().expect("a directory");

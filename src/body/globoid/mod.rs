@@ -134,7 +134,7 @@ impl Globoid {
         Ok(found)
     }
 
-    /// The same with the turret at another distance, m; `None` where there is none.
+    /// This globoid with its turret at another distance, m; `None` where no globoid is possible there.
     fn at_distance(&self, distance: f64) -> Option<Self> {
         let mut machine = Machine::clone(&self.machine);
         machine.cam.track.turret = Some(TurretData { distance, ..self.turret });
