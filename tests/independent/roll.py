@@ -12,6 +12,7 @@ import json
 import subprocess
 import sys
 import tomllib
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -95,7 +96,7 @@ class Cam:
 
 
 def roll(binary, directory, name, overrides, flags, tolerance):
-    """Writes a cam, rolls on it, and returns a row of the table; raises when the tolerance is broken."""
+    """Writes a cam into a directory, rolls on it, and returns a row of the table; raises when the tolerance is broken."""
     sets = [part for override in overrides for part in ("--set", override)]
     command = [binary, "rotary", *name, *sets, *flags, "--tolerance", f"{tolerance * 1e3}um", "--json",
                "--format", "dxf", "--out", str(directory), "--force"]
@@ -151,6 +152,17 @@ def roll(binary, directory, name, overrides, flags, tolerance):
     return row
 
 
+def rolled(run, binary, directory):
+    """A line of the table, and whether the tolerance is kept."""
+    number, title, name, overrides, flags, tolerance = run
+    begin = f"{title:26} {tolerance * 1e3:7}"
+    try:
+        gap, lift, kink, arcs = roll(binary, directory / f"roll-{number}", name, overrides, flags, tolerance)
+    except AssertionError as error:
+        return f"{begin} FAILED {error}", False
+    return f"{begin} {gap:10.6f} {lift:10.6f} {kink:9.1e} {arcs:5}", True
+
+
 def main():
     binary, directory = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2])
     cases = [
@@ -174,16 +186,15 @@ def main():
     ]
     print(f"{'cam':26} {'tol/um':>7} {'gap/um':>10} {'lift/um':>10} {'kink/deg':>9} {'arcs':>5}")
     failed = 0
-    for tolerance in (0.005, 0.000_05):
-        for title, name, overrides, flags in cases:
-            try:
-                gap, lift, kink, arcs = roll(binary, directory, name, overrides, flags, tolerance)
-                print(f"{title:26} {tolerance * 1e3:7} {gap:10.6f} {lift:10.6f} {kink:9.1e} {arcs:5}")
-            except AssertionError as error:
-                failed += 1
-                print(f"{title:26} {tolerance * 1e3:7} FAILED {error}")
-    print(f"{2 * len(cases) - failed} passed, {failed} failed")
+    runs = [(number, *case, tolerance) for number, (case, tolerance) in enumerate((case, tolerance) for tolerance in (0.005, 0.000_05) for case in cases)]
+
+    with ProcessPoolExecutor(2) as pool:
+        for line, passed in pool.map(rolled, runs, [binary] * len(runs), [directory] * len(runs)):
+            failed += not passed
+            print(line)
+    print(f"{len(runs) - failed} passed, {failed} failed")
     sys.exit(failed > 0)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -11,6 +11,7 @@ import json
 import re
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 SCHEMA = "AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }"
@@ -141,20 +142,27 @@ def main():
     command = [binary, "rotary", "dpi", "--rpm", "35", "--format", "step", "--name", "syntax", "--out", directory, "--quiet", "--overwrite"]
     assert subprocess.run(command).returncode == 0, command
     text = (directory / "syntax.step").read_text()
-    own, path, faults, counts = solid(directory / "syntax.step"), directory / "syntax-other.step", [], [0, 0]
-    for accepted, files in ((True, right(text)), (False, wrong(text))):
-        for name, made in files:
-            path.write_bytes(made.encode())
-            run = subprocess.run([binary, "check", path, "dpi", "--rpm", "35", "--cam", "rotary"], capture_output=True, text=True)
-            counts[not accepted] += 1
-            told = (run.stderr or run.stdout).strip()[-300:]
-            if run.returncode not in ((0,) if accepted else (1, 2)) or "panicked" in run.stderr:
-                faults.append(f"{name}: exit code {run.returncode}: {told}")
-            if run.returncode == 0:
-                found = solid(path)
-                if not found or not same(found, own):
-                    faults.append(f"{name}: accepted, and OpenCASCADE reads {found} instead of {own}")
-    path.unlink()
+    own = solid(directory / "syntax.step")
+
+    def judged(number, accepted, name, made):
+        """What is wrong with camgen's verdict on a file."""
+        path = directory / f"syntax-{number}.step"
+        path.write_bytes(made.encode())
+        run = subprocess.run([binary, "check", path, "dpi", "--rpm", "35", "--cam", "rotary"], capture_output=True, text=True)
+        told, against = (run.stderr or run.stdout).strip()[-300:], []
+        if run.returncode not in ((0,) if accepted else (1, 2)) or "panicked" in run.stderr:
+            against.append(f"{name}: exit code {run.returncode}: {told}")
+        if run.returncode == 0:
+            found = solid(path)
+            if not found or not same(found, own):
+                against.append(f"{name}: accepted, and OpenCASCADE reads {found} instead of {own}")
+        path.unlink()
+        return against
+
+    files = [(True, *file) for file in right(text)] + [(False, *file) for file in wrong(text)]
+    with ThreadPoolExecutor(2) as pool:
+        faults = [fault for found in pool.map(judged, range(len(files)), *zip(*files)) for fault in found]
+    counts = [sum(accepted for accepted, *_ in files), sum(not accepted for accepted, *_ in files)]
     for fault in faults:
         print(f"  {fault}")
     print(f"step_syntax.py: {counts[0]} other ways to write a solid accepted, {counts[1]} faults refused, {len(faults)} wrong")
