@@ -14,7 +14,7 @@ use super::{Failure, Outcome, print, print_message};
 use camgen::analysis::compare::{self as comparison, ComparisonOptions, measured};
 use camgen::analysis::{Analysis, laws, size};
 use camgen::body::Cut;
-use camgen::document::file::text_of;
+use camgen::document::file::table_text_of;
 #[cfg(feature = "linkage")]
 use camgen::domains::linkage::analysis::{self as linkage, DragLinkGoal};
 use camgen::domains::press::analysis::{drive, plain, regimes, spring};
@@ -208,8 +208,8 @@ pub(crate) fn compare_of(
     load: impl FnOnce() -> Result<(Machine, String), Failure>,
 ) -> Result<NamedAnalysis, Failure> {
     let file = args.measured.display();
-    let text =
-        text_of(&args.measured, LARGEST_MEASURED).map_err(|why| Failure(format!("cannot read `{file}`: {why}")))?;
+    let text = table_text_of(&args.measured, LARGEST_MEASURED)
+        .map_err(|why| Failure(format!("cannot read `{file}`: {why}")))?;
     let points = measured::read(&text).map_err(|why| Failure(format!("`{file}`: {why}")))?;
     let (machine, name) = load()?;
     let spec = Spec::of_program(machine, args.rpm).ok_or_else(|| {

@@ -6,7 +6,7 @@ use super::cams::source_date;
 use super::{Failure, Outcome};
 use camgen::analysis::compare::measured;
 use camgen::analysis::import::{self, ImportOptions, ImportSource};
-use camgen::document::file::{bytes_of, text_of};
+use camgen::document::file::{bytes_of, table_text_of};
 use camgen::motion::program::rows::TableRows;
 use camgen::pipeline::{Judged, Writing};
 use camgen::reading::outline::outline_of;
@@ -38,7 +38,7 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
             ImportSource::Outline(found.contour, found.told)
         }
         ImportForm::Points => {
-            let text = text_of(&args.file, LARGEST_TABLE).map_err(|why| unread(&file, &why))?;
+            let text = table_text_of(&args.file, LARGEST_TABLE).map_err(|why| unread(&file, &why))?;
             let points = measured::read(&text).map_err(|why| Failure(format!("`{file}`: {why}")))?;
             ImportSource::Points(points, 1e3 * args.ball.unwrap_or(0.0))
         }
@@ -122,7 +122,7 @@ fn form_of(path: &Path, follower: bool) -> Result<ImportForm, Failure> {
             "`{file}` is {kind}; give a lift table or points as text (CSV), a DXF or a STEP file"
         )));
     }
-    let text = text_of(path, LARGEST_TABLE).map_err(|why| unread(&file, &why))?;
+    let text = table_text_of(path, LARGEST_TABLE).map_err(|why| unread(&file, &why))?;
     Ok(if measured::looks_like_points(&text, follower) { ImportForm::Points } else { ImportForm::Table })
 }
 

@@ -180,17 +180,17 @@ fn cells(line: &str) -> Vec<String> {
         cells
     };
     if line.contains(';') {
-        return kept(line.split(';').collect());
+        return kept(parts(line, ';'));
     }
     if line.contains('\t') {
-        return kept(line.split('\t').map(|cell| cell.trim().trim_end_matches(',')).collect());
+        return kept(parts(line, '\t').into_iter().map(|cell| cell.trim().trim_end_matches(',')).collect());
     }
     let blanks: Vec<&str> = line.split_whitespace().collect();
     if line.contains(',') {
         let decimal = |cell: &&str| number(cell).is_some();
         let any = blanks.iter().any(|cell| cell.contains(','));
         if !(blanks.len() > 1 && any && blanks.iter().all(decimal)) {
-            return kept(line.split(',').collect());
+            return kept(parts(line, ','));
         }
     }
     // What stands in brackets belongs to the word before it.
@@ -202,6 +202,25 @@ fn cells(line: &str) -> Vec<String> {
         }
     }
     joined
+}
+
+/// The parts of a line between signs, but for those inside of a part in quotes.
+#[must_use]
+pub fn parts(line: &str, sign: char) -> Vec<&str> {
+    let (mut found, mut from, mut quoted, mut fresh) = (Vec::new(), 0, false, true);
+    for (at, letter) in line.char_indices() {
+        if letter == '"' {
+            quoted = fresh;
+        } else if letter == sign && !quoted {
+            found.extend(line.get(from..at));
+            (from, fresh) = (at + letter.len_utf8(), true);
+            continue;
+        }
+        fresh &= letter.is_whitespace();
+    }
+    found.extend(line.get(from..));
+    // A quote that nothing ends is a sign like others.
+    if quoted { line.split(sign).collect() } else { found }
 }
 
 /// A cell without the quotes around it. A quote behind a number alone is an inch mark, which the number does not lose.
@@ -277,9 +296,24 @@ mod tests {
             "0\t1,5\n10\t-0,002",
             "0 1,5\n10,0 -0,002",
             "\"0\",\"1.5\"\n\"10\",\"-2e-3\",\n",
+            "\"0\",\"1,5\"\n\"10,0\", \"-0,002\"\n",
+            "\"angle; cam\";\"lift\"\n\"0\";\"1,5\"\n\"10,0\";\"-0,002\"\n",
             "Cam of 1998\nangle;lift\ndeg;mm\n0;1,5;\n10;-0,002;\n",
         ] {
             assert_eq!(rows(text), wanted, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn signs_within_quotes_part_nothing() {
+        for (line, wanted) in [
+            ("\"0,5\",1", &["\"0,5\"", "1"][..]),
+            ("a \"b, c\",1", &["a \"b", " c\"", "1"]),
+            ("\"0.5, 1", &["\"0.5", " 1"]),
+            ("0.5\", 1\"", &["0.5\"", " 1\""]),
+            ("", &[""]),
+        ] {
+            assert_eq!(parts(line, ','), wanted, "{line}");
         }
     }
 

@@ -39,9 +39,53 @@ pub fn text_of(path: &Path, largest: u64) -> Result<String, Refusal> {
         .map_err(|_| Refusal::new("it is not UTF-8 text").remedy("save it as UTF-8"))
 }
 
+/// The text of a table of limited size: UTF-8, UTF-16 behind its mark, or else Windows-1252, as spreadsheets save it. The signs in which that
+/// differs from Latin-1 are quotes and dashes of headings.
+///
+/// # Errors
+/// [`Refusal`] as [`bytes_of`], or where it is not text.
+pub fn table_text_of(path: &Path, largest: u64) -> Result<String, Refusal> {
+    let no_text = || Refusal::new("it is not text").remedy("save the table as CSV");
+    let bytes = bytes_of(path, largest)?;
+    let wide = |units: &dyn Fn([u8; 2]) -> u16| {
+        let units = bytes.chunks_exact(2).skip(1).filter_map(|pair| Some(units(pair.try_into().ok()?)));
+        char::decode_utf16(units).collect::<Result<String, _>>().map_err(|_| no_text())
+    };
+    match bytes.as_slice() {
+        [0xff, 0xfe, ..] => wide(&u16::from_le_bytes),
+        [0xfe, 0xff, ..] => wide(&u16::from_be_bytes),
+        _ if bytes.contains(&0) => Err(no_text()),
+        _ => Ok(String::from_utf8(bytes).unwrap_or_else(|other| {
+            let letter =
+                |byte: u8| if (0x80..0xa0).contains(&byte) { char::REPLACEMENT_CHARACTER } else { char::from(byte) };
+            other.into_bytes().into_iter().map(letter).collect()
+        })),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tables_are_read_as_spreadsheets_save_them() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("table");
+        let read = |bytes: &[u8]| {
+            fs::write(&path, bytes).expect("written");
+            table_text_of(&path, 64)
+        };
+        let wanted = "Winkel [°];Höhe\r\n0;1,5";
+        let latin: Vec<u8> =
+            wanted.chars().map(|letter| u8::try_from(u32::from(letter)).expect("a letter of Latin-1")).collect();
+        let wide: Vec<u16> = std::iter::once(0xfeff).chain(wanted.encode_utf16()).collect();
+        let little: Vec<u8> = wide.iter().flat_map(|unit| unit.to_le_bytes()).collect();
+        let big: Vec<u8> = wide.iter().flat_map(|unit| unit.to_be_bytes()).collect();
+        for bytes in [wanted.as_bytes(), &latin, &little, &big] {
+            assert_eq!(read(bytes).expect("text"), wanted);
+        }
+        assert_eq!(read(b"0;1\x00").expect_err("no text").what, "it is not text");
+    }
 
     #[test]
     fn only_files_that_are_not_too_large_are_read() {

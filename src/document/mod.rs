@@ -25,7 +25,7 @@ mod value;
 mod words;
 
 pub use bounds::{Bounds, above, within};
-pub use columns::{Columns, FileRow};
+pub use columns::{Columns, FileRow, parts};
 pub use fault::{Excerpt, FileFault, similar};
 pub use heading::{HeadingUnit, UnclearHeading, derivative_in, is_of_crank};
 pub use input::Input;

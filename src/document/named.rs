@@ -73,9 +73,10 @@ impl NamedFiles {
             NamedFiles::Folder(folder) => folder,
         };
         let path = path_of(folder, name, key, by_user)?;
-        file::text_of(&path, largest).or_else(|why| {
-            let help = "give its path relative to the folder of the machine file";
-            refused(format!("`{key}`: cannot read `{name}`: {why}"), help)
+        file::table_text_of(&path, largest).map_err(|why| {
+            let elsewhere = "give its path relative to the folder of the machine file";
+            let help = (!path.exists()).then(|| elsewhere.to_owned());
+            Misfit { message: format!("`{key}`: cannot read `{name}`: {why}"), help }
         })
     }
 }

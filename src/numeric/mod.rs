@@ -19,6 +19,7 @@ pub mod linear;
 pub mod parallel;
 pub mod quadrature;
 pub mod root;
+pub mod scatter;
 pub mod series;
 pub mod simplex;
 pub mod spline;

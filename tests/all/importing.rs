@@ -211,8 +211,8 @@ fn what_cannot_be_imported_is_told_with_its_row_and_a_remedy() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    let run = import(b"\xff\xfe\xc4,1\n", &[]);
-    assert!(run.code == 2 && run.err.contains("UTF-8"), "{}", run.err);
+    let run = import(b"deg,mm\n0,1\0\n", &[]);
+    assert!(run.code == 2 && run.err.contains("it is not text"), "{}", run.err);
 }
 
 /// A design is found with its laws and round numbers, and `make` takes it as it is.
@@ -230,6 +230,27 @@ fn a_lift_table_becomes_a_design() {
     assert!(design.contains("over = \"120 deg\"\nto = \"20 mm\""), "{design}");
     let made = camgen_in(run.directory, &["make", "old-import.toml", "--format", "dxf"]);
     assert_eq!(made.code, 0, "{}{}", made.out, made.err);
+}
+
+/// Points about another centre than that of the dwells: the report names `--fit centre`, which finds it; and how the cam is assumed to turn.
+#[test]
+fn points_off_the_centre_name_what_finds_it() {
+    let moved = |by: (f64, f64)| points("x,y", |_, x, y| format!("{:.5},{:.5}", x + by.0, y + by.1));
+    // Centres of a ball as large as the roller are those of the roller.
+    let args = [&ROLLER[..], &["--ball", "12mm", "--json", "--out", "."]].concat();
+    let notes = |points: &str, more: &[&str]| {
+        let run = import(points.as_bytes(), &[&args[..], more].concat());
+        assert_eq!(run.code, 0, "{}{}", run.err, run.out);
+        let design = fs::read_to_string(run.directory.path().join("old-import.toml")).expect("a design");
+        (report(&run)["notes"].to_string(), design)
+    };
+    let (off, design) = notes(&moved((0.3, -0.2)), &[]);
+    assert!(off.contains("about (0.3000, -0.2000) mm") && off.contains("--fit centre"), "{off}");
+    assert!(off.contains("assumed to turn clockwise") && design.contains("rotation = \"cw\""), "{off}{design}");
+    let (found, design) = notes(&moved((0.3, -0.2)), &["--fit", "centre"]);
+    assert!(!found.contains("--fit centre") && design.contains("cycloidal"), "{found}{design}");
+    let (right, design) = notes(&moved((0.0, 0.0)), &["--set", "cam.rotation=ccw"]);
+    assert!(!right.contains("--fit") && !right.contains("assumed") && design.contains("rotation = \"ccw\""), "{right}");
 }
 
 /// A law that is demanded and leaves too much is not written.

@@ -253,6 +253,66 @@ fn rounded_rows_are_told_and_smoothed() {
     assert!((number(&other["motion"]["rows"]["smoothing"]["bound"]) - 0.02).abs() < 1e-9);
 }
 
+/// Normally distributed numbers by twelve even ones each, of Lehmer's generator.
+fn normal() -> impl FnMut() -> f64 {
+    let mut state = 20_261_128_u64;
+    move || {
+        let mut draw = || {
+            state = state * 48_271 % 2_147_483_647;
+            f64::from(u32::try_from(state).expect("31 bits")) / 2_147_483_647.0
+        };
+        (0..12).map(|_| draw()).sum::<f64>() - 6.0
+    }
+}
+
+/// Rows of each degree, as a measuring machine gives them: 3-4-5 up 10 mm in 120 degrees, a dwell of 60, back in 120, a dwell; with a scatter in
+/// mm, rounded to a thousandth.
+fn measured_rows(scatter: f64) -> String {
+    let law = |angle: i32| match angle {
+        0..120 => of_345(f64::from(angle) / 120.0),
+        120..180 => 1.0,
+        180..300 => 1.0 - of_345(f64::from(angle - 180) / 120.0),
+        _ => 0.0,
+    };
+    let mut noise = normal();
+    let rows: Vec<String> =
+        (0..360).map(|angle| format!("{angle},{:.3}", 10.0 * law(angle) + scatter * noise())).collect();
+    rows.join("\n")
+}
+
+/// Measured rows: their scatter is told with the `smooth` that takes it away; two rows that are equal by chance are no dwell.
+#[test]
+fn measured_rows_are_told_and_smoothed() {
+    let design = |keys: &str| design(&format!("table = \"lift.csv\"\n{keys}\n[limits]\nlift_error = \"1 mm\""));
+    let known = 10.0 * 10.0 / 3.0_f64.sqrt() / 120.0_f64.to_radians().powi(2);
+    for (scatter, within) in [(0.003, 0.1), (0.01, 0.15)] {
+        let rows = measured_rows(scatter);
+        let noise_of = |keys: &str| finding(&report_of(&design(keys), &rows), "noise").clone();
+        let rough = noise_of("");
+        assert_eq!(rough["verdict"], "warn", "{rough}");
+        let note = rough["note"].as_str().expect("a note");
+        let number_behind = |words: &str| {
+            let (_, rest) = note.split_once(words).unwrap_or_else(|| panic!("{note}"));
+            rest.split_whitespace().next().expect("a number").parse::<f64>().expect("a number")
+        };
+        let told = number_behind("a standard deviation of ");
+        assert!((told / scatter - 1.0).abs() < 0.25, "{note}");
+        let smooth = number_behind("smooth = \"");
+        assert!((3.4..4.0).contains(&(smooth / told)), "{note}");
+        let with = format!("smooth = \"{smooth} mm\"");
+        let smoothed = report_of(&design(&with), &rows);
+        assert!((peak(&smoothed) / known - 1.0).abs() < within, "{} {known}", peak(&smoothed));
+        assert!((number_behind("to ") / peak(&smoothed) - 1.0).abs() < 0.05, "{note} {}", peak(&smoothed));
+        assert!(smoothed["checks"].as_array().expect("checks").iter().all(|check| check["check"] != "noise"));
+        assert_eq!(smoothed["motion"]["rows"]["dwells_deg"], serde_json::json!([]), "{}", smoothed["motion"]);
+        // Half the rounding is too little.
+        assert_eq!(noise_of("smooth = \"auto\"")["verdict"], "warn");
+    }
+    // Rows that are only rounded are those of before.
+    let rounded = report_of(&design(""), &measured_rows(0.0));
+    assert!(finding(&rounded, "noise")["note"].to_string().contains("look rounded to 0.001 mm"), "{rounded}");
+}
+
 /// Rounding of shares is no impact: the ends of a table of 3-4-5 rest.
 #[test]
 fn rounded_shares_are_no_impact() {

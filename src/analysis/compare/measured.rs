@@ -1,5 +1,6 @@
 //! Points measured on a cam, from a table: x and y, or angle and radius.
 
+use crate::document::parts;
 use crate::refusal::Refusal;
 use nalgebra::Vector2;
 
@@ -39,7 +40,7 @@ pub fn read(text: &str) -> Result<Vec<Vector2<f64>>, Refusal> {
     let separator = separator_of(&lines);
     let cells = |line: &str| -> Vec<String> { split(line, separator).into_iter().map(str::to_owned).collect() };
     let (names, rows) = match lines.split_first() {
-        Some(((_, first), rest)) if cells(first).iter().any(|cell| number(cell, separator).is_none()) => {
+        Some(((_, first), rest)) if cells(first).iter().any(|cell| number(cell).is_none()) => {
             (Some(cells(first)), rest)
         }
         _ => (None, &lines[..]),
@@ -51,7 +52,7 @@ pub fn read(text: &str) -> Result<Vec<Vector2<f64>>, Refusal> {
         Some(names) => named(names)?,
         None => PointColumns::Plane(if counts(rows, separator) { [(1, 1.0), (2, 1.0)] } else { [(0, 1.0), (1, 1.0)] }),
     };
-    let points = rows.iter().map(|(line, text)| point(&cells(text), columns, (*line, separator)));
+    let points = rows.iter().map(|(line, text)| point(&cells(text), columns, *line));
     let points = points.collect::<Result<Vec<_>, _>>()?;
     if points.len() < FEWEST {
         let what = format!("the table has {} points", points.len());
@@ -74,15 +75,14 @@ pub fn looks_like_points(text: &str, rolled: bool) -> bool {
     let separator = separator_of(&lines);
     let Some((_, first)) = lines.first() else { return false };
     let names: Vec<String> = split(first, separator).into_iter().map(str::to_owned).collect();
-    if names.iter().any(|cell| number(cell, separator).is_none()) {
+    if names.iter().any(|cell| number(cell).is_none()) {
         let both = names.iter().any(|name| name.contains("cam_deg"));
         let lift =
             names.iter().any(|name| ["lift", "position", "rise"].iter().any(|word| name.to_lowercase().contains(word)));
         return named(&names).is_ok() && (rolled || !(both && lift));
     }
     let at = usize::from(counts(&lines, separator));
-    let column: Vec<f64> =
-        lines.iter().filter_map(|(_, line)| number(split(line, separator).get(at)?, separator)).collect();
+    let column: Vec<f64> = lines.iter().filter_map(|(_, line)| number(split(line, separator).get(at)?)).collect();
     let way = |up: bool| column.iter().zip(column.iter().skip(1)).filter(|(a, b)| (b > a) == up && a != b).count();
     let signs = column.iter().any(|x| *x > 0.0) && column.iter().any(|x| *x < 0.0);
     signs && way(true).min(way(false)) * 8 > column.len()
@@ -94,20 +94,19 @@ fn separator_of(lines: &[(usize, &str)]) -> Option<char> {
 
 fn split(line: &str, separator: Option<char>) -> Vec<&str> {
     match separator {
-        Some(sign) => line.split(sign).map(str::trim).collect(),
+        Some(sign) => parts(line, sign).into_iter().map(str::trim).collect(),
         None => line.split_whitespace().collect(),
     }
 }
 
-fn number(cell: &str, separator: Option<char>) -> Option<f64> {
-    let plain = cell.trim_matches('"');
-    let found = if separator == Some(',') { plain.parse() } else { plain.replace(',', ".").parse::<f64>() };
-    found.ok().filter(|value: &f64| value.is_finite())
+/// The number of a cell, with a decimal point or, which between commas only a cell in quotes can have, a decimal comma.
+fn number(cell: &str) -> Option<f64> {
+    cell.trim_matches('"').replace(',', ".").parse::<f64>().ok().filter(|value| value.is_finite())
 }
 
 /// Whether the first of three columns or more counts the rows.
 fn counts(rows: &[(usize, &str)], separator: Option<char>) -> bool {
-    let first = |text: &str| number(split(text, separator).first()?, separator);
+    let first = |text: &str| number(split(text, separator).first()?);
     let wide = rows.first().is_some_and(|(_, text)| split(text, separator).len() > 2);
     let all: Vec<Option<f64>> = rows.iter().map(|(_, text)| first(text)).collect();
     let by_one = |pair: &[Option<f64>]| matches!(pair, [Some(a), Some(b)] if *b - *a == 1.0);
@@ -184,14 +183,10 @@ fn column(plain: &[String], words: &[&str], units: &[(&str, f64)]) -> Result<Opt
     }
 }
 
-fn point(
-    cells: &[String],
-    wanted: PointColumns,
-    (line, separator): (usize, Option<char>),
-) -> Result<Vector2<f64>, Refusal> {
+fn point(cells: &[String], wanted: PointColumns, line: usize) -> Result<Vector2<f64>, Refusal> {
     let cell = |(index, unit): (usize, f64)| {
         let text = cells.get(index).map_or("", String::as_str);
-        number(text, separator).map(|value| value * unit).ok_or_else(|| {
+        number(text).map(|value| value * unit).ok_or_else(|| {
             let shown: String = text.chars().take(REPEATED).collect();
             let what = if text.is_empty() {
                 format!("a row has {} columns, and column {} is needed", cells.len(), index + 1)

@@ -1,7 +1,8 @@
 //! The centre of a measured cam: that about which its dwells are circles.
 
-use super::positions::{Positions, median};
+use super::positions::Positions;
 use crate::motion::Quantity;
+use crate::numeric::scatter::median;
 use crate::refusal::Refusal;
 use nalgebra::{DMatrix, DVector, Vector2};
 use std::f64::consts::TAU;

@@ -5,10 +5,11 @@
 //! first order only the error of the point itself, along n, comes into the lift. The normals are those of a parabola through neighbours, fitted by
 //! least squares.
 
-use super::positions::{Positions, median};
+use super::positions::Positions;
 use crate::follower::{Element, Follower};
 use crate::geometry::MILLIMETRES;
 use crate::motion::Jet;
+use crate::numeric::scatter::median;
 use crate::refusal::Refusal;
 use nalgebra::{Matrix3, Vector2, Vector3};
 use std::f64::consts::TAU;

@@ -59,6 +59,8 @@ const LEAST_OF_TABLE: f64 = 0.5e-6;
 const LEAST_OF_POINTS: f64 = 1e-6;
 /// Noise above this share of a step is not that of rounding.
 const BEYOND_ROUNDING: f64 = 0.5;
+/// How a cam is assumed to turn where it is not said.
+const ROTATION: (&str, &str) = ("cam.rotation", "cw");
 /// Times that the centre is found anew.
 const CENTRED: usize = 3;
 /// Round base radii, mm, and how far off one may be, over what is left of the positions and at least, mm.
@@ -178,18 +180,14 @@ pub fn analysis(source: &ImportSource, options: &ImportOptions) -> Result<Analys
         return Err(Refusal::new(what).remedy("give it, e.g. --follower roller,diameter=24mm, or with a pivot --follower swinging-roller,diameter=32mm,arm=110mm,pivot_distance=140mm"));
     }
     let machine = machine(options)?;
-    let import = |whole: bool| {
-        let imported = match source {
-            ImportSource::Table(rows) => of_table(rows, &machine, (options, whole))?,
-            ImportSource::Outline(contour, told) => of_outline((contour, told), &machine, (options, whole))?,
-            ImportSource::Points(points, ball) => of_points((points, *ball), &machine, (options, whole))?,
-        };
-        designed(imported, &machine, options)
-    };
-    let mut imported = import(false)?;
-    // Splines between rests may leave too much where the motion does not quite rest.
-    if options.spline && imported.left.largest > imported.deviation && !imported.found.whole {
-        imported = import(true)?;
+    let mut imported = best(source, &machine, options)?;
+    // Points about another centre than that of the dwells follow no law.
+    if let (ImportSource::Points(..), None, splines @ 1..) = (source, options.fit, imported.splines()) {
+        let centred = best(source, &machine, &ImportOptions { fit: Some(ImportFit::Centre), ..options.clone() });
+        let fewer = centred.ok().filter(|centred| centred.splines() < splines);
+        imported
+            .told
+            .extend(fewer.and_then(|centred| Some(other_centre((splines, centred.splines()), centred.shift?))));
     }
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs(KIND.keys).into_iter().filter(|input| !input.key.starts_with("motion")));
@@ -215,6 +213,32 @@ pub fn analysis(source: &ImportSource, options: &ImportOptions) -> Result<Analys
         not_modelled: Vec::new(),
         sections: vec![imported.section()],
     })
+}
+
+/// The design by these options, through all positions as one spline where splines between rests leave too much.
+fn best(source: &ImportSource, machine: &Machine, options: &ImportOptions) -> Result<Imported, Refusal> {
+    let import = |whole: bool| {
+        let imported = match source {
+            ImportSource::Table(rows) => of_table(rows, machine, (options, whole))?,
+            ImportSource::Outline(contour, told) => of_outline((contour, told), machine, (options, whole))?,
+            ImportSource::Points(points, ball) => of_points((points, *ball), machine, (options, whole))?,
+        };
+        designed(imported, machine, options)
+    };
+    let imported = import(false)?;
+    // The motion may not quite rest where a rest was taken.
+    let whole = options.spline && imported.left.largest > imported.deviation && !imported.found.whole;
+    if whole { import(true) } else { Ok(imported) }
+}
+
+/// A centre (mm) about which more of the motion follows laws than about the given one: splines of both.
+fn other_centre((splines, left): (usize, usize), centre: Vector2<f64>) -> String {
+    let shown = |value: f64| format!("{:.4}", value + 0.0);
+    format!(
+        "the cam may turn about another point than (0, 0): about ({}, {}) mm, {left} instead of {splines} stretches follow no law; try --fit centre",
+        shown(centre.x),
+        shown(centre.y)
+    )
 }
 
 /// The laws that may be recognised.
@@ -412,6 +436,12 @@ fn designed(mut imported: Imported, machine: &Machine, options: &ImportOptions) 
         imported.base_radius = Some(radius);
         imported.move_by(0.0, -lowest);
         settings.retain(|(key, _)| key != "cam.base_radius");
+        if !settings.iter().any(|(key, _)| key == ROTATION.0) {
+            settings.push((ROTATION.0.into(), design::quoted(ROTATION.1)));
+            imported.told.push(
+                "the cam is assumed to turn clockwise: an outline does not show it; --set cam.rotation=ccw imports it the other way".into(),
+            );
+        }
         settings.push(("cam.base_radius".into(), design::quoted(&format!("{radius} mm"))));
     }
     let deviation = imported.deviation;

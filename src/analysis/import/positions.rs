@@ -1,6 +1,7 @@
 //! Positions of a follower over a turn or lobe, as they were imported: from a table, rolled on an outline, or from measured points.
 
 use crate::motion::Quantity;
+use crate::numeric::scatter::{self, OF_MEDIAN, median};
 use std::collections::VecDeque;
 
 /// Fewest positions in which a motion is looked for.
@@ -9,8 +10,6 @@ pub(super) const FEWEST: usize = 8;
 /// asked for.
 const OUTLIER: f64 = 12.0;
 const OF_DEVIATION: f64 = 3.0;
-/// The normal distribution: its standard deviation over the median of its sizes.
-const OF_MEDIAN: f64 = 1.4826;
 /// What nineteen of twenty stay below, over the standard deviation; and by how much the noise may differ.
 const OF_MOST: f64 = 1.96;
 const MOST_UNEVEN: f64 = 2.0;
@@ -84,19 +83,8 @@ impl Positions {
         if count <= others[3].max(own) {
             return None;
         }
-        let x = self.angle(first + own);
-        let (mut sum, mut square) = (self.value(first + own), 1.0);
-        for node in others {
-            let at = self.angle(first + node);
-            let weight: f64 = others
-                .iter()
-                .filter(|other| *other != node)
-                .map(|other| (x - self.angle(first + other)) / (at - self.angle(first + other)))
-                .product();
-            sum -= weight * self.value(first + node);
-            square += weight * weight;
-        }
-        (square.is_finite() && square > 0.0).then(|| sum / square.sqrt())
+        let place = |at: usize| (self.angle(first + at), self.value(first + at));
+        scatter::off_neighbours(place(own), &others.map(place))
     }
 
     /// A position that is far off its neighbours, which agree among themselves: its index and by how much.
@@ -153,10 +141,4 @@ impl Positions {
         }
         found
     }
-}
-
-/// The value in the middle; 0 of none.
-pub(super) fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }

@@ -155,6 +155,13 @@ impl Imported {
         }
     }
 
+    /// Stretches that follow no law.
+    pub(super) fn splines(&self) -> usize {
+        let unknown =
+            self.found.model.segments.iter().filter(|segment| matches!(segment.law, ModelLaw::Unknown)).count();
+        unknown.max(usize::from(self.found.whole))
+    }
+
     /// Moves everything by an angle (rad) and a position (m or rad).
     pub(super) fn move_by(&mut self, angle: f64, position: f64) {
         self.rows.angles.iter_mut().for_each(|at| *at += angle);

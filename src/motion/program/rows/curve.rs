@@ -27,6 +27,7 @@ pub(super) fn program(
         dwells: turn.dwells.clone(),
         ends: None,
         spacing: turn.spacing / whole.fill,
+        rounding: rows.rounding,
     };
     let smooth = wishes.smooth.unwrap_or(0.0);
     // Rests contradict nothing.
@@ -47,7 +48,7 @@ pub(super) fn program(
         let base = base + if wishes.cubic { 0.0 } else { found.values.first().copied().unwrap_or(0.0) };
         Program::of_curve(whole.quantity, Span::Turn { at: turn.at, lobes }, base, (rows.name(), curve))
     };
-    let figures = run.figures(&found, rows.rounding, wishes, &rows.told).placed((turn.at, whole.fill), 1.0);
+    let figures = run.figures(&found, wishes, &rows.told).placed((turn.at, whole.fill), 1.0);
     let cubic_overshoot = wishes.cubic.then(|| overshoot_of(&program, turn, base, whole));
     let overshoot = cubic_overshoot.unwrap_or(figures.overshoot);
     Program { rows: vec![RowFigures { overshoot, ..figures }], ..program }

@@ -19,6 +19,9 @@ use crate::units::{self, Dimension};
 pub use super::keys::{RestOfTurn, RowShape};
 pub use segment::SplineRows;
 
+/// Equal rows more than this many usual spacings apart are a dwell.
+const OF_DWELL: f64 = 1.5;
+
 /// A row: cam angle, rad, and position above start, m or rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct RowPlace {
@@ -114,6 +117,19 @@ pub struct Smoothing {
     pub rms: f64,
 }
 
+/// What errors of rows do to the acceleration of the curve through them; positions in m or rad, angles in rad of the cam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RowNoise {
+    /// Standard deviation of their scatter about a smooth curve, where it is more than that of their rounding.
+    pub scatter: Option<f64>,
+    /// The largest deviation with which smoothing takes the errors away.
+    pub smooth: f64,
+    /// The largest acceleration as it is.
+    pub largest: f64,
+    /// The largest acceleration of rows smoothed so.
+    pub smoothed: f64,
+}
+
 /// Figures of a curve through rows; angles in rad of the cam, positions in m or rad.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowFigures {
@@ -133,9 +149,8 @@ pub struct RowFigures {
     pub rounding: f64,
     /// How they were smoothed.
     pub smoothing: Option<Smoothing>,
-    /// Largest accelerations through the rows and with their rounding smoothed, by the cam angle, where they look rounded and nothing
-    /// is asked for.
-    pub noise: Option<(f64, f64)>,
+    /// What errors of the rows do to the acceleration, where they are seen and not smoothed.
+    pub noise: Option<RowNoise>,
     /// What was read otherwise than as it stands, in words.
     pub told: Vec<String>,
 }
@@ -165,7 +180,12 @@ impl RowFigures {
                 largest: size * largest,
                 rms: size * rms,
             }),
-            noise: self.noise.map(|(now, smooth)| (size * now / width / width, size * smooth / width / width)),
+            noise: self.noise.map(|noise| RowNoise {
+                scatter: noise.scatter.map(|scatter| size * scatter),
+                smooth: size * noise.smooth,
+                largest: size * noise.largest / width / width,
+                smoothed: size * noise.smoothed / width / width,
+            }),
             ..self
         }
     }
@@ -234,13 +254,6 @@ fn smoothing(
     let help = format!("\"auto\", or the largest deviation from a row, e.g. \"{example}\"");
     table.fail(key, fault.unwrap_or_default(), Some(help));
     Err(FaultReported)
-}
-
-/// The value in the middle of those that are sorted.
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// The program through rows, from a position on, in a number of lobes.

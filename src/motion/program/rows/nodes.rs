@@ -1,20 +1,30 @@
 //! The nodes of a curve through rows, or near them, and the figures of it; of a whole turn and of a segment alike.
 
-use super::{RowFigures, RowShape, RowWishes, Smoothing};
+use super::{OF_DWELL, RowFigures, RowNoise, RowShape, RowWishes, Smoothing};
 use crate::motion::laws::spline;
 use crate::numeric::bounded_jerk::{self, Given, NotMonotonic, STAYS};
 use crate::numeric::extremum;
 use crate::numeric::least_jerk::{NodeConstraint, NodeInterval, least_jerk};
+use crate::numeric::scatter::scatter;
 
 /// Cells in which the extremes of a quintic are separated.
 const CELLS: u32 = 8;
 /// Fewest rows in which rounding is looked for.
 const FEWEST_OF_ROUNDED: usize = 24;
-/// A step above this share of the lift is a choice of numbers, not rounding.
+/// A step or a scatter above this share of the lift is a choice of numbers, not an error.
 const MOST_OF_ROUNDED: f64 = 0.02;
 /// Rounding by half a step makes the second difference of rows wrong by up to two steps; below this share of the largest acceleration
 /// nothing is compared.
 const MATTERS: f64 = 0.05;
+/// Scatter is seen above this many steps of the rounding, which itself scatters by 0.29 of them where rows are far apart, by 0.78 of them on a
+/// straight line of half a step a row.
+const OF_ROUNDING: f64 = 0.8;
+/// All but one in two thousand rows are within so many standard deviations.
+const OF_SCATTER: f64 = 3.5;
+/// Equal rows that scatter are a dwell where they fill more than so many usual spacings: fewer are equal by chance.
+const OF_DWELL_THAT_SCATTERS: f64 = 8.0;
+/// Rows of the next turn with which those at the end of one have neighbours.
+const AROUND: usize = 6;
 /// A rise that begins with a continuous acceleration grows with the third power of the angle: it is this many steps high at twice the
 /// angle at which it is one.
 const CUBED: f64 = 8.0;
@@ -30,6 +40,8 @@ pub(super) struct RowRun<'a> {
     pub(super) ends: Option<[NodeConstraint; 2]>,
     /// The usual interval, a share.
     pub(super) spacing: f64,
+    /// The step to which the values are rounded; 0 where none is seen.
+    pub(super) rounding: f64,
 }
 
 /// Value, velocity and acceleration at the nodes, by the share.
@@ -136,6 +148,7 @@ impl RowRun<'_> {
         let first = if closed { (0..count).find(|at| !is_flat(*at)) } else { Some(0) };
         let Some(first) = first else { return };
         let rests = self.ends.map(|ends| ends.map(|end| end == [Some(0.0); 2]));
+        let shortest = if self.scatter().is_some() { OF_DWELL_THAT_SCATTERS } else { OF_DWELL };
         let mut at = first;
         while at < first + count {
             if !is_flat(at) {
@@ -143,6 +156,10 @@ impl RowRun<'_> {
                 continue;
             }
             let end = (at..first + count).find(|at| !is_flat(*at)).unwrap_or(first + count);
+            if place(end) - place(at) < shortest * self.spacing {
+                at = end;
+                continue;
+            }
             // Outwards from either end of the run, how far behind it the motion begins; before it where that is negative.
             let begins = |outward: &dyn Fn(usize) -> Option<usize>, own: f64| {
                 let steps = (1..count).map_while(|by| {
@@ -176,7 +193,7 @@ impl RowRun<'_> {
     }
 
     /// Figures of the curve of some nodes, by the share.
-    pub(super) fn figures(&self, found: &Nodes, rounding: f64, wishes: RowWishes, told: &[String]) -> RowFigures {
+    pub(super) fn figures(&self, found: &Nodes, wishes: RowWishes, told: &[String]) -> RowFigures {
         let count = if self.ends.is_none() { self.dwells.len() } else { self.knots.len() };
         let gaps = || self.knots.iter().zip(self.knots.iter().skip(1)).zip(&found.dwells);
         let widest = gaps()
@@ -204,27 +221,42 @@ impl RowRun<'_> {
             widest: widest.unwrap_or((0.0, 0.0)),
             dwells,
             overshoot: overshoot(self.knots, found),
-            rounding,
+            rounding: self.rounding,
             smoothing,
-            noise: self.noise(found, rounding, wishes),
+            noise: self.noise(found, wishes),
             told: told.to_vec(),
         }
     }
 
-    /// Largest accelerations as it is and with the rounding smoothed, by the share, where that may matter.
-    fn noise(&self, found: &Nodes, rounding: f64, wishes: RowWishes) -> Option<(f64, f64)> {
+    /// Largest accelerations as it is and with the errors of the rows smoothed, by the share, where that may matter.
+    fn noise(&self, found: &Nodes, wishes: RowWishes) -> Option<RowNoise> {
         let range = |(low, high): (f64, f64), value: &f64| (low.min(*value), high.max(*value));
         let (low, high) = self.values.iter().fold((0.0_f64, 0.0_f64), range);
-        let now = found.largest_acceleration();
-        let looks = rounding > 0.0
-            && rounding <= MOST_OF_ROUNDED * (high - low)
+        let largest = found.largest_acceleration();
+        let scatter = self.scatter();
+        let (error, smooth) =
+            scatter.map_or((self.rounding, 0.5 * self.rounding), |sigma| (OF_SCATTER * sigma, OF_SCATTER * sigma));
+        let looks = error > 0.0
+            && error <= MOST_OF_ROUNDED * (high - low)
             && self.dwells.len() >= FEWEST_OF_ROUNDED
-            && 2.0 * rounding / (self.spacing * self.spacing) > MATTERS * now;
-        if wishes.smooth.is_some() || wishes.cubic || !looks {
+            && 2.0 * error / (self.spacing * self.spacing) > MATTERS * largest;
+        // What is asked for may be too little for the scatter.
+        let asked = wishes.smooth.is_some_and(|asked| scatter.is_none() || asked > 0.5 * smooth);
+        if asked || wishes.cubic || !looks {
             return None;
         }
-        let smooth = self.nodes(wishes.shape, 0.5 * rounding).ok()?.largest_acceleration();
-        Some((now, smooth))
+        let smoothed = self.nodes(wishes.shape, smooth).ok()?.largest_acceleration();
+        Some(RowNoise { scatter, smooth, largest, smoothed })
+    }
+
+    /// Standard deviation of the scatter of the rows about a smooth curve, where it is more than that of their rounding.
+    fn scatter(&self) -> Option<f64> {
+        let count = if self.ends.is_none() { self.dwells.len() } else { self.knots.len() };
+        let rows: Vec<(f64, f64)> = self.knots.iter().copied().zip(self.values.iter().copied()).take(count).collect();
+        // Around the end of a turn once more.
+        let again = rows.iter().filter(|_| self.ends.is_none()).take(AROUND).map(|(at, value)| (at + 1.0, *value));
+        let around: Vec<(f64, f64)> = rows.iter().copied().chain(again).collect();
+        scatter(&around).filter(|sigma| *sigma > OF_ROUNDING * self.rounding)
     }
 }
 

@@ -1,13 +1,14 @@
 //! Rows inside of a segment: the points of a spline, the shares of a table.
 
 use super::nodes::{Nodes, RowRun};
-use super::{RowFigures, RowShape, RowWishes, median, smoothing};
+use super::{RowFigures, RowShape, RowWishes, smoothing};
 use crate::document::TableReader;
 use crate::motion::laws::spline::{self, SplineEnds};
 use crate::motion::laws::{LawCurve, LawError};
 use crate::motion::program::keys::{BETWEEN_ROWS, SMOOTH_ROWS, SPLINE, TABULATED};
 use crate::numeric::bounded_jerk::NotMonotonic;
 use crate::numeric::least_jerk::NodeConstraint;
+use crate::numeric::scatter::median;
 use crate::units::Dimension;
 
 /// Shares with a last digit above this are a choice of numbers, not rounding.
@@ -51,10 +52,17 @@ pub(in crate::motion::program) fn refuse_keys(segment: &TableReader<'_>, law: &s
     (!shape && !smooth).then_some(())
 }
 
-/// Rows of a segment without rests, with what is given at its ends.
-fn run<'a>(knots: &'a [f64], values: &'a [f64], ends: [NodeConstraint; 2]) -> RowRun<'a> {
-    let widths: Vec<f64> = knots.iter().zip(knots.iter().skip(1)).map(|(from, to)| to - from).collect();
-    RowRun { knots, values, dwells: vec![false; widths.len()], ends: Some(ends), spacing: median(&widths) }
+/// Rows of a segment without rests, rounded to a step, with what is given at its ends.
+fn run<'a>(knots: &'a [f64], values: &'a [f64], rounding: f64, ends: [NodeConstraint; 2]) -> RowRun<'a> {
+    let mut widths: Vec<f64> = knots.iter().zip(knots.iter().skip(1)).map(|(from, to)| to - from).collect();
+    RowRun {
+        knots,
+        values,
+        dwells: vec![false; widths.len()],
+        ends: Some(ends),
+        spacing: median(&mut widths),
+        rounding,
+    }
 }
 
 /// The states at both ends, given.
@@ -70,7 +78,7 @@ impl SplineRows {
         values: &[f64],
         ends: [NodeConstraint; 2],
     ) -> (Vec<f64>, Vec<bool>) {
-        let rows = run(knots, values, ends);
+        let rows = run(knots, values, self.rounding, ends);
         match rows.nodes(RowShape::Natural, self.wishes.smooth.unwrap_or(0.0)) {
             Ok(found) => (found.values, found.dwells),
             Err(_) => (values.to_vec(), rows.dwells),
@@ -92,11 +100,11 @@ impl SplineRows {
         let mut found = Nodes { values, states, dwells };
         let ends = ends_of(&found);
         if self.wishes.shape == RowShape::Monotonic {
-            let rows = RowRun { dwells: found.dwells.clone(), ..run(knots, &found.values, ends) };
+            let rows = RowRun { dwells: found.dwells.clone(), ..run(knots, &found.values, self.rounding, ends) };
             let monotonic = rows.nodes(RowShape::Monotonic, 0.0);
             found = monotonic.map_err(|at| contradiction(knots, &found, at))?;
         }
-        let figures = run(knots, typed, ends).figures(&found, self.rounding, self.wishes, &[]);
+        let figures = run(knots, typed, self.rounding, ends).figures(&found, self.wishes, &[]);
         Ok((spline::chain(knots, &found.jets()), figures))
     }
 }
@@ -183,7 +191,7 @@ pub(in crate::motion::program) fn tabulated(
     };
     let mut found = Nodes { values: values.to_vec(), states, dwells: vec![false; knots.len().saturating_sub(1)] };
     let given = rests_of(knots, values, ends, wishes.smooth.unwrap_or(error).max(if seen { error } else { 0.0 }));
-    let rows = run(knots, values, given);
+    let rows = run(knots, values, rounding, given);
     let smooth = wishes.smooth.unwrap_or(0.0);
     if smooth > 0.0
         && let Ok(smoothed) = rows.nodes(RowShape::Natural, smooth)
@@ -193,13 +201,13 @@ pub(in crate::motion::program) fn tabulated(
     if wishes.shape == RowShape::Monotonic {
         // The table determines its ends: where theirs contradict the shape, they give way.
         let with = |ends: [NodeConstraint; 2]| {
-            let rows = RowRun { dwells: found.dwells.clone(), ..run(knots, &found.values, ends) };
+            let rows = RowRun { dwells: found.dwells.clone(), ..run(knots, &found.values, rounding, ends) };
             rows.nodes(RowShape::Monotonic, 0.0)
         };
         let free = if ends == SplineEnds::Rest { [[Some(0.0); 2]; 2] } else { [[None; 2]; 2] };
         found = with(ends_of(&found)).or_else(|_| with(free)).unwrap_or(found);
     }
-    let figures = rows.figures(&found, rounding, wishes, &[]);
+    let figures = rows.figures(&found, wishes, &[]);
     (spline::chain(knots, &found.jets()), figures)
 }
 

@@ -1,10 +1,11 @@
 //! What rows cover of a turn: their order, the row that closes it, a half that is mirrored, a part that rests.
 
 use super::file::looks_like_radians;
-use super::{Origin, RestOfTurn, RowPlace, Rows, degrees, median};
+use super::{OF_DWELL, Origin, RestOfTurn, RowPlace, Rows, degrees};
 use crate::document::TableReader;
 use crate::motion::program::context::ProgramContext;
 use crate::motion::program::keys::MIRROR;
+use crate::numeric::scatter::median;
 use std::f64::consts::TAU;
 
 /// Typed angles that differ by less are equal, rad.
@@ -19,8 +20,6 @@ const EVEN: f64 = 1.2;
 const OF_UNEVEN: f64 = 1.5;
 /// Rounding of the angles moves the row that closes the turn by at most this share of the least spacing.
 const CLOSING: f64 = 0.2;
-/// Equal neighbours this many usual spacings apart are a dwell.
-const OF_DWELL: f64 = 1.5;
 
 /// Rows that cover a turn or lobe: knots as shares of it from the first row on, the last one closing it.
 pub(super) struct Turn {
@@ -77,7 +76,7 @@ impl Turn {
             too_few_behind_the_first(table, rows);
             return None;
         }
-        let spacing = median(&widths);
+        let spacing = median(&mut widths.clone());
         let ends = pairs(&rows.points).map(|(a, b)| (a.position, b.position, b.at - a.at));
         let ends = ends.chain([(last.position, first.position, open)]);
         let mut dwells: Vec<bool> =
