@@ -34,7 +34,8 @@ pub const SPEED: Check = Check {
     about: "The largest speed of the roller about its own axis.",
     explained: CheckExplanation {
         bound: Bound::AtMost,
-        formula: "largest | ± |C'|/r − 1 − τψ' | over the turn, times the speed of the cam; the other sign on a flank around the roller",
+        formula: "largest | ± |C'|/r − 1 − τψ' | over the turn, times the speed of the cam; the other sign on a flank around the roller; τψ' is how fast an arm swings against \
+                  the rotation of the cam, 0 on a straight path",
         usual: "`limiting_speed` of the bearing, from its catalogue",
         change: "a larger roller, a smaller `cam.base_radius`, or a slower cam",
     },

@@ -17,7 +17,7 @@ pub const CHECK: Check = Check {
             contact holds; in a point of contact it warns up to the limit at rest.",
     explained: CheckExplanation {
         bound: Bound::AtMost,
-        formula: "p² = F E*/(π b R) in a line of length b, with 1/R of both curvatures; Hertz's ellipse under a crown or a sphere \
+        formula: "p² = F E*/(π b R) in a line of length b, 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, 1/R = 1/ρ + 1/r with ρ below 0 where the profile is concave; Hertz's ellipse under a crown or a sphere \
                   (K. L. Johnson, Contact Mechanics)",
         usual: "depends on the material; of hardened steel 1500 MPa in running contact, the fatigue limit of ISO 281, and in a point at rest 4200 MPa (ISO 76)",
         change: "a wider or larger roller, a larger `follower.*.crown_radius`, a larger `cam.base_radius`, a harder `cam.material`, or `limits.contact_stress`",

@@ -15,8 +15,8 @@ pub const CHECK: Check = Check {
     explained: CheckExplanation {
         bound: Bound::AtLeast,
         formula: "the least distance between the profile and what is cut inside it, and between holes",
-        usual: "the larger of 3 mm and 0.15 of the bore's radius, about half of the hub of ANSI/ASME B29.1 (3.2 mm and a sixth of the bore's diameter), \
-                and 1 mm about balance holes; `limits.wall` where it is given",
+        usual: "the larger of 3 mm and 0.15 of the bore's radius (camgen's own rule; the hub of ANSI/ASME B29.1 has 3.2 mm and a sixth of the bore's \
+                diameter), and 1 mm about balance holes; `limits.wall` where it is given",
         change: "a larger `cam.base_radius`, a smaller `cam.bore_radius`, or a higher `translating.plate_height`",
     },
 };

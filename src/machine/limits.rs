@@ -155,7 +155,7 @@ const MIN_CONVEX: Field<f64> = Field::number(
 );
 const MIN_CONVEX_RADIUS: Field<f64> = Field::quantity(
     "min_convex_radius",
-    "smallest convex radius of the profile; under a flat face 1 mm is kept by base_radius = \"auto\" when absent",
+    "smallest convex radius of the profile, under a roller checked on the pitch curve with the radius of the roller added to figure and limit; under a flat face 1 mm is kept by base_radius = \"auto\" when absent",
     Optional("5 mm"),
     Length,
     above(0.0, LONGEST),
@@ -172,7 +172,7 @@ const CUTTER_DIAMETER: Key =
     CUTTER_RADIUS.diameter("cutter_diameter", "diameter of the cutter, in the place of its radius", "20 mm");
 const WALL: Field<f64> = Field::quantity(
     "wall",
-    "smallest wall between what is cut: profile, bore with keyway and holes, or the flanks of a plate; when absent, the larger of 3 mm and 0.15 of the bore's radius (about half of the hub of ANSI/ASME B29.1), 1 mm about balance holes",
+    "smallest wall between what is cut: profile, bore with keyway and holes, or the flanks of a plate; when absent, the larger of 3 mm and 0.15 of the bore's radius (camgen's own rule, well below the hub of ANSI/ASME B29.1 for bores above 20 mm), 1 mm about balance holes",
     Optional("4 mm"),
     Length,
     within(0.0, LONGEST),
@@ -229,7 +229,7 @@ const ROLLER_LIFE: Field<f64> = Field::number(
 .only(WITH_A_RATED_ROLLER);
 const RESIDUAL: Field<f64> = Field::number(
     "residual",
-    "largest residual vibration after a movement of a motion program, over its travel; only reported when absent",
+    "for the check `vibration`: largest residual vibration after a movement of a motion program, over its travel; only reported when absent",
     Optional("0.01"),
     above(0.0, LARGEST_NUMBER),
 )

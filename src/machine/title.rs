@@ -19,7 +19,7 @@ pub struct Title {
     pub designer: Option<String>,
     /// Approval person.
     pub approved: Option<String>,
-    /// General tolerance, e.g. "ISO 2768-mK".
+    /// General tolerance, e.g. "ISO 2768-m".
     pub general_tolerance: Option<String>,
     /// Surface roughness of the profile, e.g. "Ra 0.8".
     pub surface_roughness: Option<String>,
@@ -58,7 +58,7 @@ const APPROVED: Field<String> = Field::text("approved", "who approved it", Optio
 const GENERAL_TOLERANCE: Field<String> = Field::text(
     "general_tolerance",
     "tolerance of all dimensions without one of their own, e.g. of the bore",
-    Optional("ISO 2768-mK"),
+    Optional("ISO 2768-m"),
 );
 const SURFACE_ROUGHNESS: Field<String> =
     Field::text("surface_roughness", "largest roughness of the profile", Optional("Ra 0.8"));

@@ -16,7 +16,7 @@ pub(super) const LAYER: FileCheck = FileCheck::on_file(
     CheckExplanation {
         bound: Bound::Exactly,
         formula: "the number of layers CAM_PROFILE that are not empty",
-        usual: "camgen's own rule: its cut files have the outline on CAM_PROFILE",
+        usual: "1, camgen's own rule: its cut files have the outline on CAM_PROFILE",
         change: "put the outline on layer CAM_PROFILE of the file, or give its layer with --layer",
     },
     |evidence| worst_of(evidence, layer),
@@ -29,7 +29,7 @@ pub(super) const UNITS: FileCheck = FileCheck::on_file(
     CheckExplanation {
         bound: Bound::Exactly,
         formula: "$INSUNITS, or $MEASUREMENT, of a DXF file; the length unit of a STEP file",
-        usual: "camgen's own rule: many programs do not look at the unit that a DXF file states",
+        usual: "the unit of the design, camgen's own rule: many programs do not look at the unit that a DXF file states",
         change: "save the file in that unit, or give --units inch where it is to be in inches",
     },
     |evidence| {
@@ -48,7 +48,7 @@ pub(super) const READABLE: FileCheck = FileCheck::on_file(
     CheckExplanation {
         bound: Bound::AtMost,
         formula: "the number of such entities",
-        usual: "camgen's own rule: what a reader cannot place might be cut",
+        usual: "0, camgen's own rule: what a reader cannot place might be cut",
         change: "delete or explode the entities that are named, and save a plain two-dimensional DXF",
     },
     |evidence| worst_of(evidence, |reading| readable(evidence, reading)),
@@ -61,7 +61,7 @@ pub(super) const DUPLICATES: FileCheck = FileCheck::on_file(
     CheckExplanation {
         bound: Bound::AtMost,
         formula: "the number of such segments",
-        usual: "camgen's own rule; a duplicate would be cut twice",
+        usual: "0, camgen's own rule: a duplicate would be cut twice",
         change: "delete the segments that are named (OVERKILL in AutoCAD)",
     },
     |evidence| worst_of(evidence, |reading| duplicates(evidence, reading)),
@@ -74,7 +74,7 @@ pub(super) const CONTOURS: FileCheck = FileCheck::on_file(
     CheckExplanation {
         bound: Bound::Exactly,
         formula: "the number of contours after joining ends",
-        usual: "camgen's own rule: a cam has one outline",
+        usual: "1, camgen's own rule: a cam has one outline",
         change: "keep one contour on the layer of the outline; put the rest on other layers",
     },
     |evidence| worst_of(evidence, contours),
@@ -87,7 +87,7 @@ pub(super) const CLOSED: FileCheck = FileCheck::on_file(
     CheckExplanation {
         bound: Bound::AtMost,
         formula: "the distance of the two ends of the outline",
-        usual: "camgen's own rule: a tenth of the tolerance",
+        usual: "a tenth of the tolerance, camgen's own rule",
         change: "join the ends of the outline",
     },
     |evidence| evidence.foreign.iter().filter_map(|reading| closed(evidence, reading)).reduce(worse),

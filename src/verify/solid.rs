@@ -18,7 +18,7 @@ pub(super) const SOLIDS: FileCheck = FileCheck::on_file(
     CheckExplanation {
         bound: Bound::Exactly,
         formula: "the number of MANIFOLD_SOLID_BREP",
-        usual: "camgen's own rule: a cam is one solid",
+        usual: "1, camgen's own rule: a cam is one solid",
         change: "save the cam alone, as one solid",
     },
     |evidence| Some(solids(evidence.solid?)),
@@ -72,7 +72,7 @@ pub(super) const VOLUME: FileCheck = FileCheck::on_file(
     CheckExplanation {
         bound: Bound::Exactly,
         formula: "∮ over the walls, compared with area × thickness",
-        usual: "camgen's own rule: they agree to a millionth",
+        usual: "the same to a millionth, camgen's own rule",
         change: "write the solid with camgen again",
     },
     |evidence| volume(evidence, evidence.solid?),

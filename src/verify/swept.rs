@@ -76,7 +76,7 @@ pub(super) const SOLID_VOLUME: FileCheck = check_of(
     CheckExplanation {
         bound: Bound::Exactly,
         formula: "∮ z n_z over all faces, compared with the blank less its grooves and the bore",
-        usual: "camgen's own rule: they agree to a share of 1e-5",
+        usual: "the same to a share of 1e-5, camgen's own rule",
         change: "write the solid with camgen again",
     },
     |evidence| Some(solid_volume(evidence, evidence.swept?.solid.as_ref()?)),

@@ -103,7 +103,7 @@ const LEVER: Field<f64> = Field::number(
 .only(&[ROTARY, CONOID]);
 const RESIDUAL_SHARE: Field<f64> = Field::number(
     "residual_share",
-    "largest residual force over the largest inertia; when absent, less than a fixed bottom leaves",
+    "for the check `residual`: largest residual force over the largest inertia; when absent, less than a fixed bottom leaves",
     Optional("0.01"),
     above(0.0, LARGEST_NUMBER),
 )
