@@ -324,10 +324,16 @@ fn what_a_program_of_a_turned_cam_does_beside_its_passes_is_refused() {
 fn words_beside_unknown_ones_are_not_passed_over() {
     let cam = cam("feeder", &["cut.depth=8mm"]);
     let text = program(&cam, request(Controller::LinuxCnc, Some(4e-3)));
-    for line in ["G91 M13", "G0 X10 M13", "M98 P1000", "O<hole> call", "/G91", "G1 X10 Y=5 F100"] {
+    for line in ["G91 M13", "G0 X10 M13", "M98 P1000", "O<hole> call", "G1 X10 Y=5 F100"] {
         let wrong = with_line(&text, |own| own.starts_with("G17"), |own| format!("{own}\n{line}"));
         let why = checked(&cam, &wrong, Some(4e-3)).expect_err("refused").to_string();
         assert!(why.contains("not known") && why.contains("of their own"), "{line}: {why}");
+    }
+    for (line, passes) in [("/G91", false), ("/ G54", false), ("/M8", true), ("/2 M1", true)] {
+        let other = with_line(&text, |own| own.starts_with("G17"), |own| format!("{own}\n{line}"));
+        let found = checked(&cam, &other, Some(4e-3));
+        assert_eq!(found.as_ref().is_ok_and(|(passes, ..)| *passes), passes, "{line}: {found:?}");
+        assert!(passes || found.is_err_and(|why| why.to_string().contains("can be skipped (/)")), "{line}");
     }
     let own = with_line(&text, |own| own.starts_with("G17"), |own| format!("M13\n{own} G98 G64 P0.01"));
     assert!(checked(&cam, &own, Some(4e-3)).is_ok_and(|(passes, ..)| passes));
@@ -648,7 +654,7 @@ fn calls_and_jumps_are_refused_in_every_dialect() {
         (
             Sinumerik,
             "G17",
-            &["ROUGH_SUB", "ROUGH_SUB(1)", "L100", "RET", "M17", "GOTOF ENDE", "N10 EXTCALL(\"X\")"],
+            &["ROUGH_SUB", "ROUGH_SUB(1)", "L100", "GOTOF ENDE", "N10 EXTCALL(\"X\")"],
             &["FFWON", "ENDE:", "R1=5"],
         ),
         (LinuxCnc, "G17", &["o100 call", "M98 P100"], &["M19"]),
@@ -657,6 +663,13 @@ fn calls_and_jumps_are_refused_in_every_dialect() {
         for line in wrong {
             let found = why_refused(&cam, &with_lines(&text, before, line), None);
             assert!(found.contains("line "), "{controller:?} {line}: {found}");
+        }
+        // The end of a subprogram is an end: what follows is not cut.
+        for line in ["RET", "M17"].iter().filter(|_| controller == Sinumerik) {
+            let found = why_refused(&cam, &with_lines(&text, before, line), None);
+            assert!(found.contains("cuts nothing"), "{line}: {found}");
+            let ended = text.replace("M30", line);
+            assert!(checked(&cam, &ended, None).is_ok_and(|found| found.0), "{line}");
         }
         for line in right {
             let found = checked(&cam, &with_lines(&text, before, line), None);

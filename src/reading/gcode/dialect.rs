@@ -69,8 +69,10 @@ const FRAMES: [(&str, &str); 12] = [
 /// The control that a program is for: by words that only one of them has, by the number (`O0001`, `:0001`) or the name (`<CAM>`) with which a
 /// program for FANUC begins, or else that of its design.
 pub(super) fn dialect(text: &str, design: Option<Controller>) -> Option<Controller> {
-    let mut blocks =
-        text.lines().map(|line| line.trim().to_ascii_uppercase()).filter(|line| !line.is_empty() && line != "%");
+    let mut blocks = behind_its_start(text)
+        .lines()
+        .map(|line| line.trim().to_ascii_uppercase())
+        .filter(|line| !line.is_empty() && line != "%");
     let head: Vec<String> = blocks.by_ref().take(HEAD).collect();
     let has = |words: &[&str]| head.iter().any(|line| words.iter().any(|word| after(line, word).is_some()));
     let numbered = |line: &String| {
@@ -134,14 +136,42 @@ fn writes_variable(block: &str, control: Option<Controller>) -> bool {
     written.contains('$') || (written.contains('#') && system)
 }
 
-/// A block in which SINUMERIK's words for a place of the machine are those of the other controls.
-pub(super) fn with_machine_places(block: &str, control: Option<Controller>) -> String {
-    let upper = block.to_ascii_uppercase();
-    let named = ["SUPA", "G153"].iter().find(|word| has_word(&upper, word));
-    match named.filter(|_| control == Some(Controller::Sinumerik)) {
-        Some(word) => upper.replacen(word, "G53", 1),
-        None => block.to_owned(),
+/// A block in which SINUMERIK's words for a place of the machine, for numbers and for the end of a subprogram are those of the other controls:
+/// `SUPA` is G53, `X=10` X10, `CR=5` R5, `RET` M17.
+pub(super) fn in_common_words(block: &str, control: Option<Controller>) -> String {
+    if control != Some(Controller::Sinumerik) {
+        return block.to_owned();
     }
+    let upper = block.to_ascii_uppercase();
+    let named = [("SUPA", "G53"), ("G153", "G53"), ("RET", "M17")].into_iter().find(|(word, _)| has_word(&upper, word));
+    let mut plain = named.map_or(upper.clone(), |(word, common)| upper.replacen(word, common, 1));
+    for (word, letter) in [("CR", "R"), ("X", "X"), ("Y", "Y"), ("Z", "Z"), ("I", "I"), ("J", "J"), ("F", "F")] {
+        let Some(rest) = after(&plain, word).and_then(|rest| rest.trim_start().strip_prefix('=')) else { continue };
+        // A formula or a word behind the number stays what it is: not known.
+        let number = rest.split_ascii_whitespace().next().unwrap_or_default();
+        if number.parse().is_ok_and(|number: f64| number.is_finite()) {
+            let before = plain.len() - after(&plain, word).map_or(0, str::len) - word.len();
+            let kept = plain.get(..before).unwrap_or_default();
+            plain = format!("{kept}{letter}{rest}");
+        }
+    }
+    plain
+}
+
+/// What stands behind the first `%` of a program for FANUC, which reads nothing before it.
+pub(super) fn behind_its_start(text: &str) -> &str {
+    let mut at = 0;
+    for whole in text.split_inclusive('\n') {
+        at += whole.len();
+        let rest = text.get(at..).unwrap_or_default();
+        if whole.trim() == "%" {
+            let name = rest.trim_start();
+            let numbered =
+                name.strip_prefix(['O', 'o', ':']).is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+            return if numbered || (name.starts_with('<') && name.contains('>')) { rest } else { text };
+        }
+    }
+    text
 }
 
 /// By how much a block lets the control leave its path, in the unit of the program: G61, G64 and G64 P of LinuxCNC, without P as far as it likes; CYCLE832, CTOL

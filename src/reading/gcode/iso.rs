@@ -1,10 +1,10 @@
 //! Programs in words of a letter and a number: LinuxCNC, FANUC, SINUMERIK.
 
-use super::dialect::{dialect, moves_the_profile, path_tolerance, with_machine_places};
+use super::dialect::{behind_its_start, dialect, in_common_words, moves_the_profile, path_tolerance};
 use super::machine_state::{MachineState, at_line};
-use super::modal::{ModalWords, Situation, are_known, dwells, leaves, passed_over};
+use super::modal::{ModalWords, Situation, are_known, dwells, is_harmless, leaves, passed_over};
 use super::words::{Word, counted, of, without_comments, words};
-use super::{CutterProgram, CutterSide, MoveKind};
+use super::{CutterProgram, CutterSide, MoveKind, NO_MOVE, RADII};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
 use nalgebra::Vector2;
@@ -13,13 +13,16 @@ use nalgebra::Vector2;
 pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgram, Refusal> {
     let control = dialect(text, design);
     let (mut state, mut modal) = (MachineState::default(), ModalWords::of(control, false));
-    for (index, whole) in text.lines().enumerate() {
-        let line = index + 1;
+    // FANUC reads nothing before the first `%`.
+    let read = if control == Some(Controller::Fanuc) { behind_its_start(text) } else { text };
+    let before = text.lines().count() - read.lines().count();
+    for (index, whole) in read.lines().enumerate() {
+        let line = before + index + 1;
         if modal.ended {
             continue;
         }
         let block = without_comments(whole, control).ok_or_else(|| at_line(line, "a comment does not end"))?;
-        let block = with_machine_places(block.trim(), control);
+        let block = in_common_words(block.trim(), control);
         let block = block.as_str();
         if block.is_empty() || (block == "%" && !modal.begun) {
             continue;
@@ -28,6 +31,10 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
             return Err(at_line(line, "`%` ends the program for the control, before M2 or M30"));
         }
         modal.begun = true;
+        if let Some(skipped) = block.strip_prefix('/') {
+            may_be_skipped(line, skipped)?;
+            continue;
+        }
         if let Some(what) = moves_the_profile(block, control) {
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
         }
@@ -46,6 +53,16 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
         }
     }
     if modal.ended { state.program(control) } else { Err(Refusal::new("the program has no end (M2 or M30)")) }
+}
+
+/// A block behind `/`, which the operator may leave out: only one that changes nothing of the cut may be there.
+fn may_be_skipped(line: usize, block: &str) -> Result<(), Refusal> {
+    let number = |c: char| c.is_ascii_digit();
+    if words(block.trim_start_matches(number)).is_some_and(|words| is_harmless(&words)) {
+        return Ok(());
+    }
+    let what = "a block that can be skipped (/) may run or not, and changes the cut";
+    Err(at_line(line, what).remedy("remove the `/`, or the block"))
 }
 
 /// A block that goes to a place of the machine, such as `G91 G28 Z0`: only upwards, or with the cutter above the part.
@@ -81,23 +98,52 @@ fn run(line: usize, words: &[Word], state: &mut MachineState, modal: &mut ModalW
     if modal.control == Some(Controller::Sinumerik) && to != [None; 3] && (is(&58.0) || is(&59.0)) {
         return Err(at_line(line, "G58 and G59 with coordinates move the datum"));
     }
-    if to == [None; 3] && i.is_none() && j.is_none() {
+    let radius = of('R')?;
+    if to == [None; 3] && i.is_none() && j.is_none() && radius.is_none() {
         return Ok(());
     }
     modal.is_stated(line)?;
     let kind = match (modal.motion, state.place()) {
         (Some(0), _) => MoveKind::Rapid,
         (Some(1), _) => MoveKind::Line,
+        (Some(2 | 3), _) if radius.is_some() && (i.is_some() || j.is_some()) => {
+            return Err(at_line(line, "an arc has a radius (R) and a centre (I, J)"));
+        }
         (Some(way @ (2 | 3)), Some(place)) if i.is_some() || j.is_some() => {
             MoveKind::Arc { centre: place + Vector2::new(i.unwrap_or(0.0), j.unwrap_or(0.0)), left: way == 3 }
         }
-        (Some(2 | 3), _) => return Err(at_line(line, "an arc has no centre (I, J)")),
+        (Some(way @ (2 | 3)), Some(place)) if radius.is_some() => {
+            let end = Vector2::new(to[0].unwrap_or(place.x), to[1].unwrap_or(place.y));
+            MoveKind::Arc { centre: centre_of(line, (place, end), radius.unwrap_or(0.0), way == 3)?, left: way == 3 }
+        }
+        (Some(2 | 3), _) => return Err(at_line(line, "an arc has no centre (I, J) and no radius (R)")),
         _ => return Err(at_line(line, "the cutter is to move, and it is not stated how (G0 to G3)")),
     };
-    if (i.is_some() || j.is_some()) && !matches!(kind, MoveKind::Arc { .. }) {
-        return Err(at_line(line, "a straight move has a centre (I, J)"));
+    if (i.is_some() || j.is_some() || radius.is_some()) && !matches!(kind, MoveKind::Arc { .. }) {
+        return Err(at_line(line, "a straight move has a centre (I, J) or a radius (R)"));
     }
     state.go(line, kind, to)
+}
+
+/// The centre of an arc between two places with a radius: one above 0 turns by half a turn at most, one below 0 by more.
+fn centre_of(
+    line: usize,
+    (start, end): (Vector2<f64>, Vector2<f64>),
+    radius: f64,
+    left: bool,
+) -> Result<Vector2<f64>, Refusal> {
+    let half = 0.5 * (end - start);
+    let (chord, square) = (half.norm(), radius * radius - half.norm_squared());
+    if chord < NO_MOVE {
+        return Err(at_line(line, "an arc with a radius (R) ends where it begins").remedy("write its centre (I, J)"));
+    }
+    // Rounding of a half turn leaves the centre in the middle; controls take no more.
+    if chord > radius.abs() + RADII {
+        let what = format!("an arc with the radius {} mm ends {:.4} mm from its start", radius.abs(), 2.0 * chord);
+        return Err(at_line(line, what));
+    }
+    let side = if left == (radius > 0.0) { 1.0 } else { -1.0 };
+    Ok(start + half + side * square.max(0.0).sqrt() / chord * Vector2::new(-half.y, half.x))
 }
 
 #[cfg(test)]
@@ -135,6 +181,12 @@ mod tests {
             ("G90.1\n", "absolute"),
             ("G2 X10 I5.1\n", "off its circle"),
             ("G2 X10\n", "no centre"),
+            ("G2 X10 R4.9\n", "ends 10.0000 mm from its start"),
+            ("G2 X0 R5\n", "ends where it begins"),
+            ("G2 X10 I5 R5\n", "a radius (R) and a centre"),
+            ("G1 X10 R5\n", "straight move has a centre"),
+            ("/G1 X10\n", "can be skipped"),
+            ("/2 G54\n", "can be skipped"),
             ("G1 X10 I5\n", "straight move has a centre"),
             ("G5 X10 I5\n", "not known"),
             ("G1 X=10\n", "not known"),
@@ -151,6 +203,50 @@ mod tests {
         assert!(read(&format!("{HEAD}G0 X1 Y1 Z1\n"), None).is_err_and(|why| why.to_string().contains("end")));
         let own = read(&format!("CYCLE832(0.01)\nG55\n{HEAD}G0 X1 Y1 Z1\nM30\n"), None).expect("passed over");
         assert_eq!(own.unknown, ["CYCLE832"]);
+    }
+
+    #[test]
+    fn arcs_have_a_centre_or_a_radius() {
+        let start = "G0 X3 Y4 Z5\nG1 Z-1 F100\n";
+        let arc = |block: &str| {
+            let read = read(&format!("{HEAD}{start}{block}\nG0 Z5\nM30\n"), None).expect(block);
+            let MoveKind::Arc { centre, left } = read.moves[1].kind else { panic!("no arc: {block}") };
+            let sweep: f64 = read.moves[1].segments().iter().map(crate::geometry::contour::Segment::sweep).sum();
+            (centre, left, sweep)
+        };
+        // A quarter and three quarters of the circle about 0, in both senses.
+        for (by_radius, by_centre) in [
+            ("G3 X-4 Y3 R5", "G3 X-4 Y3 I-3 J-4"),
+            ("G2 X4 Y-3 R5", "G2 X4 Y-3 I-3 J-4"),
+            ("G2 X-4 Y3 R-5", "G2 X-4 Y3 I-3 J-4"),
+            ("G3 X4 Y-3 R-5", "G3 X4 Y-3 I-3 J-4"),
+            ("G3 X-3 Y-4 R5", "G3 X-3 Y-4 I-3 J-4"),
+        ] {
+            let ((centre, left, sweep), (other, other_left, other_sweep)) = (arc(by_radius), arc(by_centre));
+            assert!((centre - other).norm() < 1e-12 && left == other_left, "{by_radius}: {centre}");
+            assert!((sweep - other_sweep).abs() < 1e-12, "{by_radius}: {sweep} {other_sweep}");
+        }
+    }
+
+    #[test]
+    fn words_of_a_control_are_those_of_the_others() {
+        let own = "G17 G40 G90 G710\nG0 X=3 Y=4.0 Z5\n/M8\n/1 M1\nG1 Z=-1 F=100\nG3 X=-4 Y3 CR=5\nG0 Z5\nRET\nG0 Z-9\n";
+        let common = "G17 G40 G90 G710\nG0 X3 Y4 Z5\nM8\nM1\nG1 Z-1 F100\nG3 X-4 Y3 I-3 J-4\nG0 Z5\nM30\n";
+        let (own, common) = (read(own, None).expect("read"), read(common, None).expect("read"));
+        assert_eq!(own.moves.len(), 3);
+        for (a, b) in own.moves.iter().zip(&common.moves) {
+            assert!(a.from == b.from && a.to == b.to && (a.segments()[0].bulge - b.segments()[0].bulge).abs() < 1e-12);
+        }
+        for block in ["G1 X=R1+2", "G1 X=AC(3)", "G3 X0 Y5 I=AC(0)"] {
+            let text = format!("G17 G40 G90 G710\nG0 X3 Y4 Z5\nG1 Z-1 F100\n{block}\nG0 Z5\nM30\n");
+            assert!(read(&text, None).is_err_and(|why| why.to_string().contains("not known")), "{block}");
+        }
+        // Before the first % FANUC reads nothing.
+        let fanuc =
+            "SENT BY DNC G1 X9\n%\nO7\nG17 G21 G40 G90\nG0 X0. Y0. Z5.\nG1 Z-1. F100.\nG1 X1 F100.\nG0 Z5.\nM30\n%\n";
+        let why = read(fanuc, None).expect_err("increments").to_string();
+        assert!(why.contains("X1 has no decimal point") && why.contains("line 7"), "{why}");
+        assert!(read(&fanuc.replace("X1 ", "X1. "), None).is_ok());
     }
 
     #[test]

@@ -91,7 +91,9 @@ impl ModalWords {
         if self.control == Some(Controller::Sinumerik) && shifts && coordinates {
             return refused("G58 and G59 with coordinates move the datum");
         }
-        self.ended |= words.contains(&('M', 2.0)) || words.contains(&('M', 30.0));
+        // M17 ends a subprogram of SINUMERIK.
+        let ends = |code: f64| words.contains(&('M', code));
+        self.ended |= ends(2.0) || ends(30.0) || (ends(17.0) && self.control == Some(Controller::Sinumerik));
         Ok(())
     }
 
@@ -267,6 +269,13 @@ pub(super) fn dwells(words: &[Word]) -> bool {
     words.contains(&('G', 4.0))
 }
 
+/// Whether a block does nothing but stop, and switch the coolant.
+pub(super) fn is_harmless(words: &[Word]) -> bool {
+    words
+        .iter()
+        .all(|(letter, number)| *letter == 'N' || (*letter == 'M' && [0.0, 1.0, 7.0, 8.0, 9.0].contains(number)))
+}
+
 /// Codes in tenths whose effect on the path is known: G91.1 is 911.
 const KNOWN: [f64; 47] = [
     0.0, 10.0, 20.0, 30.0, 170.0, 180.0, 190.0, 200.0, 210.0, 400.0, 410.0, 420.0, 700.0, 710.0, 7000.0, 7100.0, 900.0,
@@ -285,7 +294,9 @@ pub(super) fn are_known(words: &[Word], axis: Option<char>) -> bool {
         'G' if REFERENCE.contains(number) => true,
         'G' if *number == 4.0 => !moves,
         'G' => KNOWN.iter().any(|known| (known - 10.0 * number).abs() < 1e-6),
-        'M' => number.fract() == 0.0 && ((0.0..=9.0).contains(number) || *number == 30.0),
+        'M' => number.fract() == 0.0 && ((0.0..=9.0).contains(number) || [17.0, 30.0].contains(number)),
+        // The radius of an arc.
+        'R' => axis.is_none(),
         'P' | 'Q' => exactly || waits,
         'U' => waits,
         'N' | 'O' | 'T' | 'D' | 'S' | 'F' | 'X' | 'Y' | 'Z' | 'I' | 'J' | 'H' => true,

@@ -2,7 +2,7 @@
 //! in all at once, in the time that each block gives (G93).
 
 use super::cutting_state::CuttingFeed;
-use super::dialect::{dialect, moves_the_profile, path_tolerance, with_machine_places};
+use super::dialect::{dialect, in_common_words, moves_the_profile, path_tolerance};
 use super::machine_state::at_line;
 use super::modal::{ModalWords, Situation, are_known, dwells, leaves, passed_over};
 use super::words::{Word, counted, of, without_comments, words};
@@ -70,7 +70,7 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
     for (index, whole) in text.lines().enumerate() {
         let line = index + 1;
         let block = without_comments(whole, control).ok_or_else(|| at_line(line, "a comment does not end"))?;
-        let block = with_machine_places(block.trim(), control);
+        let block = in_common_words(block.trim(), control);
         let block = block.as_str();
         if modal.ended || block.is_empty() || block == "%" {
             continue;
