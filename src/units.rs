@@ -372,6 +372,10 @@ fn other_number(text: &str) -> Option<QuantityError> {
         }
         return is_number.then_some(QuantityError::Comma { found, meant });
     }
+    let symbol = unit.trim();
+    if !symbol.is_empty() && unit_of(symbol, None).is_none() {
+        return Some(QuantityError::UnknownUnit { unit: quoted(symbol) });
+    }
     // `1/2 in` and `1 1/2 in`.
     let (before, above) =
         whole.rsplit_once([' ', '-']).filter(|(before, _)| !before.is_empty()).unwrap_or(("0", whole));
@@ -574,6 +578,7 @@ mod tests {
         assert_eq!(parse_rate("0,5 mm/deg", 1), Err(comma("0,5 mm/deg", "0.5 mm/deg")));
         let fraction = |found: &str, meant: &str| E::Fraction { found: found.into(), meant: meant.into() };
         assert_eq!(length("1/2 in"), fraction("1/2 in", "0.5 in"));
+        assert_eq!(length("1/3 turn"), E::UnknownUnit { unit: "turn".into() });
         assert_eq!(length("1 1/2 in"), fraction("1 1/2 in", "1.5 in"));
         assert_eq!(length("1-3/4\""), fraction("1-3/4\"", "1.75\""));
         // Of these the size of the letters says how large they are.

@@ -85,7 +85,8 @@ impl Globoid {
         };
         let distance = self.turret.distance;
         let found = first_that_keeps(distance, LARGEST_GROWTH * distance, keeps).map(rounded_up)?;
-        keeps(found).then(|| format!("cam.turret_distance = \"{} mm\" keeps every limit", shown(MILLIMETRES * found)))
+        keeps(found)
+            .then(|| format!("cam.turret_distance = \"{} mm\" would keep every limit", shown(MILLIMETRES * found)))
     }
 
     pub(super) fn take_measures(&self, of: &mut Measures<'_>) {
