@@ -322,8 +322,10 @@ fn cut(
     let cams = spec.assemble().map_err(Failure::new)?;
     let cam = cams.first();
     let stem = stem(common, files, cam, machine);
+    // A name that was given stays; the usual one follows command and speed.
+    let named = files.to.name.as_ref().map(|_| stem.as_str());
     let live =
-        if files.live { Some(live::design(&source, (common, cam, &stem), request.fit.tolerance)?) } else { None };
+        if files.live { Some(live::design(&source, (common, cam, named), request.fit.tolerance)?) } else { None };
     let writing = Writing {
         directory: files.to.out.clone(),
         stem,

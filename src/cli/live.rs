@@ -47,7 +47,7 @@ impl FileArgs {
 /// The design of a live page, its overrides as values of its text.
 pub(super) fn design(
     source: &LiveSource<'_>,
-    (common, cam, stem): (&CommonArgs, &Cam, &str),
+    (common, cam, named): (&CommonArgs, &Cam, Option<&str>),
     tolerance: f64,
 ) -> Result<LiveDesign, Failure> {
     let text = MachineSource::load(source.machine).map_err(Failure::new)?;
@@ -62,7 +62,8 @@ pub(super) fn design(
         Speed::Range(..) => Err(Failure("--live needs the speeds themselves, --rpm 20,25,30, not a range".into())),
     };
     Ok(LiveDesign {
-        name: stem.to_owned(),
+        name: named.unwrap_or(text.stem()).to_owned(),
+        usual_names: named.is_none(),
         toml,
         files: text.named_texts(&source.overrides),
         command: cam.body().kind().command.to_owned(),

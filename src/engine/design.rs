@@ -21,10 +21,12 @@ const DIRECTORY: &str = "output";
 /// Largest tolerance, m.
 const LARGEST_TOLERANCE: f64 = 1e-3;
 
-/// The proven cam of a text, and how its files are written; the answer says what is known before it is drawn.
+/// The proven cam of a text, and how its files are written, without a list of formats those that it has; the answer says what is known before it
+/// is drawn.
 pub(super) fn proven(
     request: &EngineRequest,
     toml: &str,
+    formats: Option<Vec<String>>,
     answer: &mut EngineAnswer,
 ) -> Result<(ProvenAssembly, Writing), Error> {
     let name = if request.name.is_empty() { "design" } else { &request.name };
@@ -37,7 +39,8 @@ pub(super) fn proven(
     answer.say("kind", kind.keys);
     answer.say("values", values(body));
     answer.say("motion", segments(body.machine()));
-    let writing = Writing { formats: Some(request.formats.clone()), ..Writing::to(DIRECTORY, name) };
+    let stem = if request.usual_names { assembly.first().stem(name, None) } else { name.to_owned() };
+    let writing = Writing { formats, ..Writing::to(DIRECTORY, stem) };
     let (formats, _) = writing.chosen(body)?;
     let drawing = assembly.draw(Request {
         rates: [None, Accuracy::Standard.acceleration()],
@@ -50,7 +53,7 @@ pub(super) fn proven(
 
 /// Makes what is asked for of a text.
 pub(super) fn made(request: &EngineRequest, toml: &str, answer: &mut EngineAnswer) -> Result<(), Error> {
-    let (proven, writing) = proven(request, toml, answer)?;
+    let (proven, writing) = proven(request, toml, Some(request.formats.clone()), answer)?;
     answer.say("passed", proven.passed());
     answer.say("noOutline", no_outline(&proven));
     answer.say("remedies", of_findings(proven.findings()));

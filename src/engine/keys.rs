@@ -84,14 +84,16 @@ fn units_of(dimension: Dimension) -> Value {
 /// Places of the picture of a law.
 const PICTURED: u32 = 24;
 
-/// The laws from rest to rest: the name, the largest velocity, acceleration and jerk for a travel of 1 over a width of 1 (`null` where it jumps), and
-/// its lift, velocity and acceleration at even places.
+/// The laws from rest to rest: the name, the largest velocity, acceleration and jerk for a travel of 1 over a width of 1 (`null` where the one before
+/// jumps, at a rest too), and its lift, velocity and acceleration at even places.
 fn laws() -> Vec<Value> {
     let of = |law: &Law| {
         let curve = law.solve(&LawTask::default()).ok()?;
         let peaks = curve.peaks();
         let values = [peaks.velocity.value, peaks.acceleration.value, peaks.jerk.value];
-        let peaks = values.map(|value| value.is_finite().then_some(value));
+        // The acceleration is infinite where the velocity jumps (continuity 0), the jerk where the acceleration does (1).
+        let bounded = [true, law.continuity >= 1, law.continuity >= 2];
+        let peaks = [0, 1, 2].map(|order| (bounded[order] && values[order].is_finite()).then_some(values[order]));
         let shapes = [0, 1, 2].map(|order| shape(&curve, order));
         Some(json!({"name": law.name, "peaks": peaks, "shapes": shapes}))
     };

@@ -48,6 +48,8 @@ pub struct EngineRequest {
     pub task: Task,
     /// What messages call the text, and what the names of files begin with: a name of a file without its ending.
     pub name: String,
+    /// The names of files begin with NAME-COMMAND-SPEEDrpm, as those of the command line, and not with the name alone.
+    pub usual_names: bool,
     /// The text of the machine file.
     pub toml: String,
     /// The texts of the files that it names, by these names.
@@ -137,11 +139,14 @@ pub fn changed_text(toml: &str, changes: &[TextChange]) -> Result<String, Refusa
 
 /// The cam of a request as files in memory, to be written into a directory all or none.
 ///
+/// Without a list of formats it writes those that the cam has.
+///
 /// # Errors
 /// As each step of the pipeline; [`Error::Refused`] where a check failed.
 pub fn files(request: &EngineRequest, directory: &Path, overwrite: bool) -> Result<FileSet, Error> {
     let toml = text::changed(&request.toml, &request.changes).map_err(Error::Solve)?;
-    let (proven, writing) = design::proven(request, &toml, &mut EngineAnswer::default())?;
+    let formats = (!request.formats.is_empty()).then(|| request.formats.clone());
+    let (proven, writing) = design::proven(request, &toml, formats, &mut EngineAnswer::default())?;
     proven.files(&Writing { directory: directory.to_owned(), overwrite, ..writing })
 }
 

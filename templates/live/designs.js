@@ -48,27 +48,34 @@ function startDesigns() {
   if (!live.token) return;
   const button = (id, act) => {
     const made = make("button", { type: "button", id, "data-text": id }, text(id));
-    made.addEventListener("click", () => act().catch((error) => complain([{ message: error.message }])));
+    // What is written is the state in which the changes before it leave the design.
+    made.addEventListener("click", () => {
+      const own = doc;
+      afterChanges(() => act(own).catch((error) => refuse([{ message: error.message }])));
+    });
     return made;
   };
-  const buttons = [button("write", async () => {
-    const done = await servedJson("/write", requestOf({ tolerance: doc.tolerance, formats: ["dxf", "svg", "step", "csv"] }));
-    if (done.faults) complain(done.faults);
-    else say("written", { files: done.written.join(", ") });
+  // Without a list of formats: those that the cam has.
+  const buttons = [button("write", async (own) => {
+    const done = await servedJson("/write", requestOf({ tolerance: own.tolerance }, own));
+    if (done.faults) return refuse(done.faults);
+    say("written", { files: done.written.join(", ") });
+    if (own === doc) byId("files-note").textContent = text("written", { files: done.written.join(", ") });
   })];
   if (docs.some(({ file }) => file)) {
-    buttons.unshift(button("save", async () => {
-      const own = doc;
-      const done = await servedJson("/save", { design: own.index ?? -1, toml: own.now.toml, before: own.onDisk });
-      if (done.faults) return complain(done.faults);
-      own.onDisk = own.now.toml;
+    buttons.unshift(button("save", async (own) => {
+      const { toml } = own.now;
+      const done = await servedJson("/save", { design: own.index ?? -1, toml, before: own.onDisk });
+      if (done.faults) return refuse(done.faults);
+      own.onDisk = toml;
       own.saved = performance.now();
       say("written", { files: own.file });
       tabs();
     }));
     watchFiles();
   } else gallery();
-  byId("downloads").append(make("p", { className: "row" }, ...buttons));
+  // Above what changes with the cam, so that they stay where they are.
+  byId("downloads").firstElementChild.after(make("p", { className: "row" }, ...buttons));
 }
 
 /** An answer of that program that has no files. */
@@ -94,10 +101,11 @@ function readAgain(one, { toml, files, fault }) {
   if (fault !== undefined) return one === doc && say("unread", { file: one.file });
   const others = JSON.stringify(files) !== JSON.stringify(one.filesOnDisk ?? one.files);
   const changed = (toml !== one.onDisk && toml !== one.now.toml) || others;
+  const unsaved = one.now.toml !== one.onDisk;
   one.filesOnDisk = files;
   if (others) one.files = { ...one.files, ...files };
   one.onDisk = toml;
   if (!changed) return;
-  if (one === doc) commit([], { toml }, "changedOnDisk");
+  if (one === doc) commit([], { toml }, unsaved ? "changedOverYours" : "changedOnDisk");
   else changeTo(one, { ...one.now, toml });
 }

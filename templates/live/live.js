@@ -10,9 +10,9 @@ const READING = 120;
 const MOST_PAST = 1000;
 
 /** A design that is open: as it was sent, as it is now, its history and its last cam. */
-function opened({ name, toml, files, command, commands, rpm, tolerance, file }, index = null) {
+function opened({ name, usual_names, toml, files, command, commands, rpm, tolerance, file }, index = null) {
   const now = { toml, command, rpm: rpm ?? [] };
-  return { name, files: files ?? {}, commands, tolerance: tolerance ?? 5e-6, file: file ?? null, index, first: now, now, onDisk: toml, past: [], future: [], sent: { values: {} }, sentCam: null, last: null, lastCam: null, chosen: 0, measured: null };
+  return { name, usualNames: usual_names ?? false, files: files ?? {}, commands, tolerance: tolerance ?? 5e-6, file: file ?? null, index, first: now, now, onDisk: toml, past: [], future: [], sent: { values: {} }, sentCam: null, last: null, lastCam: null, chosen: 0, measured: null };
 }
 const docs = live.designs.map(opened);
 /** The design that is shown. */
@@ -45,6 +45,9 @@ function changeTo(one, after) {
   one.now = after;
 }
 
+/** The text of the box that was applied, until it is written anew. */
+let applied = null;
+
 /** Requests in their order, each made when its turn comes; of drafts only the newest is kept. */
 const queue = [];
 let running = false;
@@ -54,12 +57,19 @@ function ask(make, done, isDraft = false) {
   if (!running) pump();
 }
 
+/** Does something when the changes before it are made. */
+function afterChanges(act) {
+  queue.push({ act });
+  if (!running) pump();
+}
+
 async function pump() {
   running = true;
   while (queue.length) {
-    const { make: request, done, since } = queue.shift();
+    const { act, make: request, done, since } = queue.shift();
     try {
-      done(await engine(request()), since);
+      if (act) await act();
+      else done(await engine(request()), since);
     } catch (error) {
       complain([{ message: error.message }]);
       settle();
@@ -68,11 +78,12 @@ async function pump() {
   running = false;
 }
 
-const requestOf = (more) => ({ name: doc.name, toml: doc.now.toml, files: doc.files, command: doc.now.command, rpm: doc.now.rpm, ...more });
+const requestOf = (more, of = doc) => ({ name: of.name, usual_names: of.usualNames, toml: of.now.toml, files: of.files, command: of.now.command, rpm: of.now.rpm, ...more });
 const whole = (more) => requestOf({ page: STEPS.rest, tolerance: doc.tolerance, ...more });
 const say = (name, values) => {
   const words = text(name, values);
-  if (byId("state").textContent !== words) byId("state").textContent = words;
+  if (byId("state").textContent === words) return;
+  byId("state").textContent = byId("state").title = words;
 };
 
 /** What comes of changes that are not made yet: while a slider moves. */
@@ -83,10 +94,16 @@ function draft(changes) {
   ask(() => requestOf({ changes, page: STEPS.draft, tolerance: Math.max(DRAFT, doc.tolerance) }), (answer) => of === doc && inFrame(answer), true);
 }
 
+/** Figures and verdict are those of the state before, until an answer comes. */
+function working() {
+  say("working");
+  byId("shown").classList.add("working");
+}
+
 /** Makes changes: full tolerance, and a step of the history. */
 function commit(changes, more = {}, why = null) {
   isDragging = false;
-  say("working");
+  working();
   const of = doc;
   ask(() => (of === doc ? whole({ changes, ...more }) : { task: "text" }), (answer, since) => {
     if (of !== doc) return settle();
@@ -98,7 +115,7 @@ function commit(changes, more = {}, why = null) {
 
 /** Goes back or forth in the history. */
 function travel(from, to) {
-  say("working");
+  working();
   ask(() => {
     if (doc[from].length) {
       const other = stateOf(doc[from].pop(), doc.now);
@@ -115,7 +132,8 @@ function turnTo(other) {
   formOf = "";
   isDragging = false;
   byId("command").replaceChildren(...doc.commands.map((command) => make("option", { value: command }, command)));
-  say("working");
+  tabs();
+  working();
   ask(() => whole({}), (answer, since) => {
     if (doc === other && !doc.sentCam && answer.cam?.views) asSent(answer);
     if (doc === other) proved(answer, since);
@@ -126,13 +144,24 @@ function turnTo(other) {
 /** What is wrong, with what would be right; the cam stays as it was, in grey. */
 let complaint = "[]";
 function complain(faults) {
-  const said = JSON.stringify([faults, language]);
+  told(faults, faults.length > 0);
+}
+
+/** What is wrong with something else than the cam, which is still the present one: with a file that was to be written. */
+function refuse(faults) {
+  told(faults, byId("shown").classList.contains("stale"));
+}
+
+function told(faults, isStale) {
+  const said = JSON.stringify([faults, language, isStale]);
   if (said === complaint) return;
   complaint = said;
-  const line = ({ key, message, help, remedies, line: at }) => make("p", {}, key ? make("strong", {}, `${key}: `) : null, message, at ? ` (${text("line", { line: at })})` : null, help ? make("span", { className: "muted" }, ` ${help}`) : null, ...remedyButtons(remedies ?? []));
-  byId("faults").replaceChildren(...faults.map(line), faults.length ? make("p", { className: "muted" }, text("lastGood")) : "");
+  // The key stands before a message that does not begin with it.
+  const named = (key, message) => key && !message.startsWith(`\`${key}\``);
+  const line = ({ key, message, help, remedies, line: at }) => make("p", {}, named(key, message) ? make("strong", {}, `${key}: `) : null, message, at ? ` (${text("line", { line: at })})` : null, help ? make("br") : null, help ? make("span", { className: "muted" }, help) : null, ...remedyButtons(remedies ?? []));
+  byId("faults").replaceChildren(...faults.map(line), isStale ? make("p", { className: "muted" }, text("lastGood")) : "");
   byId("faults").hidden = !faults.length;
-  byId("shown").classList.toggle("stale", faults.length > 0);
+  byId("shown").classList.toggle("stale", isStale);
   for (const { box } of fields.values()) box.classList.remove("wrong");
   for (const { key } of faults) fields.get(key)?.box.classList.add("wrong");
 }
@@ -178,6 +207,7 @@ function drafted(answer) {
 }
 
 function refused(faults) {
+  byId("shown").classList.remove("working");
   complain(faults);
   say("refused");
 }
@@ -186,10 +216,14 @@ function refused(faults) {
 function proved(answer, since, why = null) {
   newest = null;
   document.documentElement.dataset.answers = Number(document.documentElement.dataset.answers ?? 0) + 1;
-  const written = () => answer.toml !== undefined && (byId("toml").value = answer.toml);
+  const written = () => {
+    if (answer.toml === undefined) return;
+    byId("toml").value = answer.toml;
+    applied = null;
+  };
   if (answer.faults?.length) {
     refused(answer.faults);
-    later([written, ...(doc.last ? [] : [textAlone]), settle]);
+    later([written, ...(doc.last ? [] : [textAlone]), () => downloads({ passed: false }), settle]);
     return;
   }
   const without = answer.noOutline ? [{ message: answer.noOutline, remedies: Object.values(answer.remedies).flat() }] : [];
@@ -198,6 +232,8 @@ function proved(answer, since, why = null) {
   if (answer.cam.views) takeCam(answer.cam);
   else Object.assign(cams[0], { checks: answer.cam.checks, passed: false });
   verdict(answer);
+  byId("shown").classList.remove("working");
+  byId("title").textContent = cams[0].title;
   movers[0].draw(true);
   const ms = Math.round(performance.now() - since);
   if (without.length) say("refused");
@@ -383,7 +419,7 @@ function downloads({ passed }) {
   if (!byId("formats").children.length) byId("formats").append(...FORMATS.map((format) => {
     const button = make("button", { type: "button", "data-format": format }, format.toUpperCase());
     button.addEventListener("click", () => ask(() => requestOf({ tolerance: doc.tolerance, formats: [format] }), (made) => {
-      if (made.faults) complain(made.faults);
+      if (made.faults) return refuse(made.faults);
       const files = made.files.filter(({ name }) => name.endsWith(`.${format}`));
       if (files.length === 1) save(files[0].name, files[0].bytes);
       // Of several a browser lets a page hand out one at a click.
@@ -426,7 +462,15 @@ function listen() {
   on("main", "keydown", (event) => {
     if (event.target.matches("input[type=text], input[type=search], textarea, select")) event.stopPropagation();
   });
-  on("apply", "click", () => commit([], { toml: byId("toml").value }));
+  const apply = () => {
+    const toml = byId("toml").value;
+    if (toml === applied) return;
+    applied = toml;
+    commit([], { toml });
+  };
+  on("apply", "click", apply);
+  // A text that is left without Apply would be lost with the next change.
+  on("toml", "change", apply);
   on("copy", "click", async () => {
     byId("toml").select();
     try {

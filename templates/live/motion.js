@@ -14,12 +14,19 @@ function nodeMoved(answer, index, at, position) {
   const changes = [];
   if (at !== null) {
     if (given(index, "until")) changes.push(set(of(index, "until"), at, units[0]));
-    else changes.push(set(of(index, "over"), at - segments[index].at[0], units[0]));
+    else changes.push(set(of(index, "over"), at - segments[index].at[0], units[0]), ...slopeFreed(answer, index));
     if (given(index + 1, "over")) changes.push(set(of(index + 1, "over"), segments[index + 1].at[1] - at, units[0]));
   }
   if (position !== null && given(index, "by")) changes.push(set(of(index, "by"), position - segments[index].position[0], units[1]));
   else if (position !== null && given(index, "to")) changes.push(set(of(index, "to"), position, units[1]));
   return changes;
+}
+
+/** A straight line between two positions over an angle has the velocity that follows: one that is given is taken away. */
+function slopeFreed(answer, index) {
+  const given = (name) => answer.given.includes(`motion.segment[${index}].${name}`);
+  const isLine = ["line", "constant-velocity", "poly1"].includes(answer.motion.segments[index].law);
+  return isLine && given("velocity") && (given("to") || given("by")) ? [{ remove: `motion.segment[${index}].velocity` }] : [];
 }
 
 /** Whether nodes of this motion can be moved: it is a program of segments. */
@@ -141,7 +148,7 @@ function nodeOf(segment, index, segments, units) {
   const isLast = index === segments.length - 1;
   const rests = segment.position[0] === segment.position[1];
   const node = makeSvg("circle", { class: "node", r: 7, tabindex: 0, role: "slider", "data-node": index, "aria-orientation": "horizontal",
-    "aria-label": `${text("segment")} ${index + 1}, ${segment.law}: ${text("until")}, ${text("position")}`, "aria-valuenow": segment.at[1], "aria-valuemin": segments[0].at[0], "aria-valuemax": segments.at(-1).at[1], "aria-valuetext": `${shown(segment.at[1])} ${units[0]}, ${shown(segment.position[1])} ${units[1]}` });
+    "aria-label": `${text("segment")} ${index + 1}, ${segment.law}: ${text("until")}, ${text("position")}`, "aria-valuenow": cleaned(segment.at[1]), "aria-valuemin": segments[0].at[0], "aria-valuemax": segments.at(-1).at[1], "aria-valuetext": `${shown(segment.at[1])} ${units[0]}, ${shown(segment.position[1])} ${units[1]}` });
   const one = { element: node, held: null };
   diagram.nodes.push(one);
   const placeOfPointer = (event) => {
@@ -209,7 +216,8 @@ function motionTools(answer) {
     const shortened = given("until") ? { set: { key: `${own}.until`, to: `${cleaned(segment.at[0] + width)} ${units[0]}` } } : { set: { key: `${own}.over`, to: `${width} ${units[0]}` } };
     const isLast = doc.chosen === segments.length - 1;
     const over = isLast && !given("over") && !given("until") ? [] : [{ set: { key: `${path}.over`, to: `${width} ${units[0]}` } }];
-    commit([shortened, { insert: path }, { set: { key: `${path}.law`, to: kind } }, ...over, ...(position === null ? [] : [{ set: { key: `${path}.to`, to: `${cleaned(position)} ${units[1]}` } }])]);
+    const freed = given("until") ? [] : slopeFreed(answer, doc.chosen);
+    commit([shortened, ...freed, { insert: path }, { set: { key: `${path}.law`, to: kind } }, ...over, ...(position === null ? [] : [{ set: { key: `${path}.to`, to: `${cleaned(position)} ${units[1]}` } }])]);
     doc.chosen = at;
   };
   const positions = segments.flatMap(({ position }) => position);

@@ -493,7 +493,8 @@ def served(browser, binary, directory):
         live.page.click("#write")
         live.until("document.getElementById('state').textContent.includes('.step')")
         assert {file.name for file in (directory / "served-files").glob("served.*")} == {"served.dxf", "served.svg", "served.step", "served.csv"}
-        live.after(lambda: path.write_text(path.read_text().replace('"17 mm"', '"18 mm"')))
+        at_once(live, binary, directory, path)
+        live.after(lambda: path.write_text(text.replace('"15 mm"', '"18 mm"')))
         assert '"18 mm"' in live.toml()
         # A text that is wrong is named, with the last cam in grey, and a right one is shown again.
         live.after(lambda: path.write_text(text.replace('"15 mm"', '"wide"')))
@@ -506,6 +507,58 @@ def served(browser, binary, directory):
     with Serving(binary, directory) as address:
         acts, seconds = designed(browser, address, binary, directory, "http://127.0.0.1:")
     return f"{rate:.0f} frames and {answers:.0f} cams a second, the proof after {proof} ms, a new cam after {acts} clicks and {seconds:.0f} s"
+
+
+def at_once(live, binary, directory, path):
+    """A click right behind a change writes the design with that change: the machine file, and the files of the cam."""
+    field = "[id='key-cam.thickness']"
+    live.page.fill(field, "19 mm")
+    live.page.click("#save")
+    for _ in range(500):
+        if '"19 mm"' in path.read_text():
+            break
+        live.page.wait_for_timeout(20)
+    assert '"19 mm"' in path.read_text(), live.page.inner_text("#state")
+    live.until("document.getElementById('state').textContent.includes('served.toml')")
+    assert '"19 mm"' in live.toml()
+    solid = directory / "served-files" / "served.step"
+    before = solid.read_bytes()
+    live.page.fill(field, "20 mm")
+    live.page.click("#write")
+    for _ in range(500):
+        if solid.read_bytes() != before:
+            break
+        live.page.wait_for_timeout(20)
+    live.until("document.getElementById('state').textContent.includes('.step')")
+    (directory / "twenty.toml").write_text(live.toml())
+    checked = run(binary, directory, "check", str(solid), "--design", "twenty.toml")
+    assert '"20 mm"' in live.toml() and checked.returncode == 0, checked.stdout + checked.stderr
+
+
+def usual_names(browser, binary, directory):
+    """Without a name of its own a page names its files as the command line does, by the speed that the design has now."""
+    made = run(binary, directory, "make", "feeder", "--format", "html", "--live", "--out", ".", "--overwrite", "--quiet")
+    assert made.returncode == 0, made.stderr
+    live = Live(browser, (directory / "feeder-make-120rpm.html").as_uri())
+    live.type("motion.rpm", "90")
+    (name, bytes_), = live.download("dxf", 1)
+    (directory / "feeder.toml").write_text(live.toml())
+    made = run(binary, directory, "make", "feeder.toml", "--format", "dxf", "--out", "usual", "--overwrite", "--quiet")
+    assert made.returncode == 0 and bytes_ == (directory / "usual" / name).read_bytes() and name == "feeder-make-90rpm.dxf", name
+    # A design in its box applies when the box is left, and a straight line that is made longer has the velocity that follows.
+    live.page.evaluate("document.getElementById('file').open = true")
+    live.page.locator("#toml").click()
+    live.page.keyboard.press("Control+Home")
+    live.page.keyboard.type("# a word of the designer\n")
+    live.after(lambda: live.page.keyboard.press("Tab"))
+    live.type("cam.thickness", "16 mm")
+    assert live.toml().startswith("# a word of the designer\n") and '"16 mm"' in live.toml()
+    line = live.page.evaluate("[...document.querySelectorAll('#motion-rows tbody tr')].findIndex((row) => ['line', 'constant-velocity'].includes(row.children[1].textContent))")
+    assert line >= 0
+    live.page.focus(f"[data-node='{line}']")
+    live.after(lambda: live.page.keyboard.press("ArrowRight"))
+    assert "contradict" not in live.page.inner_text("#faults"), live.page.inner_text("#faults")
+    live.close()
 
 
 def several(browser, binary, directory):
@@ -637,6 +690,7 @@ def main():
         for name in names:
             print("live:", judge(browser, options, directory, name.split(":")[0], known[name], generator), flush=True)
         tabled(browser, options.binary, directory)
+        usual_names(browser, options.binary, directory)
         acts, seconds = designed(browser, page_of(directory, names[0].split(":")[0]).as_uri(), options.binary, directory)
         print(f"live: {begun(browser, page_of(directory, names[0].split(':')[0]).as_uri(), options.binary, directory)} new cams of every follower and body pass at once", flush=True)
         print("live: served,", served(browser, options.binary, directory), flush=True)

@@ -211,9 +211,24 @@ def works(program, binary, directory):
     assert path.read_text() == text
     assert "written" in posted("/save", design=0, toml=changed, before=text) and path.read_text() == changed
     assert posted("/files")["designs"][0]["toml"] == changed
+    # The mark and the line ends of the file stay; a protected file is not written.
+    windows = b"\xef\xbb\xbf" + changed.replace("\n", "\r\n").encode()
+    path.write_bytes(windows)
+    assert posted("/files")["designs"][0]["toml"] == changed
+    assert "written" in posted("/save", design=0, toml=text, before=changed)
+    assert path.read_bytes() == b"\xef\xbb\xbf" + text.replace("\n", "\r\n").encode()
+    path.chmod(0o444)
+    assert "protected" in posted("/save", design=0, toml=changed, before=text)["faults"][0]["message"]
+    path.chmod(0o644)
+    path.write_text(changed)
     assert "no machine file" in posted("/save", design=7, toml=changed, before=changed)["faults"][0]["message"]
     done = posted("/write", name="own", toml=changed, formats=["dxf", "csv"])
     assert sorted(Path(name).name for name in done["written"]) == ["own.csv", "own.dxf"], done
+    # Without a list of formats those that a cam has: the outside of a globoid cannot be developed.
+    globoid = subprocess.run([binary, "machines", "show", "indexer"], capture_output=True, text=True).stdout
+    done = posted("/write", name="hollow", toml=globoid)
+    endings = {Path(name).suffix for name in done["written"]}
+    assert ".step" in endings and ".dxf" not in endings, done
     # An edited file is not written over, and then none is.
     (directory / "out" / "own.csv").write_text("mine\n")
     before = digests(directory)

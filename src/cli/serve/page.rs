@@ -107,10 +107,18 @@ impl Served {
         // Any change shows whether it is TOML.
         let change = TextChange::Set { key: "name".into(), to: "checked".into() };
         engine::changed_text(&asked.toml, &[change]).map_err(|why| why.to_string())?;
-        if text(path)? != asked.before {
+        let raw = raw_text(path)?;
+        if plain(&raw) != asked.before {
             return Err("the file was changed by another program since; it is read again now".into());
         }
-        replace(Path::new(path), asked.toml.as_bytes()).map_err(|why| format!("cannot write `{path}`: {why}"))?;
+        let protected = fs::metadata(path).is_ok_and(|data| data.permissions().readonly());
+        if protected {
+            return Err(format!(
+                "`{path}` is protected against writing: allow it, or download the TOML under another name"
+            ));
+        }
+        let written = as_before(&plain(&asked.toml), &raw);
+        replace(Path::new(path), written.as_bytes()).map_err(|why| format!("cannot write `{path}`: {why}"))?;
         Ok(json!({"written": [path]}))
     }
 
@@ -153,7 +161,7 @@ fn design(name: &str, args: &ServeArgs) -> Result<LiveDesign, Failure> {
 }
 
 fn of_source(source: &MachineSource) -> LiveDesign {
-    let (name, toml) = (source.stem().to_owned(), source.text().to_owned());
+    let (name, toml) = (source.stem().to_owned(), plain(source.text()));
     LiveDesign { name, toml, files: source.named_texts(&[]), tolerance: TOLERANCE, ..LiveDesign::default() }
 }
 
@@ -165,9 +173,29 @@ fn as_it_is(design: &LiveDesign) -> Result<LiveDesign, String> {
     Ok(LiveDesign { toml, files, ..design.clone() })
 }
 
-/// The text of a machine file as it is now.
+/// The text of a machine file as it is now, as a page has it.
 fn text(path: &str) -> Result<String, String> {
+    raw_text(path).map(|text| plain(&text))
+}
+
+fn raw_text(path: &str) -> Result<String, String> {
     file::text_of(Path::new(path), LARGEST_FILE).map_err(|why| format!("cannot read `{path}`: {why}"))
+}
+
+/// The mark that some editors put before UTF-8.
+const MARK: char = '\u{feff}';
+
+/// A text with the line ends that a browser knows, without a mark.
+fn plain(text: &str) -> String {
+    text.strip_prefix(MARK).unwrap_or(text).replace("\r\n", "\n")
+}
+
+/// A text with the mark and the line ends of the one that it replaces.
+fn as_before(text: &str, before: &str) -> String {
+    let ends = before.matches('\n').count();
+    let of_windows = 2 * before.matches("\r\n").count() > ends;
+    let text = if of_windows { text.replace('\n', "\r\n") } else { text.to_owned() };
+    if before.starts_with(MARK) { format!("{MARK}{text}") } else { text }
 }
 
 /// The design that is shown where there is no other.

@@ -61,6 +61,8 @@ const TEXTS: [(&str, &str); 2] = [
 pub struct LiveDesign {
     /// What the names of its files begin with.
     pub name: String,
+    /// Behind it they have command and speed, as those of the command line.
+    pub usual_names: bool,
     /// The text of its machine file.
     pub toml: String,
     /// The texts of the files that it names, by these names.
@@ -84,7 +86,7 @@ pub struct LiveDesign {
 pub fn page((title, cam): (&str, Value), designs: &[LiveDesign], token: Option<&str>) -> Result<Vec<u8>, Refusal> {
     let of = |design: &LiveDesign| {
         json!({
-            "name": design.name, "toml": design.toml, "files": design.files, "command": design.command,
+            "name": design.name, "usual_names": design.usual_names, "toml": design.toml, "files": design.files, "command": design.command,
             "commands": design.commands, "rpm": design.rpm, "tolerance": design.tolerance, "file": design.file,
         })
     };
