@@ -509,6 +509,12 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         curves_of(self).map(|curves| curves.motion)
     }
 
+    /// Metres at its follower for a unit of its motion: 1 along a path, the length of the arm of one that swings.
+    fn leverage(&self) -> f64 {
+        let swinging = curves_of(self).filter(|curves| curves.motion.quantity() == Quantity::Angle);
+        swinging.map_or(1.0, |curves| curves.follower.leverage(&Jet::default()).abs())
+    }
+
     /// The stretches of its motion on which the values of a row are smooth, each with its piece.
     fn smooth_stretches(&self) -> Vec<(usize, (f64, f64))> {
         let pieces = self.follower_motion().map_or(&[][..], |motion| motion.pieces());

@@ -1,7 +1,7 @@
 //! Tables for a servo drive that moves as the follower would: nodes with position, velocity and acceleration, between which the drive runs on a
 //! polynomial of degree 5.
 
-use super::{Body, Request, curves};
+use super::{Body, Request};
 use crate::geometry::MILLIMETRES;
 use crate::motion::{Jet, Motion, Quantity};
 use crate::refusal::Refusal;
@@ -18,6 +18,8 @@ pub struct ServoTable {
     pub swings: bool,
     /// The nodes over one turn of the master, the last one a turn after the first.
     pub nodes: Vec<ServoNode>,
+    /// By how much the slave goes on in a turn of the master, mm or degrees: 0 but for the turret of an indexer.
+    pub advance: f64,
     /// Positions at equal parts of the turn, mm or degrees, so many that straight lines between them keep the tolerance; `None` where that would
     /// be more than a control takes.
     pub equal: Option<Vec<f64>>,
@@ -38,16 +40,17 @@ const MOST_LINES: f64 = 100_000.0;
 /// Where the acceleration jumps by more than this share of the largest, two nodes stand, apart by twice this angle, rad.
 const JUMP: f64 = 1e-6;
 const APART: f64 = 1e-5;
+/// A motion whose ends differ by less closes, m or rad.
+const CLOSED: f64 = 1e-9;
 /// A jump of the velocity beyond this share of the largest cannot be followed.
 const VELOCITY_JUMP: f64 = 1e-6;
 
 /// Why a cam has no table for a servo drive.
 #[must_use]
 pub fn unfit(body: &dyn Body) -> Option<&'static str> {
-    match curves(body) {
-        None if body.swept().is_some() => Some("a table is made of the motion of a follower in a plane"),
+    match body.follower_motion() {
         None => Some("each of its sections has a motion of its own"),
-        Some(curves) if curves.motion.period().is_none() => Some("a plate has no turn of a master"),
+        Some(motion) if motion.period().is_none() => Some("a plate has no turn of a master"),
         Some(_) => None,
     }
 }
@@ -60,6 +63,25 @@ struct Span {
     to: f64,
     /// From the angle of the master to that of the piece.
     shift: f64,
+    /// From the position of the piece to that of the slave.
+    rise: f64,
+}
+
+impl Span {
+    fn state(&self, motion: &dyn Motion, at: f64) -> Jet {
+        let jet = exact(motion, self.piece, at + self.shift);
+        Jet { s: jet.s + self.rise, ..jet }
+    }
+}
+
+/// By how much a motion goes on in a turn, m or rad.
+#[must_use]
+pub fn advance(motion: &dyn Motion) -> f64 {
+    let pieces = motion.pieces();
+    let ends = pieces.first().zip(pieces.last());
+    let moved =
+        ends.map_or(0.0, |(first, last)| motion.jet(pieces.len() - 1, last.end).s - motion.jet(0, first.start).s);
+    if moved.abs() > CLOSED { moved } else { 0.0 }
 }
 
 /// The motion as a drive would run it: from its position at 0, by the master in rad, the slave in m or rad.
@@ -78,9 +100,8 @@ pub fn largest_velocity(body: &dyn Body) -> f64 {
 /// How far the position may be off, m or rad, for a tolerance in m at the follower.
 #[must_use]
 pub fn position_tolerance(body: &dyn Body, tolerance: f64) -> f64 {
-    let swings = curves(body).is_some_and(|curves| curves.motion.quantity() == Quantity::Angle);
-    let arm = curves(body).map_or(1.0, |curves| curves.follower.leverage(&Jet::default()).abs());
-    if swings && arm > 0.0 { tolerance / arm } else { tolerance }
+    let arm = body.leverage();
+    if arm > 0.0 { tolerance / arm } else { tolerance }
 }
 
 /// The table of a body.
@@ -91,13 +112,13 @@ pub fn table(body: &dyn Body, request: &Request) -> Result<ServoTable, Refusal> 
     if let Some(why) = unfit(body) {
         return Err(Refusal::new(why));
     }
-    let motion = curves(body).ok_or_else(|| Refusal::new("it has no motion of its own"))?.motion;
+    let motion = body.follower_motion().ok_or_else(|| Refusal::new("it has no motion of its own"))?;
     let allowed =
         [KEPT * position_tolerance(body, request.fit.tolerance), KEPT * VELOCITY_SHARE * largest_velocity(body)];
     let spans = spans(motion)?;
     let swings = motion.quantity() == Quantity::Angle;
     let mut nodes: Vec<ServoNode> = Vec::new();
-    let node = |span: &Span, at: f64| node(&exact(motion, span.piece, at + span.shift), at, swings);
+    let node = |span: &Span, at: f64| node(&span.state(motion, at), at, swings);
     for span in &spans {
         nodes.push(node(span, span.from));
         let mut ends = Vec::new();
@@ -110,7 +131,10 @@ pub fn table(body: &dyn Body, request: &Request) -> Result<ServoTable, Refusal> 
     }
     // Where nothing jumps the end of a span is the start of the next.
     nodes.dedup_by(|next, before| next[0] <= before[0]);
-    Ok(ServoTable { swings, nodes, equal: equal(body, motion, allowed) })
+    let advance = advance(motion);
+    // Straight lines over equal parts close the turn with the first position.
+    let equal = if advance == 0.0 { equal(body, motion, allowed) } else { None };
+    Ok(ServoTable { swings, nodes, advance: if swings { advance.to_degrees() } else { MILLIMETRES * advance }, equal })
 }
 
 /// Positions at equal parts of the turn between which straight lines keep what is allowed of position and velocity: over a part of length h such
@@ -140,13 +164,13 @@ fn node(jet: &Jet, at: f64, swings: bool) -> ServoNode {
 
 /// The pieces over one turn of the master from 0 on, shortened where the acceleration jumps.
 fn spans(motion: &dyn Motion) -> Result<Vec<Span>, Refusal> {
-    let mut all = Vec::new();
+    let (mut all, advance) = (Vec::new(), advance(motion));
     for (piece, own) in motion.pieces().iter().enumerate() {
         for turn in [-1.0, 0.0, 1.0, 2.0] {
             let shift = -turn * TAU;
             let (from, to) = ((own.start - shift).max(0.0), (own.end - shift).min(TAU));
             if to - from > APART {
-                all.push(Span { piece, from, to, shift });
+                all.push(Span { piece, from, to, shift, rise: turn * advance });
             }
         }
     }
@@ -190,7 +214,7 @@ fn halve(
     (allowed, left): ([f64; 2], u32),
     ends: &mut Vec<f64>,
 ) -> Result<(), Refusal> {
-    let state = |at: f64| exact(motion, span.piece, at + span.shift);
+    let state = |at: f64| span.state(motion, at);
     let (start, end) = (state(from), state(to));
     let off = |step: u32| {
         let share = f64::from(step) / f64::from(PLACES);

@@ -4,11 +4,11 @@
 //! velocity and acceleration of both, here by its coefficients, or, on a table of positions alone, on a straight line. The comparison is at many places of every interval, on either side of every break.
 
 use super::check::{Evidence, FileCheck, WrittenServo};
-use crate::body::servo::{VELOCITY_SHARE, exact, largest_velocity};
-use crate::body::{Body, curves};
+use crate::body::Body;
+use crate::body::servo::{VELOCITY_SHARE, advance, exact, largest_velocity};
 use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::geometry::MILLIMETRES;
-use crate::motion::{Jet, Quantity};
+use crate::motion::Quantity;
 use crate::reading::servo::ServoRows;
 use crate::report::{Bound, Finding, Verdict, shown};
 use std::f64::consts::TAU;
@@ -65,7 +65,7 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
             Ok((found, rows)) => {
                 let straight = table.as_ref().is_ok_and(|rows| rows.straight);
                 let between = if straight { "straight lines" } else { "polynomials of degree 5" };
-                let value = MILLIMETRES * found.position * arm(evidence.body);
+                let value = MILLIMETRES * found.position * evidence.body.leverage();
                 let velocity = worst.as_ref().map_or(0.0, |worst| worst.1.velocity).max(found.velocity);
                 if worst.as_ref().is_none_or(|worst| value > worst.0) {
                     worst = Some((value, found, format!("{rows} rows, {between} between them")));
@@ -85,15 +85,6 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     Some(Finding { place, note: Some(note), ..CHECK.found(value, Some(limit), Verdict::of(kept)) })
 }
 
-/// Metres of the follower for a unit of the slave: 1, or the length of its arm.
-fn arm(body: &dyn Body) -> f64 {
-    let arm = |curves: crate::profile::Curves<'_>| match curves.motion.quantity() {
-        Quantity::Length => 1.0,
-        Quantity::Angle => curves.follower.leverage(&Jet::default()).abs(),
-    };
-    curves(body).map_or(1.0, arm)
-}
-
 /// A row in SI units.
 fn state([master, slave, velocity, acceleration]: [f64; 4], swings: bool) -> (f64, [f64; 3]) {
     let (unit, turn) = (if swings { 1f64.to_radians() } else { 1.0 / MILLIMETRES }, 1f64.to_degrees());
@@ -101,7 +92,8 @@ fn state([master, slave, velocity, acceleration]: [f64; 4], swings: bool) -> (f6
 }
 
 fn judged(body: &dyn Body, read: &ServoRows) -> Result<ServoDifference, String> {
-    let motion = curves(body).ok_or("the cam has no motion of its own")?.motion;
+    let motion = body.follower_motion().ok_or("the cam has no motion of its own")?;
+    let advance = advance(motion);
     if read.swings != (motion.quantity() == Quantity::Angle) {
         return Err("its slave is not in the unit of the follower".into());
     }
@@ -121,19 +113,20 @@ fn judged(body: &dyn Body, read: &ServoRows) -> Result<ServoDifference, String> 
             let share = f64::from(step) / f64::from(PLACES);
             let [position, velocity] = at(&coefficients, share, to - from);
             // At an end the value is that of the table alone; its two sides differ where the acceleration jumps, not in these.
-            let (piece, angle) = motion.locate((from + share * (to - from)).min(TAU));
-            let exact = exact(motion, piece, angle);
-            let off = (position - exact.s).abs();
+            let master = (from + share * (to - from)).min(TAU);
+            let (piece, angle) = motion.locate(master);
+            let (exact, turns) = (exact(motion, piece, angle), ((master - angle) / TAU).round());
+            let off = (position - exact.s - turns * advance).abs();
             if !(off <= worst.position) {
                 worst = ServoDifference { position: off, at: angle, ..worst };
             }
             worst.velocity = worst.velocity.max((velocity - exact.ds).abs());
         }
     }
-    let ends = first[1] - last[1];
+    let ends = first[1] - last[1] + if read.swings { advance.to_degrees() } else { MILLIMETRES * advance };
     let closes = CLOSES * MILLIMETRES * worst.position.max(SAME);
     if ends.abs() > closes.max(1e-6) {
-        return Err(format!("its last row is off its first by {}", shown(ends)));
+        return Err(format!("its last row is off a turn behind its first by {}", shown(ends)));
     }
     Ok(worst)
 }

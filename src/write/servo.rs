@@ -37,6 +37,10 @@ fn of(cam: &Rendering<'_>, name: &str) -> Result<Vec<Vec<u8>>, Refusal> {
     let found = cam.servo.iter().find(|(format, _)| *format == name);
     match found {
         Some((_, bytes)) => Ok(vec![bytes.clone()]),
+        None if name == ISG.name && cam.body.follower_motion().is_some_and(|motion| servo::advance(motion) != 0.0) => {
+            let refusal = Refusal::new("the table closes the turn, and the slave goes on in each turn of the master");
+            Err(refusal.remedy("give a table with polynomials, servo-csv, servo-xyva or servo-twincat"))
+        }
         None if name == ISG.name && !cam.servo.is_empty() => {
             let refusal = Refusal::new("straight lines between equal parts of a turn would be more than 100000");
             Err(refusal.remedy("give a coarser --tolerance, or a table with polynomials, servo-xyva or servo-twincat"))
@@ -88,7 +92,13 @@ fn head(body: &dyn Body, table: &ServoTable, (mark, units): (&str, LengthUnit)) 
             .to_owned(),
         format!("nodes: {}", table.nodes.len()),
     ];
-    lines.into_iter().chain(of_counter).collect()
+    let goes_on = (table.advance != 0.0).then(|| {
+        format!(
+            "the slave goes on by {} {unit} in each turn of the master: run the table relative to its end",
+            shortest(table.advance)
+        )
+    });
+    lines.into_iter().chain(of_counter).chain(goes_on).collect()
 }
 
 fn csv(table: &ServoTable, units: LengthUnit, head: &[String]) -> String {

@@ -34,13 +34,18 @@ fn every_table_moves_a_drive_as_the_cam_moves_its_follower() {
         ("valve", &[]),
         ("groove", &[]),
         ("yoke", &[]),
+        ("barrel", &[]),
+        ("indexer", &[]),
+        ("indexer", &["motion.at=17 deg"]),
         // A law whose acceleration jumps at both ends.
         ("feeder", &["motion.segment[0].law=harmonic", "motion.segment[4].law=harmonic", "limits.continuity=1"]),
     ] {
         let cam = cam(name, sets);
         let request = Request { servo: true, ..Request::within(TOLERANCE) };
         let names = FORMATS.map(|(format, _)| format);
-        let files = files(&cam, request, "servo", &names);
+        let mut files = files(&cam, request, "servo", &names);
+        // A cam that is not cut in a plane also has the tables of its flanks.
+        files.retain(|(file, _)| FORMATS.iter().any(|(_, ending)| file.ends_with(ending)));
         let read = files.iter().map(|(_, bytes)| servo::read(bytes).expect("a table"));
         let tables: Vec<servo::ServoRows> = read.collect();
         assert!(tables.iter().all(|table| *table == tables[0]), "{name}");
@@ -51,6 +56,36 @@ fn every_table_moves_a_drive_as_the_cam_moves_its_follower() {
             assert!(report.passed(), "{name} {file}: {report:?}");
         }
     }
+}
+
+/// The turret of an indexer goes on by one roller in each turn: the table ends so much behind its beginning, and says so.
+#[test]
+fn a_table_of_an_indexer_goes_on() {
+    let cam = cam("indexer", &[]);
+    let request = Request { servo: true, ..Request::within(TOLERANCE) };
+    let files = files(&cam, request, "servo", &["servo-csv"]);
+    let (_, bytes) = files.iter().find(|(file, _)| file.ends_with("-servo.csv")).expect("a table");
+    let text = String::from_utf8(bytes.clone()).expect("text");
+    let rows = servo::read(text.as_bytes()).expect("a table").rows;
+    let ends = rows.first().zip(rows.last()).map(|(first, last)| last[1] - first[1]).expect("rows");
+    // Eight rollers, of which a turn moves the turret on by one.
+    let pitch = 45.0;
+    assert!((ends - pitch).abs() < 1e-9, "{ends} {pitch}");
+    assert!(text.contains(&format!("goes on by {pitch} deg in each turn")), "{text}");
+    // A table that comes back, as that of another cam does, is refused.
+    let back: String = text
+        .lines()
+        .map(|line| match line.split_once(',') {
+            Some((master, rest)) if master.parse::<f64>().is_ok_and(|master| master > 359.0) => {
+                let (_, rates) = rest.split_once(',').expect("rates");
+                format!("{master},0,{rates}\n")
+            }
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    assert!(back != text && !cam.check(back.as_bytes(), TOLERANCE).expect("a table").passed());
+    let run = camgen_in(tempfile::tempdir().expect("a folder"), &["make", "indexer", "--format", "servo-isg"]);
+    assert!(run.code == 2 && run.err.contains("goes on in each turn"), "{} {}", run.code, run.err);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The barrel as a [`Body`].
 
-use super::{BARREL, Barrel, BarrelCurve, FlankSide, mechanism, report, sheet};
+use super::{BARREL, Barrel, BarrelCurve, FlankSide, RollerPath, mechanism, report, sheet};
 use crate::body::in_groove::GrooveForces;
 use crate::body::part;
 use crate::body::picture::RIGID;
@@ -147,6 +147,10 @@ impl Body for Barrel {
         let cam_deg = crate::report::degrees(parameter);
         let crank_deg = (f64::from(self.motion.lobes()) * cam_deg) % 360.0;
         Some(self.row(TurnAngles { cam_deg, angle: parameter, crank_deg }, (piece, parameter)))
+    }
+
+    fn leverage(&self) -> f64 {
+        if let RollerPath::Arm { arm, .. } = self.path { arm } else { 1.0 }
     }
 
     fn follower_motion(&self) -> Option<&dyn Motion> {

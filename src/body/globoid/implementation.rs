@@ -144,6 +144,10 @@ impl Body for Globoid {
         Some(self.row(TurnAngles { cam_deg, angle: parameter, crank_deg: cam_deg }, (piece, parameter)))
     }
 
+    fn leverage(&self) -> f64 {
+        self.turret.arm
+    }
+
     fn follower_motion(&self) -> Option<&dyn Motion> {
         Some(&*self.motion)
     }
