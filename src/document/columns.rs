@@ -198,7 +198,7 @@ fn cells(line: &str) -> Vec<String> {
     for cell in blanks {
         match joined.last_mut().filter(|_| cell.starts_with(['(', '['])) {
             Some(before) => *before = format!("{before} {cell}"),
-            None => joined.push(unquoted(cell).to_owned()),
+            None => joined.push(unquoted(cell)),
         }
     }
     joined
@@ -223,10 +223,10 @@ pub fn parts(line: &str, sign: char) -> Vec<&str> {
     if quoted { line.split(sign).collect() } else { found }
 }
 
-/// A cell without the quotes around it. A quote behind a number alone is an inch mark, which the number does not lose.
-fn unquoted(cell: &str) -> &str {
-    let inner = cell.trim_matches('"');
-    if !cell.starts_with('"') && number(inner).is_some() { cell } else { inner }
+/// A cell without the quotes around it, those within it once. A quote that stands only behind a cell is an inch mark, which it does not lose.
+fn unquoted(cell: &str) -> String {
+    let inner = cell.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
+    inner.map_or_else(|| cell.to_owned(), |inner| inner.replace("\"\"", "\""))
 }
 
 /// The heading of each column: the cells of the lines above the rows that have as many; of a list with one column the whole lines.
@@ -326,6 +326,8 @@ mod tests {
             ("cam angle deg, lift of valve mm, remark\n0 1\n", &["deg", "mm"]),
             ("LOBE 7  0.31496\n0.0\n0.1\n", &["LOBE 7  0.31496"]),
             ("a,b,c\n0,1,2\n1,2\n", &["a", "b", "c"]),
+            ("angle;lift \"\n0;1\n", &["angle", "lift \""]),
+            ("\"angle\",\"lift (\"\")\"\n0,1\n", &["angle", "lift (\")"]),
             ("0,1\n", &[]),
         ] {
             let columns = Columns::parse("lift.csv", text).expect(text);

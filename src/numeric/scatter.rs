@@ -6,6 +6,12 @@ pub const OF_MEDIAN: f64 = 1.4826;
 const EACH_SIDE: usize = 3;
 /// Fewest values that are off their neighbours: of fewer the median says too little.
 const FEWEST: usize = 84;
+/// Blocks of a list in which its scatter may differ, as that of a flank does from that of a dwell.
+const BLOCKS: usize = 4;
+/// How many times larger the scatter of a block is then.
+const MUCH: f64 = 1.5;
+/// A value that is off by a smaller share of the largest is not.
+const DIGITS: f64 = 1e-12;
 /// What scatters leaves values above and below the polynomials of their neighbours by turns: 83 % of pairs by the normal distribution, half of
 /// them where the remainder is that of a smooth curve.
 const ALTERNATE: f64 = 0.7;
@@ -30,21 +36,30 @@ pub fn median(values: &mut [f64]) -> f64 {
     values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// Standard deviation of the scatter of values (place, value) in the order of their places; `None` where they are too few, or where what
-/// polynomials through their neighbours leave is no scatter. Values that rest exactly count for nothing.
+/// Standard deviation of the scatter of values (place, value) in the order of their places, that of a block of them where it is much larger; `None`
+/// where they are too few, or where what polynomials through their neighbours leave is no scatter. Values that rest exactly count for nothing.
 #[must_use]
 pub fn scatter(values: &[(f64, f64)]) -> Option<f64> {
+    let size = values.iter().fold(0.0_f64, |most, (_, value)| most.max(value.abs()));
     let off = values.windows(2 * EACH_SIDE + 1).filter_map(|window| {
         let (before, own, after) = (window.get(..EACH_SIDE)?, window.get(EACH_SIDE)?, window.get(EACH_SIDE + 1..)?);
         off_neighbours(*own, &[before, after].concat())
     });
-    let all: Vec<f64> = off.collect();
-    let moves = |pair: &[f64]| pair.iter().all(|off| *off != 0.0);
-    let pairs = || all.windows(2).filter(|pair| moves(pair));
-    let alternate = pairs().filter(|pair| matches!(pair, [a, b] if a * b < 0.0)).count();
-    let mut sizes: Vec<f64> = all.iter().map(|off| off.abs()).filter(|off| *off > 0.0).collect();
+    // What rests leaves the rounding of sums.
+    let moving: Vec<f64> = off.filter(|off| off.abs() > DIGITS * size).collect();
+    let block = (2 * FEWEST).max(moving.len() / BLOCKS);
+    let last = moving.get(moving.len().saturating_sub(block)..).unwrap_or_default();
+    let largest = moving.chunks(block).chain([last]).filter_map(of_block).reduce(f64::max)?;
+    // The largest of several is too large by chance.
+    Some(of_block(&moving).filter(|all| largest < MUCH * all).unwrap_or(largest))
+}
+
+/// Standard deviation of what a block of values is off its neighbours, where that is scatter.
+fn of_block(off: &[f64]) -> Option<f64> {
+    let alternate = off.windows(2).filter(|pair| matches!(pair, [a, b] if a * b < 0.0)).count();
+    let mut sizes: Vec<f64> = off.iter().map(|off| off.abs()).collect();
     #[expect(clippy::cast_precision_loss, reason = "few values")]
-    let is_scatter = sizes.len() >= FEWEST && alternate as f64 >= ALTERNATE * pairs().count() as f64;
+    let is_scatter = off.len() >= FEWEST && alternate as f64 >= ALTERNATE * (off.len() - 1) as f64;
     is_scatter.then(|| OF_MEDIAN * median(&mut sizes))
 }
 
@@ -89,6 +104,13 @@ mod tests {
         assert_eq!(scatter(&rows(60, |x| x + noise())), None);
         // A ramp in exact steps.
         assert_eq!(scatter(&rows(360, |x| x * 360.0)).filter(|found| *found > 1e-9), None);
+    }
+
+    #[test]
+    fn scatter_of_a_part_is_seen() {
+        let mut noise = normal(11);
+        let found = scatter(&rows(360, |x| libm::sin(TAU * x) + if x < 0.5 { 5e-3 * noise() } else { 0.0 }));
+        assert!((found.expect("scatter") / 5e-3 - 1.0).abs() < 0.25, "{found:?}");
     }
 
     #[test]

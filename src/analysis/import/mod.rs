@@ -182,12 +182,27 @@ pub fn analysis(source: &ImportSource, options: &ImportOptions) -> Result<Analys
     let machine = machine(options)?;
     let mut imported = best(source, &machine, options)?;
     // Points about another centre than that of the dwells follow no law.
-    if let (ImportSource::Points(..), None, splines @ 1..) = (source, options.fit, imported.splines()) {
+    let is_centred = options.fit == Some(ImportFit::Centre);
+    if let (ImportSource::Points(..), false, splines @ 1..) = (source, is_centred, imported.splines()) {
         let centred = best(source, &machine, &ImportOptions { fit: Some(ImportFit::Centre), ..options.clone() });
         let fewer = centred.ok().filter(|centred| centred.splines() < splines);
         imported
             .told
             .extend(fewer.and_then(|centred| Some(other_centre((splines, centred.splines()), centred.shift?))));
+    }
+    if let (ImportSource::Points(..), true) = (source, is_centred) {
+        let about_zero = best(source, &machine, &ImportOptions { fit: Some(ImportFit::Angle), ..options.clone() });
+        // Short dwells hardly hold a centre: one about which less follows laws is none.
+        let worse = imported.found.whole || about_zero.is_ok_and(|own| own.splines() < imported.splines());
+        if let (true, Some(shift)) = (worse, imported.shift) {
+            let what = format!(
+                "the dwells are too short for a centre: the one that was found, ({:.4}, {:.4}) mm, leaves more of the motion without a law than (0, 0)",
+                shift.x, shift.y
+            );
+            return Err(
+                Refusal::new(what).remedy("leave --fit centre out, or measure longer dwells or more points of them")
+            );
+        }
     }
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs(KIND.keys).into_iter().filter(|input| !input.key.starts_with("motion")));

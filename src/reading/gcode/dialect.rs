@@ -137,13 +137,15 @@ fn writes_variable(block: &str, control: Option<Controller>) -> bool {
 }
 
 /// A block in which SINUMERIK's words for a place of the machine, for numbers and for the end of a subprogram are those of the other controls:
-/// `SUPA` is G53, `X=10` X10, `CR=5` R5, `RET` M17.
+/// `SUPA` is G53, `X=10` X10, `CR=5` R5, `RET` and `M17` M30.
 pub(super) fn in_common_words(block: &str, control: Option<Controller>) -> String {
     if control != Some(Controller::Sinumerik) {
         return block.to_owned();
     }
     let upper = block.to_ascii_uppercase();
-    let named = [("SUPA", "G53"), ("G153", "G53"), ("RET", "M17")].into_iter().find(|(word, _)| has_word(&upper, word));
+    let named = [("SUPA", "G53"), ("G153", "G53"), ("RET", "M30"), ("M17", "M30")]
+        .into_iter()
+        .find(|(word, _)| has_word(&upper, word));
     let mut plain = named.map_or(upper.clone(), |(word, common)| upper.replacen(word, common, 1));
     for (word, letter) in [("CR", "R"), ("X", "X"), ("Y", "Y"), ("Z", "Z"), ("I", "I"), ("J", "J"), ("F", "F")] {
         let Some(rest) = after(&plain, word).and_then(|rest| rest.trim_start().strip_prefix('=')) else { continue };

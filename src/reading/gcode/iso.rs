@@ -22,7 +22,8 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
             continue;
         }
         let block = without_comments(whole, control).ok_or_else(|| at_line(line, "a comment does not end"))?;
-        let block = in_common_words(block.trim(), control);
+        let typed = block.trim();
+        let block = in_common_words(typed, control);
         let block = block.as_str();
         if block.is_empty() || (block == "%" && !modal.begun) {
             continue;
@@ -31,7 +32,7 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
             return Err(at_line(line, "`%` ends the program for the control, before M2 or M30"));
         }
         modal.begun = true;
-        if let Some(skipped) = block.strip_prefix('/') {
+        if let Some(skipped) = behind_its_number(block).strip_prefix('/') {
             may_be_skipped(line, skipped)?;
             continue;
         }
@@ -44,15 +45,26 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
         if control == Some(Controller::Fanuc) {
             counted(line, block, modal.units())?;
         }
+        let of_parameter = |word: &Word| word.0 == 'R' && control == Some(Controller::Sinumerik);
+        if words(typed).is_some_and(|words| words.iter().any(of_parameter)) {
+            let what = format!("R is a variable for SINUMERIK, not the radius of an arc: `{typed}`");
+            return Err(at_line(line, what).remedy("write CR=5 for a radius of 5"));
+        }
         match words(block) {
             Some(words) if are_known(&words, None) => run(line, &words, &mut state, &mut modal)?,
             _ => {
-                state.unknown(line, block)?;
+                state.unknown(line, typed)?;
                 passed_over(line, block, control)?;
             }
         }
     }
     if modal.ended { state.program(control) } else { Err(Refusal::new("the program has no end (M2 or M30)")) }
+}
+
+/// A block without its number.
+fn behind_its_number(block: &str) -> &str {
+    let number = block.strip_prefix(['N', 'n']).map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
+    number.map_or(block, str::trim_start)
 }
 
 /// A block behind `/`, which the operator may leave out: only one that changes nothing of the cut may be there.
@@ -230,13 +242,16 @@ mod tests {
 
     #[test]
     fn words_of_a_control_are_those_of_the_others() {
-        let own = "G17 G40 G90 G710\nG0 X=3 Y=4.0 Z5\n/M8\n/1 M1\nG1 Z=-1 F=100\nG3 X=-4 Y3 CR=5\nG0 Z5\nRET\nG0 Z-9\n";
+        let own =
+            "G17 G40 G90 G710\nG0 X=3 Y=4.0 Z5\n/M8\nN5 /1 M1\nG1 Z=-1 F=100\nG3 X=-4 Y3 CR=5\nG0 Z5\nRET\nG0 Z-9\n";
         let common = "G17 G40 G90 G710\nG0 X3 Y4 Z5\nM8\nM1\nG1 Z-1 F100\nG3 X-4 Y3 I-3 J-4\nG0 Z5\nM30\n";
         let (own, common) = (read(own, None).expect("read"), read(common, None).expect("read"));
         assert_eq!(own.moves.len(), 3);
         for (a, b) in own.moves.iter().zip(&common.moves) {
             assert!(a.from == b.from && a.to == b.to && (a.segments()[0].bulge - b.segments()[0].bulge).abs() < 1e-12);
         }
+        let bare = "G17 G40 G90 G710\nG0 X3 Y4 Z5\nG1 Z-1 F100\nG3 X-4 Y3 R5\nG0 Z5\nM30\n";
+        assert!(read(bare, None).is_err_and(|why| why.to_string().contains("write CR=5")));
         for block in ["G1 X=R1+2", "G1 X=AC(3)", "G3 X0 Y5 I=AC(0)"] {
             let text = format!("G17 G40 G90 G710\nG0 X3 Y4 Z5\nG1 Z-1 F100\n{block}\nG0 Z5\nM30\n");
             assert!(read(&text, None).is_err_and(|why| why.to_string().contains("not known")), "{block}");

@@ -91,9 +91,7 @@ impl ModalWords {
         if self.control == Some(Controller::Sinumerik) && shifts && coordinates {
             return refused("G58 and G59 with coordinates move the datum");
         }
-        // M17 ends a subprogram of SINUMERIK.
-        let ends = |code: f64| words.contains(&('M', code));
-        self.ended |= ends(2.0) || ends(30.0) || (ends(17.0) && self.control == Some(Controller::Sinumerik));
+        self.ended |= words.contains(&('M', 2.0)) || words.contains(&('M', 30.0));
         Ok(())
     }
 
@@ -294,7 +292,7 @@ pub(super) fn are_known(words: &[Word], axis: Option<char>) -> bool {
         'G' if REFERENCE.contains(number) => true,
         'G' if *number == 4.0 => !moves,
         'G' => KNOWN.iter().any(|known| (known - 10.0 * number).abs() < 1e-6),
-        'M' => number.fract() == 0.0 && ((0.0..=9.0).contains(number) || [17.0, 30.0].contains(number)),
+        'M' => number.fract() == 0.0 && ((0.0..=9.0).contains(number) || *number == 30.0),
         // The radius of an arc.
         'R' => axis.is_none(),
         'P' | 'Q' => exactly || waits,

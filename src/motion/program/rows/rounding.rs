@@ -4,6 +4,11 @@
 const MOST_DECIMALS: i32 = 12;
 /// Rounding of decimals in binary, and of their sums and conversions, as a share of the last decimal.
 const BINARY: f64 = 1e-4;
+/// The sixth difference, to which a smooth curve hardly adds; windows of it in which nothing moves are below this share of a step.
+const DIFFERENCE: [f64; 7] = [1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0];
+const ROUNDED_OFF: f64 = 1e-9;
+/// Of fewer nothing is concluded.
+const FEWEST_DIFFERENCES: usize = 8;
 /// A coarser step than that of the decimals is believed where chance would make all values its multiples less often than this.
 const CHANCE: f64 = 1e-6;
 /// As many of so many steps of a straight line are equal at least.
@@ -25,7 +30,41 @@ pub fn step(values: &[f64]) -> f64 {
     };
     let Some(decimals) = (0..=MOST_DECIMALS).find(fits) else { return 0.0 };
     let fine = libm::pow(10.0, f64::from(-decimals));
-    if is_ramp(values, fine) { fine } else { coarser(values, fine).unwrap_or(fine) }
+    if is_ramp(values, fine) {
+        return fine;
+    }
+    let found = common_divisor(values, fine).or_else(|| coarser(values, fine));
+    found.filter(|step| looks_rounded(values, *step)).unwrap_or(fine)
+}
+
+/// The largest number of the last decimal of which all values are multiples, as 0.002 is of rows with three decimals.
+fn common_divisor(values: &[f64], fine: f64) -> Option<f64> {
+    let units = values.iter().map(|value| (value / fine).round().abs()).filter(|units| *units > 0.0);
+    let mut all: Vec<f64> = units.collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    let divisor = all.iter().fold(0.0_f64, |divisor, units| {
+        let (mut a, mut b) = (divisor, *units);
+        while b > 0.0 {
+            (a, b) = (b, a % b);
+        }
+        a
+    });
+    // Chance makes one of so many numbers a multiple.
+    let chance = all.iter().fold(1.0_f64, |chance, _| chance / divisor.max(1.0));
+    (divisor > 1.0 && chance < CHANCE).then_some(divisor * fine)
+}
+
+/// Whether values leave a smooth curve as rounding to a step makes them: those of some laws, as a parabola's, are multiples of a step and do not.
+fn looks_rounded(values: &[f64], step: f64) -> bool {
+    let off = values.windows(DIFFERENCE.len()).map(|window| {
+        let sum: f64 = window.iter().zip(DIFFERENCE).map(|(value, weight)| weight * value).sum();
+        let square: f64 = DIFFERENCE.iter().map(|weight| weight * weight).sum();
+        sum.abs() / square.sqrt() / step
+    });
+    let moving: Vec<f64> = off.filter(|off| *off > ROUNDED_OFF).collect();
+    let rounded = moving.iter().filter(|off| **off > 0.1).count();
+    moving.len() < FEWEST_DIFFERENCES || 2 * rounded > moving.len()
 }
 
 /// Whether values go from the lowest to the highest one in steps of which most are equal: these are then those of a straight line, some of whose
@@ -110,6 +149,20 @@ mod tests {
                 .collect();
             assert!((step(&without) - 1e-3).abs() < 1e-9, "{slope}");
             assert!((step(&ramp(0)) - 1e-3).abs() < 1e-9 && (step(&ramp(8)) - 1e-3).abs() < 1e-9, "{slope}");
+        }
+        // Even numbers of the last decimal.
+        for (step_of, decimals) in [(0.002, 3), (0.02, 2), (0.0004, 4)] {
+            let found = step(&rounded(step_of, decimals));
+            assert!((found / step_of - 1.0).abs() < 1e-9, "{step_of} in {decimals}: {found}");
+        }
+        // Rows of an exact parabola are multiples of a step, and not rounded to it.
+        for (lift, rows) in [(20.0, 30), (24.0, 24), (18.0, 40)] {
+            let law = |i: i32| {
+                let x = f64::from(i.clamp(0, rows)) / f64::from(rows);
+                if x < 0.5 { 2.0 * lift * x * x } else { lift - 2.0 * lift * (1.0 - x) * (1.0 - x) }
+            };
+            let all: Vec<f64> = (-rows..2 * rows).map(|i| (law(i) * 1e6).round() / 1e6).collect();
+            assert!(step(&all) < 1e-3, "{lift}: {}", step(&all));
         }
         // All digits: no rounding that matters.
         let exact: Vec<f64> = (0..90).map(|i| 4.5 * f64::from(i).to_radians().sin()).collect();
