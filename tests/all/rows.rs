@@ -280,7 +280,7 @@ fn measured_rows(scatter: f64) -> String {
     rows.join("\n")
 }
 
-/// Measured rows: their scatter is told with the `smooth` that takes it away; two rows that are equal by chance are no dwell.
+/// Measured rows: the report gives their scatter and the `smooth` that removes it; two rows that are equal by chance are not a dwell.
 #[test]
 fn measured_rows_are_told_and_smoothed() {
     let design = |keys: &str| design(&format!("table = \"lift.csv\"\n{keys}\n[limits]\nlift_error = \"1 mm\""));

@@ -192,7 +192,7 @@ pub fn analysis(source: &ImportSource, options: &ImportOptions) -> Result<Analys
     }
     if let (ImportSource::Points(..), true) = (source, is_centred) {
         let about_zero = best(source, &machine, &ImportOptions { fit: Some(ImportFit::Angle), ..options.clone() });
-        // Short dwells hardly hold a centre: one about which less follows laws is none.
+        // Short dwells do not fix a centre. A centre is wrong where fewer stretches follow a law about it than about (0, 0).
         let worse = imported.found.whole || about_zero.is_ok_and(|own| own.splines() < imported.splines());
         if let (true, Some(shift)) = (worse, imported.shift) {
             let what = format!(
