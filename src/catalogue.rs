@@ -102,6 +102,14 @@ impl MachineSource {
         catalogue().source(name_or_path)
     }
 
+    /// A text as that of the file at a path, which need not have it yet.
+    ///
+    /// # Errors
+    /// A text that is none of a machine; what is wrong in it shows when a machine is made of it.
+    pub fn of_file(file: &str, text: &str) -> Result<Self, MachineError> {
+        catalogue().of_file(file, text)
+    }
+
     /// Reads TOML text; `source` names it in messages.
     #[must_use]
     pub fn from_toml(source: &str, text: &str) -> Self {

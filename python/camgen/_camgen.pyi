@@ -424,6 +424,13 @@ def analyse(name: str, machine: Optional[Machine] = None, /, **options: Any) -> 
 def command(typed: Sequence[str]) -> int:
     """Runs a command line, the name of the program first, and returns its exit code."""
 
+def write_shard(folder: _Path, name: str, data: bytes, alone: bool = False) -> None:
+    """Writes a file whole into a folder, made if missing: a link, a pipe or a folder of its name is refused. Unless it is written ``alone``, other
+    processes may write other files there at the same time.
+
+    Raises FilesError.
+    """
+
 @final
 class Study:
     """A study file: many designs of one machine file, a row of figures for each. Row i depends on the file and on i alone."""
@@ -464,6 +471,9 @@ class Study:
         """The first line of its table."""
 
     def __len__(self) -> int: ...
+    def file_stem(self, name: Optional[str] = None) -> str:
+        """What the names of its files begin with. Raises OptionError for a name that files cannot have."""
+
     def design(self, row: int) -> tuple[list[str], Optional[float]]:
         """The overrides of a design as ``--set`` takes them, ``KEY=VALUE`` each, and its speed in rpm where one is given."""
 

@@ -12,9 +12,12 @@ import functools
 import hashlib
 import json
 import math
+import multiprocessing
 import os
 import pathlib
 import socket
+import stat
+import threading
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
@@ -22,7 +25,7 @@ from importlib import import_module
 from multiprocessing import get_context
 from typing import Any, NamedTuple, Optional, Union
 
-from ._camgen import Study, __version__
+from ._camgen import Study, __version__, write_shard
 from ._errors import CamgenError
 
 __all__ = ["Result", "StudyRunError", "run"]
@@ -33,6 +36,8 @@ FEWEST, SECONDS = 1000, 10.0
 MEASURED = 32
 #: Least time between two writes of the manifest, s: it lists all shards, and with many of them one write for each would take the most of a run.
 BETWEEN_SAVES = 1.0
+#: The name of the list of shards.
+MANIFEST = "manifest.json"
 #: How often a shard is given to another worker after its worker was lost.
 RETRIES = 5
 
@@ -96,32 +101,18 @@ def _filesystem(place: str) -> tuple[Any, str]:
     return found
 
 
-def _write(place: str, name: str, data: bytes) -> None:
+def _write(place: str, name: str, data: bytes, alone: bool = False) -> None:
     """Writes a file whole or not at all."""
     system, folder = _filesystem(place)
-    if system is not None:
-        system.makedirs(folder, exist_ok=True)
-        # An object is there when its upload ends; on other file systems a rename puts it in place.
-        temporary = f"{folder}/{name}.{os.getpid()}.tmp"
-        with system.open(temporary, "wb") as file:
-            file.write(data)
-        system.mv(temporary, f"{folder}/{name}")
+    if system is None:
+        write_shard(folder, name, data, alone)
         return
-    os.makedirs(folder, exist_ok=True)
-    path = os.path.join(folder, name)
-    temporary = f"{path}.{socket.gethostname()}.{os.getpid()}.tmp"
-    try:
-        with open(temporary, "wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(temporary, path)
-    except OSError:
-        try:
-            os.remove(temporary)
-        except OSError:
-            pass
-        raise
+    system.makedirs(folder, exist_ok=True)
+    # An object is there when its upload ends; on other file systems a rename puts it in place.
+    temporary = f"{folder}/{name}.{socket.gethostname()}.{os.getpid()}.tmp"
+    with system.open(temporary, "wb") as file:
+        file.write(data)
+    system.mv(temporary, f"{folder}/{name}")
 
 
 def _read(place: str, name: str) -> Optional[bytes]:
@@ -131,7 +122,11 @@ def _read(place: str, name: str) -> Optional[bytes]:
         if system is not None:
             data: bytes = system.cat_file(f"{folder}/{name}")
             return data
-        with open(os.path.join(folder, name), "rb") as file:
+        path = os.path.join(folder, name)
+        if not stat.S_ISREG(os.lstat(path).st_mode):
+            # A link may lead anywhere, and opening a pipe may never end.
+            raise StudyRunError(f"{path} is not a regular file: remove it, or give another place with shards=")
+        with open(path, "rb") as file:
             return file.read()
     except (FileNotFoundError, NotADirectoryError):
         return None
@@ -139,6 +134,32 @@ def _read(place: str, name: str) -> Optional[bytes]:
 
 def _name(start: int) -> str:
     return f"rows-{start:015d}.csv"
+
+
+def _kept(place: str) -> Optional[dict[str, Any]]:
+    """The manifest of a place; None where there is none yet."""
+    data = _read(place, MANIFEST)
+    if data is None:
+        return None
+    try:
+        kept = json.loads(data)
+        shards = [{**shard, "start": int(shard["start"]), "end": int(shard["end"]), "sha256": str(shard["sha256"])} for shard in kept["shards"]]
+        found = {"digest": str(kept["digest"]), "size": int(kept["size"]), "shards": shards}
+    except (ValueError, KeyError, TypeError) as error:
+        what = f"{place}/{MANIFEST} is damaged, or is not the manifest of a study ({type(error).__name__}: {error})"
+        raise StudyRunError(f"{what}: remove it with its shards, or give another place with shards=") from error
+    if found["size"] < 1:
+        raise StudyRunError(f"{place}/{MANIFEST} has shards of {found['size']} designs: remove it with its shards, or give another place with shards=")
+    return found
+
+
+def _refuse_strangers(place: str) -> None:
+    """Refuses a folder without a manifest in which there are files with names of shards: they are not of a study."""
+    system, folder = _filesystem(place)
+    if system is None and os.path.isdir(folder):
+        strangers = sorted(name for name in os.listdir(folder) if name.startswith("rows-") and name.endswith(".csv"))
+        if strangers:
+            raise StudyRunError(f"{folder} has {strangers[0]} and no {MANIFEST}: give another place with shards=")
 
 
 def _shard(source: tuple[Optional[str], str, str], expected: tuple[str, str], stretch: tuple[int, int], place: str) -> dict[str, Any]:
@@ -189,9 +210,11 @@ class _Manifest:
         self.digest = study.digest
         self.saved = -math.inf
         self.shards: dict[int, dict[str, Any]] = {}
-        kept = json.loads(_read(place, "manifest.json") or b"{}")
-        if kept.get("digest") == study.digest:
-            size = int(kept["size"])
+        kept = _kept(place)
+        if kept is None:
+            _refuse_strangers(place)
+        elif kept["digest"] == study.digest:
+            size = kept["size"]
             for shard in kept["shards"]:
                 data = _read(place, _name(shard["start"]))
                 if data is not None and hashlib.sha256(data).hexdigest() == shard["sha256"]:
@@ -207,11 +230,11 @@ class _Manifest:
         if time.monotonic() - self.saved >= BETWEEN_SAVES:
             self.save()
 
-    def save(self) -> None:
+    def save(self, alone: bool = False) -> None:
         shards = [self.shards[start] for start in sorted(self.shards)]
         data = {"schema": 1, "camgen": __version__, "digest": self.digest, "size": self.size, "shards": shards}
         try:
-            _write(self.place, "manifest.json", json.dumps(data, indent=1).encode())
+            _write(self.place, MANIFEST, json.dumps(data, indent=1).encode(), alone)
         except OSError as error:
             raise StudyRunError(f"cannot write the manifest to {self.place}: {error}; make room and run again: what is done is kept") from error
         self.saved = time.monotonic()
@@ -232,11 +255,23 @@ def _told(stretch: tuple[int, int], error: BaseException, place: str) -> StudyRu
     return StudyRunError(text)
 
 
+def _end_with_parent() -> None:
+    """Ends this worker when the process that started it has ended, even if that was killed."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_wait_and_end, args=(parent,), daemon=True).start()
+
+
+def _wait_and_end(parent: Any) -> None:
+    parent.join()
+    os._exit(1)
+
+
 def _on_processes(manifest: _Manifest, job: Callable[..., Any], workers: Optional[int], told: Callable[[int, int], None]) -> None:
     """The missing shards, on processes of this machine."""
     missing = manifest.missing()
     # A fresh interpreter: threads of this one are not copied.
-    with ProcessPoolExecutor(workers or os.cpu_count(), mp_context=get_context("spawn")) as pool:
+    with ProcessPoolExecutor(workers or os.cpu_count(), mp_context=get_context("spawn"), initializer=_end_with_parent) as pool:
         pending: dict[Future[Any], tuple[int, int]] = {pool.submit(job, stretch): stretch for stretch in missing}
         while pending:
             for future in wait(pending, return_when=FIRST_COMPLETED).done:
@@ -326,9 +361,11 @@ def run(
         except CamgenError:
             alone = False
         path = None if alone else os.path.abspath(os.fspath(study))
-    stem = name or loaded.stem
+    stem = loaded.file_stem(name)
     place = shards or os.path.join(os.path.abspath(os.fspath(out)), f"{stem}-shards")
     manifest = _Manifest(loaded, place, size)
+    # From now on the place is known as one of this study, whatever happens to this process; what a killed one left half written is removed.
+    manifest.save(alone=True)
     source = (path, text, loaded.stem)
     job = functools.partial(_job, source, (__version__, loaded.digest), place)
     told = progress or (lambda _done, _all: None)

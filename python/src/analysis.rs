@@ -227,14 +227,14 @@ impl Analysis {
     fn write<'py>(
         &self,
         py: Python<'py>,
-        directory: PathBuf,
+        directory: &Bound<'py, PyAny>,
         formats: Option<&Bound<'py, PyAny>>,
         name: Option<String>,
         force: bool,
         overwrite: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let formats = formats.map(|formats| crate::options::texts(Some(formats))).transpose()?;
-        let writing = self.writing(directory, formats);
+        let writing = self.writing(crate::options::path("directory", directory)?, formats);
         let writing = Writing { stem: written::stem(name, &self.stem)?, force, overwrite, ..writing };
         let done = ok(py.detach(|| self.judged.files(&writing)?.commit()))?;
         report(py, &done)

@@ -23,7 +23,6 @@ use numpy::ndarray::Array3;
 use numpy::{IntoPyArray, PyArray2, PyArray3};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList};
-use std::path::PathBuf;
 
 /// Millimetres in a metre.
 const MILLIMETRES: f64 = 1e3;
@@ -240,7 +239,7 @@ impl Cam {
         let bytes: Vec<u8> = match file.cast::<PyBytes>() {
             Ok(bytes) => bytes.as_bytes().to_vec(),
             Err(_) => {
-                let path: PathBuf = py.import("os")?.call_method1("fspath", (file,))?.extract()?;
+                let path = crate::options::path("file", file)?;
                 py.detach(|| camgen::document::file::bytes_of(&path, camgen::reading::LARGEST_FILE)).map_err(|why| {
                     crate::errors::told("ReadError", format!("cannot read `{}`: {why}", path.display()))
                 })?
@@ -550,12 +549,13 @@ impl Proven {
     fn write<'py>(
         &self,
         py: Python<'py>,
-        directory: PathBuf,
+        directory: &Bound<'py, PyAny>,
         formats: Option<&Bound<'py, PyAny>>,
         name: Option<String>,
         force: bool,
         overwrite: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
+        let directory = crate::options::path("directory", directory)?;
         let asked = formats.map(|formats| texts(Some(formats))).transpose()?;
         let stem = written::stem(name, &self.writing.stem)?;
         let formats = asked.or_else(|| self.writing.formats.clone());

@@ -41,8 +41,10 @@ fn analyses() -> Vec<&'static str> {
 
 /// Runs a command line, the name of the program first, and returns its exit code.
 #[pyfunction]
-fn command(py: Python<'_>, typed: Vec<std::ffi::OsString>) -> u8 {
-    py.detach(|| cli::main(typed))
+fn command(py: Python<'_>, typed: Vec<Bound<'_, PyAny>>) -> PyResult<u8> {
+    let typed = typed.iter().map(|word| options::path("typed", word).map(std::path::PathBuf::into_os_string));
+    let typed: Vec<std::ffi::OsString> = typed.collect::<PyResult<_>>()?;
+    Ok(py.detach(|| cli::main(typed)))
 }
 
 #[pymodule(gil_used = false)]
@@ -56,6 +58,7 @@ fn _camgen(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<motion::Motion>()?;
     module.add_class::<motion::Law>()?;
     module.add_class::<study::Study>()?;
+    module.add_function(wrap_pyfunction!(study::write_shard, module)?)?;
     module.add_function(wrap_pyfunction!(motion::laws, module)?)?;
     module.add_function(wrap_pyfunction!(motion::law, module)?)?;
     module.add_function(wrap_pyfunction!(analyse, module)?)?;

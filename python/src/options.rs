@@ -5,6 +5,7 @@ use camgen::document::{NamedChoice, similar};
 use camgen::write::number::{shortest, with_unit};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyList, PyTuple};
+use std::path::PathBuf;
 
 /// A quantity: a number in the SI unit, or a text with a unit that `parse` reads.
 pub(crate) fn quantity<T>(
@@ -23,6 +24,17 @@ pub(crate) fn quantity<T>(
 
 fn text_of(parameter: &str, given: &Bound<'_, PyAny>) -> PyResult<String> {
     given.extract().map_err(|_| option(parameter, "must be a number or a text", None))
+}
+
+/// A path: a text, bytes, or an object with one. A text that is no name of a file on this system is refused.
+pub(crate) fn path(parameter: &str, given: &Bound<'_, PyAny>) -> PyResult<PathBuf> {
+    let os = given.py().import("os")?;
+    let found = os.call_method1("fspath", (given,))?;
+    // The conversion itself panics at such a text.
+    if os.call_method1("fsencode", (&found,)).is_err() {
+        return Err(option(parameter, "the path has characters that no name of a file has here", None));
+    }
+    os.call_method1("fsdecode", (&found,))?.extract()
 }
 
 /// One of the words of a choice.

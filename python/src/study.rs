@@ -1,10 +1,35 @@
 //! `camgen.Study`: the rows of a study file, any stretch of them by itself.
 
-use crate::errors::{of_study, option};
-use camgen::study::{self, Journal, StudyFiles};
+use crate::errors::{of_study, option, told};
+use camgen::study::{self, Journal, StudyError, StudyFiles};
+use camgen::write::files::{Output, write_all, write_beside_others};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::path::PathBuf;
+
+/// Puts the files of a complete study in place; its summary as JSON, and the files.
+fn put(journal: &Journal, study: &study::Study) -> Result<(String, Vec<PathBuf>), StudyError> {
+    let summary = journal.summary(study)?;
+    let (complete, staged) = journal.stage(journal.reopened()?, study, summary)?;
+    staged.commit()?;
+    Ok((complete.json.to_string(), complete.written))
+}
+
+/// Writes a file whole into a folder, made if missing. Unless it is written `alone`, other processes write other files there at the same time.
+#[pyfunction]
+#[pyo3(signature = (folder, name, data, alone=false))]
+pub(crate) fn write_shard(
+    py: Python<'_>,
+    folder: &Bound<'_, PyAny>,
+    name: String,
+    data: &[u8],
+    alone: bool,
+) -> PyResult<()> {
+    let folder = crate::options::path("folder", folder)?;
+    let output = Output { name, bytes: data.to_vec() };
+    let written = py.detach(|| if alone { write_all(&folder, &[output]) } else { write_beside_others(&folder, &output) });
+    written.map_err(|error| told("FilesError", error))
+}
 
 /// A study file, every value in range.
 #[pyclass(frozen, module = "camgen")]
@@ -55,6 +80,12 @@ impl Study {
         PyBytes::new(py, self.0.header().as_bytes())
     }
 
+    /// What the names of its files begin with, if a name is given or not.
+    #[pyo3(signature = (name=None))]
+    fn file_stem(&self, name: Option<String>) -> PyResult<String> {
+        crate::cam::written::stem(name, self.0.stem())
+    }
+
     fn __len__(&self) -> usize {
         usize::try_from(self.0.count()).unwrap_or(usize::MAX)
     }
@@ -81,14 +112,16 @@ impl Study {
         &self,
         py: Python<'_>,
         stretches: &Bound<'_, PyAny>,
-        out: PathBuf,
+        out: &Bound<'_, PyAny>,
         name: Option<String>,
         page: bool,
         overwrite: bool,
     ) -> PyResult<(String, Vec<PathBuf>)> {
+        let out = crate::options::path("out", out)?;
         let stem = crate::cam::written::stem(name, self.0.stem())?;
         let files = StudyFiles { page, parquet: false, overwrite, restart: true };
-        let mut journal = Journal::open(&self.0, &out, &stem, files).map_err(|error| of_study(&error))?;
+        let journal = py.detach(|| Journal::open(&self.0, &out, &stem, files));
+        let mut journal = journal.map_err(|error| of_study(&error))?;
         for stretch in stretches.try_iter()? {
             let stretch = stretch?;
             let bytes = stretch.cast::<PyBytes>()?.as_bytes();
@@ -105,8 +138,7 @@ impl Study {
             let why = format!("{} of {} rows were given", journal.done(), self.0.count());
             return Err(option("stretches", why, Some("give every row once, in order".into())));
         }
-        let (_, json, written) = py.detach(|| journal.finish(&self.0, files)).map_err(|error| of_study(&error))?;
-        Ok((json.to_string(), written))
+        py.detach(|| put(&journal, &self.0)).map_err(|error| of_study(&error))
     }
 
     fn __repr__(&self) -> String {

@@ -69,13 +69,19 @@ pub(super) fn of_file(args: &CheckArgs, bytes: &[u8]) -> Result<Option<Design>, 
     let hash = Inputs::hash_in(bytes);
     let folder = folder_of(&args.file);
     let name = args.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    if let Some(run) = run_of(&runs(&folder), &name, hash.as_deref())
+    let of_cams: Vec<RecordedRun> = runs(&folder).into_iter().filter(|run| !is_study(run)).collect();
+    if let Some(run) = run_of(&of_cams, &name, hash.as_deref())
         && let Some(design) = of_run(args, run, &folder)?
     {
         return Ok(Some(design));
     }
     let Some(hash) = hash else { return Ok(None) };
     Ok(by_hash(args, &folder, &hash))
+}
+
+/// Whether a run has made a table of many designs.
+fn is_study(run: &RecordedRun) -> bool {
+    run.inputs.iter().any(|input| input.key == "command" && input.value == "study")
 }
 
 /// The run that a file is of: by its hash; without one by its name, or the only one.

@@ -2,25 +2,25 @@
 //!
 //! Nobody else may use it: the address is 127.0.0.1, every request has to name it in its head (so that no other name leads here), one that
 //! comes from another page is refused, and all but the program itself and its page lack the token. Requests are small, their number is
-//! limited, and each has a time in which it must be there.
+//! limited, and each has a time in which it must be there. A connection that has not sent its request yet makes room for a new one.
 
+mod connections;
 mod http;
 mod page;
+mod target;
 
 use super::args::ServeArgs;
 use super::{Failure, Outcome, print};
+use connections::Connections;
 use http::{Answer, HttpRequest};
 use page::Served;
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Most connections at a time; more are closed.
-const MOST_CONNECTIONS: usize = 32;
 /// Period of the checks for the end.
 const PERIOD: Duration = Duration::from_millis(20);
 /// The header that brings the token.
@@ -38,7 +38,7 @@ pub(super) fn run(args: &ServeArgs) -> Result<Outcome, Failure> {
 /// Takes connections until the time is over.
 fn listen(listener: &TcpListener, port: u16, served: &Arc<Served>, time: Option<Duration>) -> Result<Outcome, Failure> {
     let begin = Instant::now();
-    let open = Arc::new(AtomicUsize::new(0));
+    let open = Arc::new(Connections::default());
     listener.set_nonblocking(time.is_some()).map_err(Failure::new)?;
     loop {
         match listener.accept() {
@@ -56,19 +56,16 @@ fn listen(listener: &TcpListener, port: u16, served: &Arc<Served>, time: Option<
 }
 
 /// Answers a connection in a thread of its own, unless there are too many.
-fn connect(stream: TcpStream, port: u16, served: &Arc<Served>, open: &Arc<AtomicUsize>) {
-    if open.fetch_add(1, Ordering::SeqCst) >= MOST_CONNECTIONS {
-        open.fetch_sub(1, Ordering::SeqCst);
-        return;
-    }
-    let (served, counted) = (Arc::clone(served), Arc::clone(open));
-    let answer = move || {
+fn connect(stream: TcpStream, port: u16, served: &Arc<Served>, open: &Arc<Connections>) {
+    let Some(number) = open.enter(&stream) else { return };
+    let (served, entered) = (Arc::clone(served), Arc::clone(open));
+    let converse = move || {
         _ = stream.set_nonblocking(false);
-        http::converse(stream, |request| answer(request, port, &served));
-        counted.fetch_sub(1, Ordering::SeqCst);
+        http::converse(stream, || entered.busy(number), |request| answer(request, port, &served));
+        entered.leave(number);
     };
-    if thread::Builder::new().spawn(answer).is_err() {
-        open.fetch_sub(1, Ordering::SeqCst);
+    if thread::Builder::new().spawn(converse).is_err() {
+        open.leave(number);
     }
 }
 

@@ -2,11 +2,15 @@
 
 use super::args::StudyArgs;
 use super::progress::Progress;
+use super::put::stage_and_commit;
 use super::{Failure, Outcome, print, print_message};
-use camgen::report::shown;
-use camgen::study::{Journal, Study, StudyFiles, StudyKind, Summary, embedded};
+use camgen::report::{listed_path, shown};
+use camgen::study::{CompleteStudy, Journal, Study, StudyError, StudyFiles, StudyKind, Summary, embedded};
 use std::io::IsTerminal;
-use std::time::Instant;
+use std::time::{Duration, Instant};
+
+/// How often the rows that are done are saved, so that a run that is killed loses no more.
+const SAVED_EVERY: Duration = Duration::from_secs(1);
 
 pub(super) fn run(args: &StudyArgs) -> Result<Outcome, Failure> {
     if args.show {
@@ -25,38 +29,62 @@ pub(super) fn run(args: &StudyArgs) -> Result<Outcome, Failure> {
     if first > 0 && !args.quiet {
         print_message(&format!("continues an interrupted run with row {first} of {}", study.count()));
     }
-    let progress = Progress::of_rows(!args.quiet && std::io::stderr().is_terminal(), study.count(), first);
     let start = Instant::now();
-    study
-        .each(first, |done, lines| {
-            progress.reached(done);
-            journal.add(done, lines)
-        })
-        .map_err(Failure::new)?;
+    make_rows(args, &study, &mut journal).map_err(Failure::new)?;
     let seconds = start.elapsed().as_secs_f64();
-    drop(progress);
-    let (summary, json, written) = journal.finish(&study, files).map_err(Failure::new)?;
-    if args.json {
-        print(&format!("{json:#}\n"))?;
-    } else if !args.quiet {
-        print(&text(&study, needs, &summary))?;
-        let names: Vec<String> =
-            written.iter().map(|path| format!("  {}\n", camgen::report::listed_path(path))).collect();
-        print(&format!("files\n{}", names.concat()))?;
-    }
+    let summary = journal.summary(&study).map_err(Failure::new)?;
+    let feasible = summary.feasible;
+    let place = journal.reopened().map_err(Failure::new)?;
+    let stage = |place| journal.stage(place, &study, summary).map_err(Failure::new);
+    stage_and_commit(place, stage, |complete| show_complete(args, &study, needs, complete))?;
     if !args.quiet && study.count() > first {
-        #[expect(clippy::cast_precision_loss, reason = "a count for people")]
-        let rows = (study.count() - first) as f64;
-        let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-        print_message(&format!(
-            "{} rows in {} s: {} rows a second, {} ms a row, on {threads} processors",
-            study.count() - first,
-            shown(seconds),
-            shown(rows / seconds),
-            shown(1e3 * seconds / rows)
-        ));
+        print_message(&rate(study.count() - first, seconds));
     }
-    Ok(if summary.feasible == 0 { Outcome::CheckFailed } else { Outcome::Fine })
+    Ok(if feasible == 0 { Outcome::CheckFailed } else { Outcome::Fine })
+}
+
+/// Makes the rows that are missing.
+fn make_rows(args: &StudyArgs, study: &Study, journal: &mut Journal) -> Result<(), StudyError> {
+    let first = journal.done();
+    let progress = Progress::of_rows(!args.quiet && std::io::stderr().is_terminal(), study.count(), first);
+    let mut saved = Instant::now();
+    study.each(first, |done, lines| {
+        progress.reached(done);
+        journal.add(done, lines)?;
+        if saved.elapsed() >= SAVED_EVERY {
+            journal.save()?;
+            saved = Instant::now();
+        }
+        Ok(())
+    })
+}
+
+/// Prints what a complete study shows.
+fn show_complete(args: &StudyArgs, study: &Study, needs: &str, complete: &CompleteStudy) -> Result<(), Failure> {
+    if args.json {
+        return print(&format!("{:#}\n", complete.json));
+    }
+    if args.quiet {
+        return Ok(());
+    }
+    for note in &complete.notes {
+        print_message(&format!("note: {note}"));
+    }
+    let names: Vec<String> = complete.written.iter().map(|path| format!("  {}\n", listed_path(path))).collect();
+    print(&format!("{}files\n{}", text(study, needs, &complete.summary), names.concat()))
+}
+
+/// How fast rows were made.
+fn rate(count: u64, seconds: f64) -> String {
+    #[expect(clippy::cast_precision_loss, reason = "a count for people")]
+    let rows = count as f64;
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    format!(
+        "{count} rows in {} s: {} rows a second, {} ms a row, on {threads} processors",
+        shown(seconds),
+        shown(rows / seconds),
+        shown(1e3 * seconds / rows)
+    )
 }
 
 /// Prints the text of an embedded study.

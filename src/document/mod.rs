@@ -37,7 +37,7 @@ pub use reader::{Reader, TableReader};
 pub use schema::schema;
 pub use tables::Tables;
 pub use template::{TemplateOptions, template};
-pub(crate) use text::FlatText;
+pub(crate) use text::{FlatText, MOST_FAULTS};
 pub use words::NamedChoice;
 
 #[cfg(test)]

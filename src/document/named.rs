@@ -4,7 +4,7 @@
 //! below it, links resolved, unless the user names another folder, or the file itself. What is allowed and what was read is one for
 //! the process, as the files are.
 
-use super::fault::Misfit;
+use super::fault::{FileFault, Misfit};
 use super::file;
 use crate::refusal::Refusal;
 use std::collections::{BTreeMap, BTreeSet};
@@ -43,6 +43,8 @@ pub enum NamedFiles {
     Nowhere,
     /// In the folder of the machine file.
     Folder(PathBuf),
+    /// There too, and what overrides name as well: they are not the user's own.
+    Confined(PathBuf),
     /// Texts that are there by the names that the machine file uses: a page has no folder.
     Texts(BTreeMap<String, String>),
 }
@@ -51,7 +53,7 @@ impl NamedFiles {
     /// The text of a file of at most so many bytes that is named under a key. A path that the user gave leads to any folder.
     pub(super) fn text(&self, name: &str, key: &str, (largest, by_user): (u64, bool)) -> Result<String, Misfit> {
         let refused = |message: String, help: &str| Err(Misfit { message, help: Some(help.to_owned()) });
-        let folder = match self {
+        let (folder, by_user) = match self {
             NamedFiles::Nowhere => {
                 let help = "save this machine as a file in the folder of the table";
                 return refused(format!("`{key}`: only a machine file in a folder can name another file"), help);
@@ -70,7 +72,8 @@ impl NamedFiles {
                     Ok,
                 );
             }
-            NamedFiles::Folder(folder) => folder,
+            NamedFiles::Folder(folder) => (folder, by_user),
+            NamedFiles::Confined(folder) => (folder, false),
         };
         let path = path_of(folder, name, key, by_user)?;
         file::table_text_of(&path, largest).map_err(|why| {
@@ -79,6 +82,13 @@ impl NamedFiles {
             Misfit { message: format!("`{key}`: cannot read `{name}`: {why}"), help }
         })
     }
+}
+
+/// What is wrong with a file that a text in a folder names under a key, if it lies neither there nor in a folder that the user allows.
+#[must_use]
+pub fn outside_fault(folder: &Path, name: &str, key: &str) -> Option<FileFault> {
+    let Misfit { message, help } = path_of(folder, name, key, false).err()?;
+    Some(FileFault { key: None, message, help, place: None })
 }
 
 /// The path of a file that a machine file in a folder names under a key. The user may name any.
@@ -96,7 +106,7 @@ fn path_of(folder: &Path, name: &str, key: &str, by_user: bool) -> Result<PathBu
     }
     let of_file = file.parent().unwrap_or(&file);
     Err(Misfit {
-        message: format!("`{key}`: `{name}` lies outside of the folder of the machine file, `{}`", root.display()),
+        message: format!("`{key}`: `{name}` lies outside of the folder `{}` of the file that names it", root.display()),
         help: Some(format!("put it there, or allow its folder with --allow-path \"{}\"", of_file.display())),
     })
 }

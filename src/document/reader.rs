@@ -415,6 +415,12 @@ impl<'a> Reader<'a> {
         self.faults.borrow().is_empty()
     }
 
+    /// Whether as many faults have been found as are reported: looking for more is useless.
+    #[must_use]
+    pub fn has_most_faults(&self) -> bool {
+        self.faults.borrow().len() >= MOST_FAULTS
+    }
+
     /// Reports a fault of the whole file. What follows from a text that is not TOML is not reported.
     pub fn fail(&self, message: String, help: Option<String>) {
         if !self.document.broken {

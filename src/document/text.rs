@@ -20,7 +20,7 @@ const DEEPEST: usize = 16;
 /// Longest name of a key, in bytes: with [`DEEPEST`] it bounds the length of a path, of which there is one for each key.
 const LONGEST_NAME: usize = 100;
 /// Most faults reported: the twentieth helps nobody, and each quotes its line.
-pub(super) const MOST_FAULTS: usize = 20;
+pub(crate) const MOST_FAULTS: usize = 20;
 /// Longest message of a fault, and longest help, in characters.
 const LONGEST_MESSAGE: usize = 2000;
 

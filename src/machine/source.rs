@@ -90,6 +90,16 @@ impl MachineSource {
         Self { files: NamedFiles::Folder(PathBuf::new()), ..self }
     }
 
+    /// The text with overrides that are not the user's own: files that they name lie where those of the text do.
+    #[must_use]
+    pub fn with_confined_overrides(self) -> Self {
+        let files = match self.files {
+            NamedFiles::Folder(folder) => NamedFiles::Confined(folder),
+            other => other,
+        };
+        Self { files, ..self }
+    }
+
     /// With the texts of the files that it names, by these names: in the place of a folder.
     #[must_use]
     pub fn with_texts(self, texts: BTreeMap<String, String>) -> Self {
@@ -184,13 +194,22 @@ impl Catalogue {
                 place: None,
             }],
         })?;
-        if let Some((kind, help)) = instead_of_machine(name_or_path, text.as_bytes()) {
-            let message = format!("`{name_or_path}` is {kind}, not a machine file");
+        self.of_file(name_or_path, &text)
+    }
+
+    /// A text as that of the file at a path, which need not have it yet.
+    ///
+    /// # Errors
+    /// A text that is none of a machine; what is wrong in it shows when a machine is made of it.
+    pub fn of_file(&'static self, file: &str, text: &str) -> Result<MachineSource, MachineError> {
+        if let Some((kind, help)) = instead_of_machine(file, text.as_bytes()) {
+            let message = format!("`{file}` is {kind}, not a machine file");
             return Err(MachineError { faults: vec![FileFault { key: None, message, help: Some(help), place: None }] });
         }
+        let path = Path::new(file);
         let stem = stem::fitting(&path.file_stem().unwrap_or_default().to_string_lossy());
         let files = NamedFiles::Folder(path.parent().map(Path::to_owned).unwrap_or_default());
-        Ok(MachineSource { stem, files, ..MachineSource::of_user(self, name_or_path, &text) })
+        Ok(MachineSource { stem, files, ..MachineSource::of_user(self, file, text) })
     }
 
     /// The names of the machine files in the binary.

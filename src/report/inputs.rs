@@ -56,8 +56,14 @@ impl fmt::Display for Inputs {
 /// SHA-256 in hexadecimal digits.
 #[must_use]
 pub fn sha256(bytes: &[u8]) -> String {
+    hexadecimal(&Sha256::digest(bytes))
+}
+
+/// Bytes as hexadecimal digits.
+#[must_use]
+pub fn hexadecimal(bytes: &[u8]) -> String {
     let digits = |byte: u8| [byte >> 4, byte & 0xf].map(|digit| char::from_digit(digit.into(), 16).unwrap_or_default());
-    Sha256::digest(bytes).iter().flat_map(|byte| digits(*byte)).collect()
+    bytes.iter().flat_map(|byte| digits(*byte)).collect()
 }
 
 #[cfg(test)]

@@ -27,7 +27,7 @@ pub use as_cut_error::AsCutError;
 pub use figures::shown;
 pub(crate) use figures::to_type;
 pub use finding::{Bound, Finding, Place, Verdict, degrees, failed, passed, worst_first};
-pub use inputs::{Inputs, sha256};
+pub use inputs::{Inputs, hexadecimal, sha256};
 pub use point_measures::PointMeasures;
 pub use program_measures::ProgramMeasures;
 pub use rolled::Rolled;

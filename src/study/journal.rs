@@ -1,21 +1,18 @@
-//! The table of a study on disk while it is made: it grows under a temporary name, can be continued after the program was killed, and is
-//! renamed when it is complete.
-//!
-//! `STEM.csv.part` holds the rows done, `STEM.csv.part.json` the digest of their study. A line that was cut off, and everything after a line
-//! whose number is not the next one, is made again. So the table of an interrupted run has the bytes of one that was not.
+//! The table of a study on disk while it is made: it grows under a temporary name, can be continued after the program was killed, and gets its
+//! name together with the summary (`write::growing`).
 
 use super::specification::{Study, StudyError};
 use super::summary::Summary;
-use super::table::cells;
+use crate::document::Input;
 use crate::refusal::Refusal;
-use serde_json::{Value, json};
-use sha2::{Digest, Sha256};
-use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use crate::write::files::{Content, FilesError, NewFile, OutputDirectory, StagedFiles};
+use crate::write::growing::GrowingFile;
+use crate::write::record::{GrowingOptions, WriteInputs, open_growing, stage_files};
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// Bytes read at a time.
-const BUFFER: usize = 1 << 16;
+/// Digits of the digest of a study that name it in messages.
+const SHOWN_DIGITS: usize = 12;
 
 /// What is written beside the table and its summary.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,69 +27,47 @@ pub struct StudyFiles {
     pub restart: bool,
 }
 
-/// The growing table of a study.
-#[derive(Debug)]
-pub struct Journal {
-    table: PathBuf,
-    part: PathBuf,
-    marker: PathBuf,
-    file: File,
-    done: u64,
-}
-
-fn failed(path: &Path, what: &str) -> impl Fn(io::Error) -> StudyError {
-    let path = path.display().to_string();
-    let what = what.to_owned();
-    move |error| StudyError::Refused(Refusal::new(format!("cannot {what} {path}: {error}")))
-}
-
-/// A path with more after its name.
-fn with(path: &Path, end: &str) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(end);
-    name.into()
-}
-
-/// Writes a file whole: under a temporary name, synced and renamed.
-fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
-    place_whole(path, |file| file.write_all(bytes))
-}
-
-/// Puts what `write` writes into a file whole.
-fn place_whole(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), StudyError> {
-    let temporary = with(path, ".tmp");
-    let place = || {
-        let mut file = File::create(&temporary)?;
-        write(&mut file)?;
-        file.sync_all()?;
-        fs::rename(&temporary, path)
-    };
-    place().map_err(|error| {
-        _ = fs::remove_file(&temporary);
-        failed(path, "write")(error)
-    })
-}
-
-/// The SHA-256 of a file.
-fn digest_of(path: &Path) -> io::Result<String> {
-    let (mut file, mut hash, mut buffer) = (File::open(path)?, Sha256::new(), vec![0; BUFFER]);
-    loop {
-        match file.read(&mut buffer)? {
-            0 => return Ok(hash.finalize().iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))),
-            count => hash.update(buffer.get(..count).unwrap_or_default()),
-        }
+impl StudyFiles {
+    /// The names of the files of a study.
+    fn names(self, study: &Study, stem: &str) -> Vec<String> {
+        let is_pareto = study.kind() == super::StudyKind::Pareto;
+        let all = [
+            (".csv", true),
+            (".json", true),
+            ("-front.csv", is_pareto),
+            (".html", self.page),
+            (".parquet", self.parquet),
+        ];
+        all.into_iter().filter(|(_, wanted)| *wanted).map(|(end, _)| format!("{stem}{end}")).collect()
     }
 }
 
-/// A JSON file, where it is one.
-fn json_of(path: &Path) -> Option<Value> {
-    serde_json::from_slice(&fs::read(path).ok()?).ok()
+/// The growing table of a study.
+#[derive(Debug)]
+pub struct Journal {
+    table: GrowingFile,
+    directory: PathBuf,
+    stem: String,
+    files: StudyFiles,
 }
 
-/// Whether camgen wrote the table, and nobody has changed it since.
-fn is_own(table: &Path, summary: &Path) -> bool {
-    let recorded = json_of(summary).and_then(|summary| Some(summary.get("csv_sha256")?.as_str()?.to_owned()));
-    recorded.is_some() && recorded == digest_of(table).ok()
+/// A study that is complete.
+#[derive(Debug)]
+pub struct CompleteStudy {
+    /// What its rows show.
+    pub summary: Summary,
+    /// The summary for programs.
+    pub json: Value,
+    /// The files.
+    pub written: Vec<PathBuf>,
+    /// What differs from the files of this name before, a sentence each.
+    pub notes: Vec<String>,
+}
+
+impl From<FilesError> for StudyError {
+    fn from(error: FilesError) -> Self {
+        Self::Refused(Refusal::new(error.to_string()))
+    }
 }
 
 impl Journal {
@@ -105,135 +80,122 @@ impl Journal {
             let what = "this program is built without Parquet";
             return Err(Refusal::new(what).remedy("build it with cargo build --release --features parquet").into());
         }
-        fs::create_dir_all(directory).map_err(failed(directory, "make the directory"))?;
-        let table = directory.join(format!("{stem}.csv"));
-        if table.exists() && !files.overwrite && !is_own(&table, &table.with_extension("json")) {
-            let what = format!("{} was changed, or is not a table of camgen: it is not replaced", table.display());
-            return Err(Refusal::new(what).remedy("give --overwrite or another --name").into());
+        let names = files.names(study, stem);
+        let StudyFiles { overwrite, restart, .. } = files;
+        let options = GrowingOptions { others: &names, overwrite, restart };
+        let place = OutputDirectory::open(directory)?;
+        let table = open_growing(place, &format!("{stem}.csv"), study.digest(), options)?;
+        let mut journal = Self { table, directory: directory.to_owned(), stem: stem.to_owned(), files };
+        if journal.table.is_empty() {
+            journal.add(0, study.header().as_bytes())?;
         }
-        let (part, marker) = (with(&table, ".part"), with(&table, ".part.json"));
-        let options = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&part);
-        let mut file = options.map_err(failed(&part, "write"))?;
-        match file.try_lock() {
-            Err(TryLockError::WouldBlock) => {
-                let what = format!("another camgen is writing {}", part.display());
-                return Err(Refusal::new(what).remedy("wait for its end, or give another --name").into());
-            }
-            // The other: a file system without locks.
-            Ok(()) | Err(TryLockError::Error(_)) => {}
-        }
-        let known = json_of(&marker).and_then(|marker| Some(marker.get("study")?.as_str()?.to_owned()));
-        let length = file.metadata().map_err(failed(&part, "read"))?.len();
-        if length > 0 && !files.restart && known.as_deref() != Some(study.digest()) {
-            let what =
-                format!("{} is of an interrupted run of another study, base or version of camgen", part.display());
-            return Err(Refusal::new(what).remedy("give --restart to begin anew, or another --name").into());
-        }
-        let kept = if files.restart { None } else { kept(study, &mut file).map_err(failed(&part, "read"))? };
-        let marked = serde_json::to_vec(&json!({"study": study.digest()})).unwrap_or_default();
-        write_whole(&marker, &marked)?;
-        let header = study.header();
-        let (length, done) = kept.unwrap_or((0, 0));
-        let mut start = || {
-            file.set_len(length)?;
-            file.seek(SeekFrom::End(0))?;
-            if length == 0 { file.write_all(header.as_bytes()) } else { Ok(()) }
-        };
-        start().map_err(failed(&part, "write"))?;
-        Ok(Self { table, part, marker, file, done })
+        Ok(journal)
     }
 
     /// Rows that are in the table already.
     #[must_use]
     pub fn done(&self) -> u64 {
-        self.done
+        self.table.rows()
     }
 
     /// Adds the lines of rows up to a number.
     ///
     /// # Errors
-    /// [`Refusal`] where they cannot be written; the rows before them are kept for the next run.
+    /// [`Refusal`] where they cannot be written; the rows that were saved are kept for the next run.
     pub fn add(&mut self, done: u64, lines: &[u8]) -> Result<(), StudyError> {
-        self.file.write_all(lines).map_err(|error| {
-            let what = format!("cannot write {}: {error}", self.part.display());
-            Refusal::new(what).remedy("the same command continues with the row after the last one that was written")
-        })?;
-        self.done = done;
-        Ok(())
+        self.table.add(done, lines).map_err(continued)
     }
 
-    /// Completes the files: the summary, what else is wanted, and last the table. Returns the summary, its JSON, and the files.
+    /// Makes sure that the next run continues after the rows added so far. It takes the time of a disk, so it is for the caller to say how often.
     ///
     /// # Errors
-    /// [`Refusal`] where a file cannot be written; the table then keeps its temporary name.
+    /// As [`Journal::add`].
+    pub fn save(&self) -> Result<(), StudyError> {
+        self.table.save().map_err(continued)
+    }
+
+    /// What the rows show; they are saved first.
+    ///
+    /// # Errors
+    /// [`Refusal`] where they cannot be saved or read; the rows that were saved are kept for the next run.
+    pub fn summary(&self, study: &Study) -> Result<Summary, StudyError> {
+        self.save()?;
+        let failed = |error| Refusal::new(format!("cannot read the table of {}: {error}", self.stem));
+        Ok(study.summary(|| self.table.reader()).map_err(failed)?)
+    }
+
+    /// The directory, opened again for the files of the complete study.
+    ///
+    /// # Errors
+    /// [`Refusal`] where the directory cannot be opened; the rows are kept for the next run.
+    pub fn reopened(&self) -> Result<OutputDirectory, StudyError> {
+        Ok(OutputDirectory::of_grown(&self.table)?)
+    }
+
+    /// Writes the summary and what else is wanted next to their names, to be put in place with the table.
+    ///
+    /// # Errors
+    /// [`Refusal`] where a file cannot be written, or would be replaced; the rows are kept for the next run.
+    pub fn stage(
+        &self,
+        place: OutputDirectory,
+        study: &Study,
+        summary: Summary,
+    ) -> Result<(CompleteStudy, StagedFiles), StudyError> {
+        let json = study.summary_json(&summary, &self.table.sha256());
+        let files = self.new_files(study, &summary, &json)?;
+        let written = files.iter().map(|file| self.directory.join(&file.name)).collect();
+        let inputs = inputs(study);
+        let run =
+            WriteInputs { stem: &self.stem, machine: study.name(), inputs: &inputs, overwrite: self.files.overwrite };
+        let (staged, notes) = stage_files(place, files, &run)?;
+        Ok((CompleteStudy { summary, json, written, notes }, staged))
+    }
+
     #[cfg_attr(
         not(feature = "html"),
-        expect(unused_variables, reason = "which files are wanted matters to the page alone")
+        expect(unused_variables, reason = "what the page shows of the summary matters to it alone")
     )]
-    pub fn finish(self, study: &Study, files: StudyFiles) -> Result<(Summary, Value, Vec<PathBuf>), StudyError> {
-        self.file.sync_all().map_err(failed(&self.part, "write"))?;
-        let open = || File::open(&self.part).map(|file| BufReader::with_capacity(BUFFER, file));
-        let summary = study.summary(open).map_err(failed(&self.part, "read"))?;
-        let csv = digest_of(&self.part).map_err(failed(&self.part, "read"))?;
-        let json = study.summary_json(&summary, &csv);
-        let mut written = vec![self.table.clone(), self.table.with_extension("json")];
-        let side = |end: &str| {
-            let stem = self.table.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            self.table.with_file_name(format!("{stem}{end}"))
-        };
-        if study.kind() == super::StudyKind::Pareto {
-            let front = side("-front.csv");
-            let lines: Vec<String> = summary.front.iter().map(|line| format!("{line}\n")).collect();
-            write_whole(&front, (study.header() + &lines.concat()).as_bytes())?;
-            written.push(front);
+    fn new_files(&self, study: &Study, summary: &Summary, json: &Value) -> Result<Vec<NewFile<'_>>, StudyError> {
+        let mut files = Vec::new();
+        for name in self.files.names(study, &self.stem) {
+            let content = match name.strip_prefix(&self.stem).unwrap_or_default() {
+                ".csv" => Content::Grown(&self.table),
+                "-front.csv" => {
+                    let lines: Vec<String> = summary.front.iter().map(|line| format!("{line}\n")).collect();
+                    Content::Bytes((study.header() + &lines.concat()).into_bytes())
+                }
+                #[cfg(feature = "html")]
+                ".html" => Content::Bytes(super::page::of(study, summary).map_err(StudyError::Refused)?),
+                #[cfg(feature = "parquet")]
+                ".parquet" => {
+                    let header = study.header();
+                    Content::Stream(Box::new(move |file| super::parquet::write(&header, || self.table.reader(), file)))
+                }
+                ".json" => {
+                    let bytes = serde_json::to_vec_pretty(json).unwrap_or_default();
+                    Content::Bytes([bytes.as_slice(), b"\n"].concat())
+                }
+                _ => continue,
+            };
+            files.push(NewFile { name, content });
         }
-        #[cfg(feature = "html")]
-        if files.page {
-            let path = side(".html");
-            write_whole(&path, &super::page::of(study, &summary).map_err(StudyError::Refused)?)?;
-            written.push(path);
-        }
-        #[cfg(feature = "parquet")]
-        if files.parquet {
-            let path = side(".parquet");
-            let header = study.header();
-            place_whole(&path, |file| super::parquet::write(&header, open, file))?;
-            written.push(path);
-        }
-        let bytes = serde_json::to_vec_pretty(&json).unwrap_or_default();
-        write_whole(&self.table.with_extension("json"), &[bytes.as_slice(), b"\n"].concat())?;
-        fs::rename(&self.part, &self.table).map_err(failed(&self.table, "write"))?;
-        fs::remove_file(&self.marker).map_err(failed(&self.marker, "remove"))?;
-        Ok((summary, json, written))
+        Ok(files)
     }
 }
 
-/// The length of what is whole of an interrupted table, and the number of its rows; `None` where that is nothing.
-fn kept(study: &Study, file: &mut File) -> io::Result<Option<(u64, u64)>> {
-    file.seek(SeekFrom::Start(0))?;
-    let mut lines = BufReader::with_capacity(BUFFER, &mut *file);
-    let header = study.header();
-    let columns = cells(header.trim_end()).len();
-    let (mut length, mut rows, mut line) = (0_u64, 0_u64, Vec::new());
-    loop {
-        line.clear();
-        if lines.read_until(b'\n', &mut line)? == 0 || line.last() != Some(&b'\n') {
-            break;
-        }
-        let text = String::from_utf8_lossy(&line);
-        let whole = if length == 0 {
-            text == header
-        } else {
-            let found = cells(text.trim_end());
-            found.len() == columns
-                && found.first().is_some_and(|first| *first == rows.to_string())
-                && rows < study.count()
-        };
-        if !whole {
-            break;
-        }
-        rows += u64::from(length > 0);
-        length += line.len() as u64;
-    }
-    Ok((length > 0).then_some((length, rows)))
+/// From what the files of a study are made.
+fn inputs(study: &Study) -> Vec<Input> {
+    let digest = study.digest();
+    let shown = digest.get(..SHOWN_DIGITS).unwrap_or(digest);
+    let input =
+        |key: &str, value: &str, typed: &str| Input { key: key.into(), value: value.into(), typed: typed.into() };
+    vec![input("command", "study", "study"), input("study", digest, shown)]
+}
+
+/// An error after which rows are kept.
+fn continued(error: FilesError) -> StudyError {
+    let FilesError::File { path, source } = error else { return error.into() };
+    let what = format!("cannot write {}: {source}", path.display());
+    Refusal::new(what).remedy("the same command continues after the rows that were saved last").into()
 }

@@ -42,7 +42,7 @@ mod summary;
 mod table;
 
 pub use command::DesignCommand;
-pub use journal::{Journal, StudyFiles};
+pub use journal::{CompleteStudy, Journal, StudyFiles};
 pub use keys::SECTIONS;
 pub use kind::{Constraint, Goal, Objective, StudyKind};
 pub use parameter::{Parameter, ParameterValue, Scale, Values};

@@ -5,16 +5,33 @@ use super::keys;
 use super::kind::{Constraint, Objective, StudyKind};
 use super::parameter::{Parameter, SPEED, Scale, Values, split};
 use super::sampling::Sampling;
+use crate::catalogue::catalogue;
+use crate::document::named::outside_fault;
 use crate::document::{FileFault, Reader, TableReader, similar};
 use crate::machine::{Machine, MachineSource};
-use std::path::Path;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 
-/// The base by its embedded name, or from the folder of the study.
+/// The base by its embedded name, or from the folder of the study or below it.
 pub(super) fn base_of(name: &str, folder: Option<&Path>) -> Result<MachineSource, Box<FileFault>> {
-    let path = folder.map(|folder| folder.join(name)).filter(|path| path.exists());
-    let loaded = MachineSource::load(path.as_deref().and_then(Path::to_str).unwrap_or(name));
-    let unread = || FileFault { key: None, message: format!("cannot read the base `{name}`"), help: None, place: None };
-    loaded.map_err(|error| Box::new(error.faults.into_iter().next().unwrap_or_else(unread)))
+    let fault = |message: String, help: Option<String>| Box::new(FileFault { key: None, message, help, place: None });
+    let path = match folder.filter(|folder| folder.join(name).exists()) {
+        Some(folder) => {
+            let outside = outside_fault(folder, name, keys::BASE.key.name);
+            outside.map_or(Ok(folder.join(name)), |fault| Err(Box::new(fault)))?
+        }
+        None if Path::new(name).exists() && !catalogue().names().contains(&name) => {
+            let help = "give its path from the folder of the study file, in which it lies or below which";
+            return Err(fault(format!("there is no base `{name}` in the folder of the study"), Some(help.to_owned())));
+        }
+        None => PathBuf::from(name),
+    };
+    let unnamed = || fault(format!("the path `{}` is not UTF-8", path.display()), None);
+    let loaded = MachineSource::load(path.to_str().ok_or_else(unnamed)?);
+    loaded.map(MachineSource::with_confined_overrides).map_err(|error| match error.faults.into_iter().next() {
+        Some(first) => Box::new(first),
+        None => fault(format!("cannot read the base `{name}`"), None),
+    })
 }
 
 /// The command, where the word is one.
@@ -34,11 +51,12 @@ pub(super) fn command(root: &TableReader<'_>, machine: &Machine) -> Option<Desig
 /// Refuses keys that are given twice: as two parameters, or as a parameter and for all designs.
 pub(super) fn once_each(reader: &Reader<'_>, root: &TableReader<'_>, parameters: &[Parameter]) {
     let for_all = root.get(&keys::SET).unwrap_or_default();
-    let set = |key: &str| for_all.iter().any(|one| one.split('=').next().is_some_and(|of| of.trim() == key));
-    for (number, (table, parameter)) in reader.elements(&keys::PARAMETER).zip(parameters).enumerate() {
+    let set: BTreeSet<&str> = for_all.iter().filter_map(|one| one.split('=').next()).map(str::trim).collect();
+    let mut seen = BTreeSet::new();
+    for (table, parameter) in reader.elements(&keys::PARAMETER).zip(parameters) {
         let key = &parameter.key;
-        let again = parameters.iter().take(number).any(|other| other.key == *key);
-        let fixed = set(key) || (key == SPEED && root.get(&keys::RPM).is_some());
+        let again = !seen.insert(key);
+        let fixed = set.contains(key.as_str()) || (key == SPEED && root.get(&keys::RPM).is_some());
         if again || fixed {
             let what = if again { "is another parameter already" } else { "is set for all designs already" };
             table.fail(&keys::KEY, format!("{key} {what}"), Some("remove one of both".to_owned()));
@@ -117,17 +135,17 @@ pub(super) fn limits(
     root: &TableReader<'_>,
     kind: StudyKind,
 ) -> Option<(Vec<String>, Vec<Constraint>, Vec<Objective>)> {
-    let mut columns: Vec<String> = Vec::new();
-    for column in root.get(&keys::COLUMNS)? {
-        if columns.contains(&column) {
+    let mut columns: Vec<String> = root.get(&keys::COLUMNS)?;
+    let mut numbers = BTreeMap::new();
+    for (number, column) in columns.iter().enumerate() {
+        if numbers.insert(column.clone(), number).is_some() {
             root.fail(&keys::COLUMNS, format!("\"{column}\" is given twice"), Some("remove one".into()));
             return None;
         }
-        columns.push(column);
     }
     let mut number = |column: String| {
-        columns.iter().position(|other| *other == column).unwrap_or_else(|| {
-            columns.push(column);
+        *numbers.entry(column).or_insert_with_key(|column| {
+            columns.push(column.clone());
             columns.len() - 1
         })
     };

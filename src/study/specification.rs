@@ -7,11 +7,12 @@ use super::kind::{Constraint, Objective, StudyKind};
 use super::parameter::{Parameter, SPEED, Values};
 use super::parts::{base_of, command, limits, once_each, parameter, spread};
 use super::sampling::{self, Sampling};
-use crate::document::{FileFault, Reader, TableReader, file, similar};
+use crate::document::{FileFault, MOST_FAULTS, Reader, TableReader, file, similar};
 use crate::machine::{Machine, MachineSource, valid_rpm};
 use crate::refusal::Refusal;
 use crate::report::sha256;
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
@@ -184,6 +185,9 @@ impl Study {
     /// With the plan of what its columns need; refuses keys that no value fits, and columns that no design has.
     fn checked(mut self, reader: &Reader<'_>, root: &TableReader<'_>) -> Result<Option<Self>, StudyError> {
         for (number, table) in reader.elements(&keys::PARAMETER).enumerate() {
+            if reader.has_most_faults() {
+                break;
+            }
             if let Some(fault) = self.misfit(number) {
                 let key = if fault.message.starts_with("unknown key") { &keys::KEY } else { self.place_of(number) };
                 table.fail(key, fault.message, fault.help);
@@ -194,19 +198,19 @@ impl Study {
         }
         let (plan, tried) = self.planned();
         self.plan = plan;
-        let known = tried.as_ref().map(paths_of);
+        let known: Option<BTreeSet<String>> = tried.as_ref().map(|tried| paths_of(tried).into_iter().collect());
         if let Some(tried) = &tried {
             self.refuse_words(reader, tried);
         }
         let unknown: Vec<&String> = match &known {
-            Some(known) => self.columns.iter().filter(|column| !known.contains(column)).collect(),
+            Some(known) => self.columns.iter().filter(|column| !known.contains(*column)).collect(),
             None => Vec::new(),
         };
-        for column in unknown {
-            let known = known.as_deref().unwrap_or_default();
-            let inside = known.iter().filter(|path| path.starts_with(column.as_str()) && path.len() > column.len());
+        for column in unknown.into_iter().take(MOST_FAULTS) {
+            let known = known.as_ref().into_iter().flatten();
+            let inside = known.clone().filter(|path| path.starts_with(column.as_str()) && path.len() > column.len());
             let inside: Vec<&str> = inside.take(3).map(String::as_str).collect();
-            let help = match (inside.as_slice(), similar(column, known.iter().map(String::as_str))) {
+            let help = match (inside.as_slice(), similar(column, known.map(String::as_str))) {
                 ([], Some(near)) => format!("did you mean \"{near}\"?"),
                 ([], None) => format!("`camgen {} --json` prints the report that has them", self.command.word()),
                 (inside, _) => format!("it has several figures, e.g. \"{}\"", inside.join("\", \"")),

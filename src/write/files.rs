@@ -8,8 +8,14 @@
 
 pub use super::error::{FilesError, Output};
 
-use super::directory::{Directory, FileOwner, NameState, give};
-use super::interrupted::{self, LeftRecord, StagedFile, create, free_commit, is_plain};
+use super::directory::{Directory, NameState};
+use super::growing::GrowingFile;
+use super::interrupted::{self, LeftRecord, StagedFile, create, free_commit};
+use super::known::digest_of;
+use super::one_file::{stage_one, target, write_one};
+use super::part::part_of;
+use std::fmt;
+use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -30,6 +36,14 @@ impl OutputDirectory {
     /// [`FilesError`]; then nothing of this run was written.
     pub fn open(path: &Path) -> Result<Self, FilesError> {
         Self::finishing(Directory::open(path)?)
+    }
+
+    /// Opens the directory of a growing file again, for the files that are put in place with it. What was added to it is saved first.
+    ///
+    /// # Errors
+    /// As [`OutputDirectory::open`].
+    pub fn of_grown(grown: &GrowingFile) -> Result<Self, FilesError> {
+        Self::finishing(grown.saved()?)
     }
 
     fn finishing(directory: Directory) -> Result<Self, FilesError> {
@@ -62,12 +76,59 @@ pub struct StagedFiles {
     left: Vec<LeftRecord>,
 }
 
+/// A file to be written, whose content need not be in memory.
+#[derive(Debug)]
+pub struct NewFile<'a> {
+    /// Its name in the directory.
+    pub name: String,
+    /// Its content.
+    pub content: Content<'a>,
+}
+
+/// Writes the content of a file.
+pub type WriteContent<'a> = Box<dyn FnMut(&mut File) -> io::Result<()> + 'a>;
+
+/// The content of a file to be written.
+pub enum Content<'a> {
+    /// In memory.
+    Bytes(Vec<u8>),
+    /// As it is written.
+    Stream(WriteContent<'a>),
+    /// On the disk already, under the name of a growing file.
+    Grown(&'a GrowingFile),
+}
+
+impl fmt::Debug for Content<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Content::Bytes(_) => "Bytes",
+            Content::Stream(_) => "Stream",
+            Content::Grown(_) => "Grown",
+        })
+    }
+}
+
+impl From<Output> for NewFile<'_> {
+    fn from(Output { name, bytes }: Output) -> Self {
+        Self { name, content: Content::Bytes(bytes) }
+    }
+}
+
 /// Writes all outputs into a directory, made when missing.
 ///
 /// # Errors
 /// [`FilesError`]; then every file is as it was before, unless the error says that the set is kept.
 pub fn write_all(directory: &Path, outputs: &[Output]) -> Result<(), FilesError> {
     stage(OutputDirectory::open(directory)?.directory, outputs)?.commit()
+}
+
+/// Writes a file into a directory, made if missing, into which many processes write files of other names at the same time: none waits
+/// for another.
+///
+/// # Errors
+/// [`FilesError`]; then the file is as it was before.
+pub fn write_beside_others(directory: &Path, output: &Output) -> Result<(), FilesError> {
+    write_one(&Directory::unlocked(directory)?, &output.name, &output.bytes)
 }
 
 /// An error of a run that has finished another one first.
@@ -77,19 +138,9 @@ pub(super) fn after(finished: Vec<String>) -> impl FnOnce(FilesError) -> FilesEr
 
 /// Writes files next to their targets.
 pub(super) fn stage(directory: Directory, outputs: &[Output]) -> Result<StagedFiles, FilesError> {
-    let mut staged = StagedFiles { directory, entries: Vec::new(), number: 0, recorded: None, left: Vec::new() };
+    let mut staged = StagedFiles::of(directory);
     for output in outputs {
-        let failed = |source| FilesError::File { path: staged.directory.path_of(&output.name), source };
-        let owned = target(&staged.directory, &output.name).map_err(failed)?;
-        let created = create(&staged.directory, &mut staged.number, owned.is_some());
-        let (name, mut file) = created.map_err(failed)?;
-        // From here on it is removed with the others.
-        let replaces = owned.as_ref().map(|owned| owned.stamp().clone());
-        staged.entries.push(StagedFile { staged: name, target: output.name.clone(), replaces });
-        let written = file.write_all(&output.bytes);
-        let given = written.and_then(|()| owned.map_or(Ok(()), |owned| give(&file, &owned)));
-        let path = || staged.directory.path_of(&output.name);
-        given.and_then(|()| file.sync_all()).map_err(|source| FilesError::File { path: path(), source })?;
+        staged.write(&output.name, &mut |file| file.write_all(&output.bytes))?;
     }
     Ok(staged)
 }
@@ -110,27 +161,50 @@ pub fn stage_new(place: OutputDirectory, outputs: &[Output]) -> Result<StagedFil
     free.and_then(|()| stage(directory, outputs)).map_err(after(finished))
 }
 
-/// The owner of the file that a new one replaces; `None` where there is no such file.
-fn target(directory: &Directory, name: &str) -> io::Result<Option<FileOwner>> {
-    if !is_plain(name) {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not the name of a file in this directory"));
-    }
-    let why = match directory.state_of(name)? {
-        NameState::Nothing => return Ok(None),
-        NameState::File(owned) if directory.is_protected(name, &owned)? => {
-            "it cannot be replaced: it belongs to another user in a directory with the sticky bit, is immutable, or is a mount point"
-        }
-        NameState::File(owned) => return Ok(Some(owned)),
-        NameState::Directory => "there is a directory of that name",
-        NameState::Link(_) => {
-            "there is a symbolic link of that name, which is not followed: remove it, or give its target as --out"
-        }
-        NameState::Other => "what has that name is not a regular file",
-    };
-    Err(io::Error::new(io::ErrorKind::AlreadyExists, why))
-}
-
 impl StagedFiles {
+    /// No files yet.
+    pub(super) fn of(directory: Directory) -> Self {
+        Self { directory, entries: Vec::new(), number: 0, recorded: None, left: Vec::new() }
+    }
+
+    pub(super) fn directory(&self) -> &Directory {
+        &self.directory
+    }
+
+    /// Writes a file next to its target.
+    fn write(&mut self, name: &str, write: &mut dyn FnMut(&mut File) -> io::Result<()>) -> Result<(), FilesError> {
+        let file = stage_one(&self.directory, &mut self.number, name, write)?;
+        self.entries.push(file);
+        Ok(())
+    }
+
+    /// Adds a file; the digest of one that was not in memory.
+    pub(super) fn add(&mut self, file: NewFile<'_>) -> Result<Option<String>, FilesError> {
+        let name = file.name;
+        match file.content {
+            Content::Bytes(bytes) => self.write(&name, &mut |file| file.write_all(&bytes))?,
+            Content::Grown(grown) => self.add_grown(&name, grown)?,
+            Content::Stream(mut write) => {
+                self.write(&name, &mut write)?;
+                let staged = self.entries.last().map_or("", |entry| &entry.staged);
+                let digest = self.directory.file(staged).and_then(digest_of);
+                return digest.map(Some).map_err(|source| self.failed(&name, source));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Adds a file that has grown under its own temporary name.
+    fn add_grown(&mut self, name: &str, grown: &GrowingFile) -> Result<(), FilesError> {
+        let owned = target(&self.directory, name).map_err(|source| self.failed(name, source))?;
+        grown.is_still_in(&self.directory)?;
+        let given = owned.as_ref().map_or(Ok(()), |owned| grown.give(owned));
+        given.map_err(|source| self.failed(name, source))?;
+        let replaces = owned.map(|owned| owned.stamp().clone());
+        self.entries.push(StagedFile { staged: part_of(name), target: name.to_owned(), replaces });
+        Ok(())
+    }
+
     /// These files, which may be newer ones of interrupted runs.
     pub(super) fn in_place_of(mut self, left: Vec<LeftRecord>) -> Self {
         self.left = left;
@@ -140,7 +214,7 @@ impl StagedFiles {
     /// Removes the files without a final name; does nothing once the record of the set is in place.
     pub fn discard(&self) {
         let entries = if self.recorded.is_some() { &[] } else { self.entries.as_slice() };
-        for entry in entries {
+        for entry in entries.iter().filter(|entry| !entry.has_grown()) {
             let _ = self.directory.remove(&entry.staged);
         }
     }
@@ -174,6 +248,7 @@ impl StagedFiles {
             }
         }
         directory.sync().map_err(unfinished(""))?;
+        interrupted::remove_markers(directory, &self.entries);
         directory.remove(&commit).map_err(unfinished(&commit))?;
         let names: Vec<&str> = self.entries.iter().map(|entry| entry.target.as_str()).collect();
         for left in self.left.iter().filter(|left| left.is_replaced_by(&names)) {

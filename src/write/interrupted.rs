@@ -7,6 +7,7 @@
 use super::directory::{Directory, FileStamp, NameState};
 use super::error::FilesError;
 use super::known::{DirectoryRecord, is_record, record_name};
+use super::part::{is_marker, marker_of, part_of};
 use crate::document::shown;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
@@ -20,10 +21,8 @@ const COMMIT_NEW: &str = ".camgen-commit-new-";
 const STAGED: &str = ".camgen-new-";
 /// The largest record of a set that is read, bytes.
 const LARGEST: u64 = 1 << 26;
-/// The largest file of a set, bytes.
-const LARGEST_FILE: u64 = 1 << 28;
 /// The ends of the names of files that camgen writes.
-const ENDINGS: [&str; 9] = ["dxf", "svg", "step", "csv", "json", "html", "pdf", "stl", "toml"];
+const ENDINGS: [&str; 10] = ["dxf", "svg", "step", "csv", "json", "html", "pdf", "stl", "toml", "parquet"];
 /// Characters of a name that are shown: such a record may have been made by anybody.
 const LONGEST_SHOWN: usize = 80;
 /// How many names are tried until one is free.
@@ -36,6 +35,13 @@ pub(super) struct StagedFile {
     pub(super) target: String,
     /// What existed under the name of the target.
     pub(super) replaces: Option<FileStamp>,
+}
+
+impl StagedFile {
+    /// Whether its content has grown in a file of its own, which is not removed without it.
+    pub(super) fn has_grown(&self) -> bool {
+        self.staged == part_of(&self.target)
+    }
 }
 
 /// A record that was not finished.
@@ -63,7 +69,8 @@ impl LeftRecord {
 
     /// The names that it leaves in the directory, its own the first.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
-        std::iter::once(self.name.as_str()).chain(self.entries.iter().map(|entry| entry.staged.as_str()))
+        let staged = self.entries.iter().filter(|entry| !entry.has_grown()).map(|entry| entry.staged.as_str());
+        std::iter::once(self.name.as_str()).chain(staged)
     }
 }
 
@@ -177,7 +184,8 @@ fn finish_one(directory: &Directory, name: &str, found: &mut Found) -> Result<()
     }
     let bytes = directory.read(name, LARGEST).map_err(failed)?;
     let names_are_own = |entry: &StagedFile| {
-        is_numbered(&entry.staged, STAGED, 2) && is_plain(&entry.target) && !is_commit(&entry.target)
+        let is_staged = is_numbered(&entry.staged, STAGED, 2) || entry.has_grown();
+        is_staged && is_plain(&entry.target) && !is_commit(&entry.target)
     };
     let entries = match serde_json::from_slice::<Vec<StagedFile>>(&bytes) {
         Ok(entries) if entries.iter().all(names_are_own) => entries,
@@ -197,7 +205,19 @@ fn finish_one(directory: &Directory, name: &str, found: &mut Found) -> Result<()
         found.finished.push(shown(&target, LONGEST_SHOWN));
     }
     directory.sync().map_err(failed)?;
+    remove_markers(directory, &entries);
     directory.remove(name).map_err(failed)
+}
+
+/// Removes what tells how far the grown files of a set were, once they are in place.
+pub(super) fn remove_markers(directory: &Directory, entries: &[StagedFile]) {
+    for entry in entries.iter().filter(|entry| entry.has_grown()) {
+        let marker = marker_of(&entry.target);
+        let is_gone = matches!(directory.state_of(&entry.staged), Ok(NameState::Nothing));
+        if is_gone && is_marker(directory, &marker) {
+            let _ = directory.remove(&marker);
+        }
+    }
 }
 
 /// The files of a record that have not got their final names.
@@ -224,11 +244,10 @@ fn unsafe_entry(directory: &Directory, pending: &[StagedFile]) -> io::Result<Opt
     let Some(known) = pending.iter().find(|entry| entry.target == record) else {
         return Ok(Some(format!("it has no `{record}` that says what its files are; write them again, or remove it")));
     };
-    let read = |name: &str| directory.read(name, LARGEST_FILE);
     let is_known = |record: &DirectoryRecord, name: &str, target: &str| -> io::Result<bool> {
-        Ok(record.files.contains_key(target) && record.knows(target, &read(name)?) == Some(true))
+        Ok(record.knows(directory, target, name)? == Some(true))
     };
-    let Ok(made) = serde_json::from_slice::<DirectoryRecord>(&read(&known.staged)?) else {
+    let Ok(made) = serde_json::from_slice::<DirectoryRecord>(&directory.read(&known.staged, LARGEST)?) else {
         return Ok(Some(format!("its `{record}` is not a record; remove it")));
     };
     for name in own.files.keys().filter(|name| !made.files.contains_key(*name)) {

@@ -4,12 +4,13 @@
 //! of `.camgen.json`, `.camgen-1.json` … whose name is free, and what others have recorded does not count.
 
 use super::directory::{Directory, NameState};
+use crate::report::hexadecimal;
 use serde::{Deserialize, Serialize};
-use siphasher::sip128::SipHasher13;
+use sha2::{Digest, Sha256};
+use siphasher::sip128::{Hasher128, SipHasher13};
 use std::collections::BTreeMap;
-use std::io;
-
-use crate::report::sha256;
+use std::hash::Hasher;
+use std::io::{self, Read};
 
 /// Name of the record in the directory of the files.
 pub const RECORD: &str = ".camgen.json";
@@ -19,6 +20,8 @@ const FURTHER: (&str, &str) = (".camgen-", ".json");
 pub(super) const LARGEST: u64 = 1 << 26;
 /// Hexadecimal digits of SHA-256.
 const SHA256_DIGITS: usize = 64;
+/// Bytes of a file that are read at a time.
+const BUFFER: usize = 1 << 16;
 
 /// The record of a directory.
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -66,9 +69,12 @@ impl DirectoryRecord {
         }
     }
 
-    /// Whether it knows a file of these bytes under a name; `None` where it does not know the name.
-    pub(super) fn knows(&self, name: &str, bytes: &[u8]) -> Option<bool> {
-        self.files.get(name).map(|digest| is_as_recorded(bytes, digest))
+    /// Whether the file `there` is the one recorded under `name`; `None` if no file is recorded under it.
+    pub(super) fn knows(&self, directory: &Directory, name: &str, there: &str) -> io::Result<Option<bool>> {
+        let Some(recorded) = self.files.get(name) else { return Ok(None) };
+        // Earlier versions recorded the SHA-256.
+        let digest = if recorded.len() == SHA256_DIGITS { sha256_of } else { digest_of };
+        digest(directory.file(there)?).map(|found| Some(found == *recorded))
     }
 }
 
@@ -77,7 +83,31 @@ pub(super) fn file_digest(bytes: &[u8]) -> String {
     format!("{:032x}", SipHasher13::new().hash(bytes).as_u128())
 }
 
-/// Whether a file is as recorded; earlier versions recorded its SHA-256.
-fn is_as_recorded(bytes: &[u8], recorded: &str) -> bool {
-    recorded == if recorded.len() == SHA256_DIGITS { sha256(bytes) } else { file_digest(bytes) }
+/// [`file_digest`] of a file of any size.
+pub(super) fn digest_of(file: impl Read) -> io::Result<String> {
+    let mut hash = SipHasher13::new();
+    each_block(file, u64::MAX, |block| hash.write(block))?;
+    Ok(format!("{:032x}", hash.finish128().as_u128()))
+}
+
+fn sha256_of(file: impl Read) -> io::Result<String> {
+    let mut hash = Sha256::new();
+    each_block(file, u64::MAX, |block| hash.update(block))?;
+    Ok(hexadecimal(&hash.finalize()))
+}
+
+/// Hands on the first `length` bytes of a file; how many there are.
+pub(super) fn each_block(file: impl Read, length: u64, mut take: impl FnMut(&[u8])) -> io::Result<u64> {
+    let (mut file, mut buffer, mut read) = (file.take(length), vec![0; BUFFER], 0);
+    loop {
+        match file.read(&mut buffer) {
+            Ok(0) => return Ok(read),
+            Ok(count) => {
+                take(buffer.get(..count).unwrap_or_default());
+                read += count as u64;
+            }
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
 }

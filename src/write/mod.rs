@@ -11,6 +11,7 @@ pub mod files;
 mod finite;
 pub mod gauge;
 pub mod gcode;
+pub mod growing;
 #[cfg(feature = "html")]
 pub mod html;
 pub mod inspection;
@@ -18,6 +19,8 @@ mod interrupted;
 pub mod json;
 mod known;
 pub mod number;
+mod one_file;
+mod part;
 mod path_data;
 #[cfg(feature = "pdf")]
 pub mod pdf;

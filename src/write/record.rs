@@ -10,9 +10,10 @@ pub use super::known::RECORD;
 
 use super::directory::{Directory, NameState};
 use super::error::{FilesError, Output};
-use super::files::{OutputDirectory, StagedFiles, after, stage};
+use super::files::{Content, NewFile, OutputDirectory, StagedFiles, after};
 use super::finite;
-use super::known::{DirectoryRecord, LARGEST, file_digest, is_record, record_name};
+use super::growing::{GrowingFile, refuse_growing};
+use super::known::{DirectoryRecord, LARGEST, digest_of, file_digest, is_record, record_name};
 use crate::document::file::bytes_of;
 use crate::document::{Input, shown};
 use crate::report::sha256;
@@ -22,6 +23,8 @@ use std::path::Path;
 
 /// With more changes than these, the rest is only counted.
 const MOST_SHOWN: usize = 8;
+/// What the name of the table of a stem ends with.
+const TABLE: &str = ".csv";
 /// Most records of a folder that are read; a folder that users share has one of each.
 const MOST_RECORDS: usize = 20;
 /// Characters of a name or a value that are shown: a record may have been made by anybody.
@@ -74,18 +77,44 @@ fn digest(inputs: &[Input]) -> String {
     sha256(words.collect::<String>().as_bytes())
 }
 
+/// A file to be written, as the record has it.
+struct RecordedFile {
+    name: String,
+    /// `None` until its content is written.
+    digest: Option<String>,
+}
+
+impl RecordedFile {
+    fn of(file: &NewFile<'_>) -> Result<Self, FilesError> {
+        let digest = match &file.content {
+            Content::Bytes(bytes) => Some(file_digest(bytes)),
+            Content::Stream(_) => None,
+            Content::Grown(grown) => Some(grown.file_digest()?),
+        };
+        Ok(Self { name: file.name.clone(), digest })
+    }
+
+    /// The file in a directory that has its name and another content; `None` if that has the name and is as it would be written.
+    fn other(&self, directory: &Directory) -> std::io::Result<Option<&str>> {
+        if !matches!(directory.state_of(&self.name)?, NameState::File(_)) {
+            return Ok(None);
+        }
+        let same = self.digest.is_some() && Some(digest_of(directory.file(&self.name)?)?) == self.digest;
+        Ok((!same).then_some(&self.name))
+    }
+}
+
 impl DirectoryRecord {
     /// Of the files that would be replaced, those that are not as camgen wrote them. What is not a regular file is refused later, when it
     /// would be replaced.
-    fn kept(&self, directory: &Directory, outputs: &[Output]) -> Result<Vec<ProtectedFile>, FilesError> {
+    fn kept(&self, directory: &Directory, files: &[RecordedFile]) -> Result<Vec<ProtectedFile>, FilesError> {
         let mut kept = Vec::new();
-        for output in outputs {
-            let path = directory.path_of(&output.name);
+        for file in files {
+            let path = directory.path_of(&file.name);
             let failed = |source| FilesError::File { path: path.clone(), source };
-            if matches!(directory.state_of(&output.name).map_err(failed)?, NameState::File(_)) {
-                let found = directory.read(&output.name, u64::MAX).map_err(failed)?;
-                let known = self.knows(&output.name, &found);
-                if found != output.bytes && known != Some(true) {
+            if let Some(name) = file.other(directory).map_err(failed)? {
+                let known = self.knows(directory, name, name).map_err(failed)?;
+                if known != Some(true) {
                     kept.push(ProtectedFile { path, changed: known.is_some() });
                 }
             }
@@ -108,10 +137,10 @@ impl DirectoryRecord {
             .collect()
     }
 
-    fn add(&mut self, directory: &Directory, outputs: &[Output], run: &WriteInputs<'_>, made_from: &str) {
+    fn add(&mut self, directory: &Directory, added: Vec<RecordedFile>, run: &WriteInputs<'_>, made_from: &str) {
         self.files.retain(|name, _| !matches!(directory.state_of(name), Ok(NameState::Nothing)));
-        self.files.extend(outputs.iter().map(|output| (output.name.clone(), file_digest(&output.bytes))));
-        self.made_from.extend(outputs.iter().map(|output| (output.name.clone(), made_from.to_owned())));
+        self.made_from.extend(added.iter().map(|file| (file.name.clone(), made_from.to_owned())));
+        self.files.extend(added.into_iter().filter_map(|file| Some((file.name, file.digest?))));
         let files = &self.files;
         self.made_from.retain(|name, _| files.contains_key(name));
         self.inputs.retain(|stem, _| files.keys().any(|name| name.starts_with(stem.as_str())));
@@ -137,16 +166,44 @@ fn plain(text: &str) -> String {
 /// # Errors
 /// [`FilesError::Kept`], as [`stage_recorded`] would.
 pub fn refuse_protected(directory: &Path, outputs: &[Output]) -> Result<(), FilesError> {
-    match OutputDirectory::found(directory)? {
-        Some(OutputDirectory { directory, finished, .. }) => refuse(&directory, outputs).map_err(after(finished)),
-        None => Ok(()),
-    }
+    let Some(OutputDirectory { directory, finished, .. }) = OutputDirectory::found(directory)? else { return Ok(()) };
+    let digest = |output: &Output| Some(file_digest(&output.bytes));
+    let files: Vec<_> =
+        outputs.iter().map(|output| RecordedFile { name: output.name.clone(), digest: digest(output) }).collect();
+    refuse(&directory, &files).map_err(after(finished))
 }
 
-fn refuse(directory: &Directory, outputs: &[Output]) -> Result<(), FilesError> {
+/// How a growing file is opened.
+#[derive(Debug, Clone, Copy)]
+pub struct GrowingOptions<'a> {
+    /// The names of all files that are written with it.
+    pub others: &'a [String],
+    /// Files that camgen has not written, or that were changed since, are replaced as well.
+    pub overwrite: bool,
+    /// Nothing is continued.
+    pub restart: bool,
+}
+
+/// Opens the growing file `name` of a work in a directory, and continues what an interrupted run of it left.
+///
+/// # Errors
+/// [`FilesError`] if a file would be replaced that camgen has not written, or the interrupted run was of another work.
+pub fn open_growing(
+    place: OutputDirectory,
+    name: &str,
+    of: &str,
+    GrowingOptions { others, overwrite, restart }: GrowingOptions<'_>,
+) -> Result<GrowingFile, FilesError> {
+    let OutputDirectory { directory, finished, .. } = place;
+    let files: Vec<_> = others.iter().map(|name| RecordedFile { name: name.clone(), digest: None }).collect();
+    let free = if overwrite { Ok(()) } else { refuse(&directory, &files) };
+    free.and_then(|()| GrowingFile::open(directory, name, of, restart)).map_err(after(finished))
+}
+
+fn refuse(directory: &Directory, files: &[RecordedFile]) -> Result<(), FilesError> {
     let (name, record) = read(directory)?;
     let unknown = record.is_none().then(|| ProtectedFile { path: directory.path_of(&name), changed: false });
-    let mut kept = record.unwrap_or_default().kept(directory, outputs)?;
+    let mut kept = record.unwrap_or_default().kept(directory, files)?;
     kept.extend(unknown);
     if kept.is_empty() { Ok(()) } else { Err(FilesError::Kept(kept)) }
 }
@@ -172,8 +229,20 @@ pub fn stage_recorded(
 ) -> Result<(StagedFiles, Vec<String>), FilesError> {
     let words: Vec<&str> = run.inputs.iter().map(|input| &*input.typed).chain([run.stem, run.machine]).collect();
     finite::all(&outputs, &words)?;
+    stage_files(place, outputs.into_iter().map(NewFile::from).collect(), run)
+}
+
+/// As [`stage_recorded`], for files whose content need not be in memory.
+///
+/// # Errors
+/// As [`stage_recorded`], but for numbers that are not finite, which are not looked for.
+pub fn stage_files(
+    place: OutputDirectory,
+    files: Vec<NewFile<'_>>,
+    run: &WriteInputs<'_>,
+) -> Result<(StagedFiles, Vec<String>), FilesError> {
     let OutputDirectory { directory, finished, left } = place;
-    let (staged, mut notes) = staged(directory, outputs, run).map_err(after(finished.clone()))?;
+    let (staged, mut notes) = staged(directory, files, run).map_err(after(finished.clone()))?;
     if !finished.is_empty() {
         notes.push(format!(
             "an earlier run was interrupted; its files were put in place first: {}",
@@ -185,26 +254,39 @@ pub fn stage_recorded(
 
 fn staged(
     directory: Directory,
-    outputs: Vec<Output>,
+    files: Vec<NewFile<'_>>,
     run: &WriteInputs<'_>,
 ) -> Result<(StagedFiles, Vec<String>), FilesError> {
+    refuse_names_in_use(&directory, &files, run.stem)?;
+    let mut recorded = files.iter().map(RecordedFile::of).collect::<Result<Vec<_>, _>>()?;
     if !run.overwrite {
-        refuse(&directory, &outputs)?;
+        refuse(&directory, &recorded)?;
     }
     let (name, record) = read(&directory)?;
     let mut record = record.unwrap_or_default();
     let mut notes: Vec<String> = changes_note(&record.changes(run)).into_iter().collect();
     let made_from = digest(run.inputs);
-    record.add(&directory, &outputs, run, &made_from);
+    let mut staged = StagedFiles::of(directory);
+    for (file, recorded) in files.into_iter().zip(&mut recorded) {
+        let digest = staged.add(file)?;
+        recorded.digest = recorded.digest.take().or(digest);
+    }
+    record.add(staged.directory(), recorded, run, &made_from);
     let other = record.of_other_inputs(run.stem, &made_from);
     if !other.is_empty() {
         notes.push(format!("still here, made from other inputs: {}", other.join(", ")));
     }
     // A record is a map of texts; writing it cannot fail.
     let bytes = serde_json::to_vec(&record).unwrap_or_default();
-    let mut all = outputs;
-    all.push(Output { name, bytes });
-    Ok((stage(directory, &all)?, notes))
+    staged.add(NewFile::from(Output { name, bytes }))?;
+    Ok((staged, notes))
+}
+
+/// Refuses files that another run writes as growing ones, and those of a stem whose table grows.
+fn refuse_names_in_use(directory: &Directory, files: &[NewFile<'_>], stem: &str) -> Result<(), FilesError> {
+    let others = files.iter().filter(|file| !matches!(file.content, Content::Grown(_)));
+    others.clone().try_for_each(|file| refuse_growing(directory, &file.name))?;
+    if others.count() < files.len() { Ok(()) } else { refuse_growing(directory, &format!("{stem}{TABLE}")) }
 }
 
 fn changes_note(changes: &[String]) -> Option<String> {

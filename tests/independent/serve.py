@@ -3,18 +3,23 @@
 Wrong and missing tokens, other hosts and origins, paths that climb, methods and heads that are not HTTP, bodies that are huge, slow, shorter or
 longer than they say, 200 connections at a time: none gets more than a refusal, the files of the directory stay as they are, and the page answers
 as before. Then what the page may do: the engine's answer has the bytes of the command line's files, the machine file is written with its comments
-and not over somebody else's change, files are written all or none, and the program listens on the loopback address alone.
+and not over somebody else's change, files are written all or none, and the program listens on the loopback address alone. It is killed at random
+moments of a save and at the calls of the system that save: the file has the old text or the new one, and the next save finds nothing in its way.
+The long run is --requests 100000 --kills 200.
 
-usage: serve.py CAMGEN_BINARY DIRECTORY [--requests N]
+usage: serve.py CAMGEN_BINARY DIRECTORY [--requests N] [--kills N]
 """
 import argparse
 import hashlib
 import http.client
 import json
+import os
 import random
 import re
 import shutil
+import signal
 import socket
+import stat
 import struct
 import subprocess
 import threading
@@ -28,8 +33,9 @@ LONGEST = 12.0
 class Program:
     """A running `camgen serve`."""
 
-    def __init__(self, binary, directory, *words):
-        self.process = subprocess.Popen([binary, "serve", *words], cwd=directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    def __init__(self, binary, directory, *words, prefix=()):
+        self.process = subprocess.Popen([*prefix, binary, "serve", *words], cwd=directory, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                        start_new_session=True)
         address = self.process.stdout.readline().strip()
         self.port, self.token = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/\?token=([0-9a-f]{32})", address).groups()
         self.port, self.host, self.address = int(self.port), f"127.0.0.1:{self.port}", address
@@ -58,6 +64,14 @@ class Program:
             return 0, b""
         finally:
             connection.close()
+
+    def posted(self, path, **body):
+        return json.loads(self.ask("POST", path, json.dumps(body).encode())[1] or b"null")
+
+    def kill(self):
+        """Kills it, whatever it does."""
+        os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.communicate()
 
     def raw(self, data, wait=LONGEST):
         """What comes of raw bytes, and how long it takes until the connection ends."""
@@ -138,6 +152,9 @@ def bounded(program):
         (f"{head}Transfer-Encoding: chunked\r\n\r\n5\r\nabcde\r\n0\r\n\r\n".encode(), b"411"),
         (f"{head}Content-Length: 2\r\n\r\n{{}}GET / HTTP/1.1\r\n\r\n".encode(), b"400"),
         (head.encode() + b"X: " + b"y" * 100_000, b"431"),
+        (head.encode() + b"X: " + b"y" * 20_000 + b"\r\nContent-Length: 2\r\n\r\n{}", b"431"),
+        (head.encode() + b"X: " + b"y" * 16_384 + b"\r\n\r\n", b"431"),
+        (head.encode() + b"X: " + b"y" * 16_000 + b"\r\nContent-Length: 2\r\n\r\n{}", b"200"),
         (head.encode() + b"A: b\r\n" * 200 + b"\r\n", b"400"),
         (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(200) + b"\r\n\r\n", b"400"),
         (f"{head}Content-Length: 100\r\n\r\nshort".encode(), b""),
@@ -183,6 +200,113 @@ def crowded(program):
     return seconds
 
 
+def idle(program):
+    """As many connections as are open at a time, and all of them say nothing: the page is answered at once."""
+    streams = [socket.create_connection(("127.0.0.1", program.port), timeout=LONGEST) for _ in range(32)]
+    time.sleep(0.2)
+    begin = time.time()
+    status, _ = program.ask("POST", "/files", b"{}")
+    seconds = time.time() - begin
+    for stream in streams:
+        stream.close()
+    assert status == 200 and seconds < 2.0, f"32 idle connections: {status} after {seconds:.1f} s"
+
+
+def unreadable(program, path, text):
+    """Text that could not be read again is not saved, and a file that a link replaces is neither read nor written through it."""
+    kept = path.read_bytes()
+    for toml in ("", " \n", "a = 1\n", text + "#" + "x" * (2 << 20) + "\n", text.replace("[cam]", "[cams]"), "name = ", text + "\x00", "[]", text[: len(text) // 2]):
+        done = program.posted("/save", design=0, toml=toml, before=text)
+        assert "faults" in done and path.read_bytes() == kept, (toml[:60], done)
+    changed = text.replace('name = "Feeder"', 'name = "Changed"')
+    victim = path.with_name("victim.toml")
+    victim.write_text(text)
+    for there in (victim, Path("/etc/hostname"), path.with_name("nothing")):
+        path.unlink()
+        path.symlink_to(there)
+        done = program.posted("/save", design=0, toml=changed, before=text)
+        assert "faults" in done and victim.read_text() == text and path.is_symlink(), done
+        found = program.posted("/files")["designs"][0]
+        assert "fault" in found and "toml" not in found, found
+    path.unlink()
+    for make in (lambda: os.mkfifo(path), path.mkdir):
+        make()
+        assert "faults" in program.posted("/save", design=0, toml=changed, before=text)
+        assert "fault" in program.posted("/files")["designs"][0]
+        path.rmdir() if path.is_dir() else path.unlink()
+    path.write_bytes(kept)
+    victim.unlink()
+    assert "written" in program.posted("/save", design=0, toml=text, before=text)
+
+
+def saves_killed(binary, directory, count, seed):
+    """Kills at random moments of a save, and at each of its calls; how many came, and the calls of a save."""
+    where = directory / "kills"
+    where.mkdir()
+    path = where / "own.toml"
+    texts = [(directory / "own.toml").read_text().replace('name = "Feeder"', f'name = "Number {number}"') for number in (0, 1)]
+    path.write_text(texts[0])
+    path.chmod(0o600)
+
+    def saved(program, old):
+        """Asks for the other text; what is there after a kill is the old text or the new one, and nothing that the next save does not take away."""
+        try:
+            program.ask("POST", "/save", json.dumps({"design": 0, "toml": texts[1 - old], "before": texts[old]}).encode())
+        except OSError:
+            pass
+
+    def judged(what):
+        there = path.read_text()
+        assert there in texts and stat.S_IMODE(path.stat().st_mode) == 0o600, f"{what}: {len(there)} bytes, {path.stat().st_mode:o}"
+        old = texts.index(there)
+        for one in where.iterdir():
+            assert stat.S_IMODE(one.stat().st_mode) & 0o077 == 0 or one.is_dir(), f"{what}: {one.name} is readable to others"
+        again = Program(binary, where, "own.toml")
+        try:
+            done = again.posted("/save", design=0, toml=texts[1 - old], before=texts[old])
+        finally:
+            again.kill()
+        assert "written" in done and path.read_text() == texts[1 - old], f"{what}: the next save: {done}"
+        assert os.listdir(where) == ["own.toml"], f"{what}: the next save leaves {os.listdir(where)}"
+        return 1 - old
+
+    chance, old, came = random.Random(seed), 0, 0
+    for number in range(count):
+        program = Program(binary, where, "own.toml")
+        worker = threading.Thread(target=saved, args=(program, old))
+        worker.start()
+        time.sleep(chance.uniform(0.0, 0.03))
+        came += program.process.poll() is None
+        program.kill()
+        worker.join()
+        old = judged(f"killed at random, {number}")
+    if shutil.which("strace") is None:
+        return came, None
+    calls = ("openat", "write", "fsync", "renameat", "unlinkat", "fchmod", "flock", "fchown")
+    log = directory / "trace"
+    program = Program(binary, where, "own.toml", prefix=["strace", "-f", "-o", str(log), "-e", f"trace={','.join(calls)}"])
+    done = program.posted("/save", design=0, toml=texts[1 - old], before=texts[old])
+    program.kill()
+    assert "written" in done, done
+    old = 1 - old
+    counts, found, begun = {}, [], False
+    for line in log.read_text(errors="replace").splitlines():
+        name = line.partition(" ")[2].strip().partition("(")[0]
+        if name in calls:
+            counts[name] = counts.get(name, 0) + 1
+            begun = begun or "/kills\"" in line and "O_DIRECTORY" in line
+            if begun:
+                found.append((name, counts[name]))
+                assert "O_CREAT" not in line or "0600" in line, f"it is readable to others before it has its mode: {line}"
+    assert found, "the calls of a save are not seen"
+    for call, ordinal in found:
+        program = Program(binary, where, "own.toml", prefix=["strace", "-f", "-o", os.devnull, "-e", f"trace={call}", "-e", f"inject={call}:signal=KILL:when={ordinal}"])
+        saved(program, old)
+        program.kill()
+        old = judged(f"killed at {call} {ordinal}")
+    return came, len(found)
+
+
 def only_loopback(program):
     """It listens on 127.0.0.1 and on nothing else."""
     listed = Path("/proc/net/tcp").read_text() + Path("/proc/net/tcp6").read_text()
@@ -207,7 +331,7 @@ def works(program, binary, directory):
     assert changed == text.replace('thickness = "15 mm"', 'thickness = "17 mm"') != text
     posted = lambda path, **body: json.loads(program.ask("POST", path, json.dumps(body).encode())[1])
     assert "changed by another program" in posted("/save", design=0, toml=changed, before="something else")["faults"][0]["message"]
-    assert "not TOML" in posted("/save", design=0, toml="name = ", before=text)["faults"][0]["message"]
+    assert "could not be read again" in posted("/save", design=0, toml="name = ", before=text)["faults"][0]["message"]
     assert path.read_text() == text
     assert "written" in posted("/save", design=0, toml=changed, before=text) and path.read_text() == changed
     assert posted("/files")["designs"][0]["toml"] == changed
@@ -249,6 +373,7 @@ def main():
     parser.add_argument("binary", type=Path)
     parser.add_argument("directory", type=Path)
     parser.add_argument("--requests", type=int, default=10_000)
+    parser.add_argument("--kills", type=int, default=10)
     options = parser.parse_args()
     binary, directory = options.binary.resolve(), (options.directory / "serve").resolve()
     shutil.rmtree(directory, ignore_errors=True)
@@ -272,12 +397,17 @@ def main():
         seconds = time.time() - begin
         statuses = {status: sum(one.get(status, 0) for one in found.values()) for one in found.values() for status in one}
         longest, dripped, waited = bounded(program), slow(program), crowded(program)
+        idle(program)
         assert digests(directory) == before, "a hostile client has written"
+        unreadable(program, directory / "own.toml", text)
         works(program, binary, directory)
         assert program.process.poll() is None, "the program has ended"
     finally:
         said = program.end()
     assert "panicked" not in said and said == "", said
+    (directory / "own.toml").write_text(text)
+    came, calls = saves_killed(binary, directory, options.kills, 7)
+    print(f"serve: {options.kills} kills at random moments of a save ({came} came), {calls or 'no'} at its calls: the next save works")
     print(f"serve: {options.requests} hostile requests in {seconds:.0f} s, answered {statuses}; the longest connection {longest:.1f} s, a slow body {dripped:.1f} s, after 200 silent connections {waited:.1f} s")
 
 

@@ -1,11 +1,14 @@
 """Reads study files by itself and compares their tables with what the command line reports of the same designs, to the last bit.
 
-usage: study.py BINARY DIRECTORY [--count N] [--rows N] [--kills N]
+usage: study.py BINARY DIRECTORY [--count N] [--rows N] [--kills N] [--each N]
 
 For each of a few studies the values of the keys are computed again from the study file (the combinations of a sweep), or checked against their
 distribution (random designs), and `camgen make … --set … --json --dry-run` is run for a sample of rows. The Pareto front is found again by
 comparing each design with each, the summary by sorting. A long study is killed by SIGKILL at random moments and continued: its table must
-have the bytes of an unbroken run, and the memory of the process must not grow. The long run is --count 60 --rows 1000000 --kills 10.
+have the bytes of an unbroken run, and the memory of the process must not grow. Short studies are killed at random moments and at the calls of the
+system with which they write, and the same command must end with the files of an unbroken run and no others; rows that nobody computed must be
+refused or made again; a full disk must lose nothing; and another command under the stem of a running study must be refused. The long run is
+--count 60 --rows 1000000 --kills 10 --each 300.
 """
 
 import argparse
@@ -209,6 +212,239 @@ deviation = "0.1 kg"
     return f"{rows} rows in {seconds:.1f} s, {written / rows:.1f} bytes a row, {size:.1f} MiB of memory, killed {done} times: the same bytes"
 
 
+PARETO = """
+name = "front"
+base = "feeder"
+kind = "pareto"
+rows = 4500
+set = ["cam.base_radius=60mm"]
+columns = ["cam.prime_radius_mm", "checks.pressure_angle.value"]
+[[parameter]]
+key = "follower.roller.radius"
+from = "2 mm"
+to = "20 mm"
+[[parameter]]
+key = "follower.roller.mass"
+mean = "2.5 kg"
+deviation = "0.1 kg"
+[[objective]]
+column = "cam.prime_radius_mm"
+[[objective]]
+column = "checks.pressure_angle.value"
+"""
+COMMAND = ["study", "front.toml", "--quiet", "--page"]
+# Calls that change something, or are the last before it.
+CALLS = ("openat", "write", "fsync", "renameat", "unlinkat", "ftruncate", "flock", "fchmod")
+
+
+class Bench:
+    """A study, the files of an unbroken run of it, and how long that takes."""
+
+    def __init__(self, binary, directory):
+        self.binary, self.root = binary, directory / "broken"
+        self.root.mkdir()
+        whole = self.case("whole")
+        began = time.monotonic()
+        run(binary, COMMAND, whole)
+        self.seconds = time.monotonic() - began
+        self.files = self.found(whole)
+        assert sorted(self.files) == [".camgen.json", "front-front.csv", "front.csv", "front.html", "front.json"], sorted(self.files)
+
+    def case(self, name):
+        path = self.root / name
+        shutil.rmtree(path, ignore_errors=True)
+        path.mkdir()
+        (path / "front.toml").write_text(PARETO, encoding="utf-8")
+        return path
+
+    @staticmethod
+    def found(case):
+        """The files of a case by name."""
+        out = case / "output"
+        return {path.name: path.read_bytes() for path in out.iterdir()} if out.is_dir() else {}
+
+    def begun(self, case, prefix=()):
+        return subprocess.Popen([*prefix, self.binary, *COMMAND], cwd=case, env={**os.environ, "RAYON_NUM_THREADS": "1"}, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL, start_new_session=True)
+
+    def continued(self, case, what):
+        """The same command again, with nothing in its way."""
+        names = {"front.csv", "front.json", "front-front.csv", "front.html"}
+        there = self.found(case)
+        partly = names & set(there) if names - set(there) else set()
+        # Of a set that is being put in place some may be there, if its record is.
+        assert not partly or ".camgen-commit" in there, f"{what}: {sorted(there)}"
+        done = subprocess.run([self.binary, *COMMAND], cwd=case, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, f"{what}: the same command ends with {done.returncode}: {done.stderr}"
+        found = self.found(case)
+        assert found == self.files, f"{what}: {sorted(found)}, differing {[name for name in found if found[name] != self.files.get(name)]}"
+        shutil.rmtree(case)
+
+
+def killed_at_random(bench, count, seed):
+    """Kills at random moments, some of them twice, before the same command; how many came."""
+    chance, came = random.Random(seed), 0
+    for number in range(count):
+        case = bench.case(f"random-{number}")
+        for _ in range(chance.choice([1, 1, 1, 2])):
+            process = bench.begun(case)
+            # Half of them at the end, where the files get their names.
+            share = chance.uniform(0.0, 1.2) if number % 2 else chance.uniform(0.85, 1.1)
+            try:
+                process.wait(share * bench.seconds)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+                came += 1
+        bench.continued(case, f"killed at random, {number}")
+    return came
+
+
+def killed_at_calls(bench, count, seed):
+    """Kills at the calls that write; how many came, and of how many. None without strace."""
+    if shutil.which("strace") is None:
+        return None
+    case, log = bench.case("calls"), bench.root / "log"
+    tracer = ["strace", "-f", "-o", str(log), "-e", f"trace={','.join(CALLS)}"]
+    if bench.begun(case, tracer).wait() != 0:
+        return None
+    counts, calls, began = {}, [], False
+    for line in log.read_text(errors="replace").splitlines():
+        name = line.partition(" ")[2].strip().partition("(")[0]
+        if name in CALLS:
+            counts[name] = counts.get(name, 0) + 1
+            began = began or "output" in line
+            if began:
+                calls.append((name, counts[name]))
+    random.Random(seed).shuffle(calls)
+    came = 0
+    for number, (call, ordinal) in enumerate(calls[:count]):
+        case = bench.case(f"call-{number}")
+        prefix = ["strace", "-f", "-o", os.devnull, "-e", f"trace={call}", "-e", f"inject={call}:signal=KILL:when={ordinal}"]
+        came += bench.begun(case, prefix).wait() not in (0, 1, 2)
+        bench.continued(case, f"killed at {call} {ordinal}")
+    return came, len(calls)
+
+
+def stopped(bench, name):
+    """A case in which a run was killed with rows saved."""
+    for attempt in range(20):
+        case = bench.case(name)
+        process = bench.begun(case)
+        part, marker = case / "output" / "front.csv.part", case / "output" / "front.csv.part.json"
+        while process.poll() is None:
+            saved = json.loads(marker.read_bytes()) if marker.exists() else {"rows": 0}
+            if saved["rows"] > 0 and part.exists():
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+                if part.exists():
+                    return case, part, saved
+    raise AssertionError(f"{name}: no run could be stopped with rows saved")
+
+
+def forged(bench, count, seed):
+    """Rows that nobody computed are refused, or made again; how many of each."""
+    case, part, saved = stopped(bench, "forged")
+    kept = {path.name: path.read_bytes() for path in (case / "output").iterdir()}
+    rows = part.read_bytes()[: saved["bytes"]].splitlines(keepends=True)
+    chance, refused, again = random.Random(seed), 0, 0
+
+    def cell(row, column, text):
+        cells = row.split(b",")
+        cells[column] = text
+        return b",".join(cells)
+
+    for number in range(count):
+        at = chance.randrange(1, len(rows))
+        changed = {
+            0: lambda: rows[:at] + [cell(rows[at], 2, b"1")] + rows[at + 1 :],
+            1: lambda: rows[:at] + [cell(rows[at], 4, b"0.5")] + rows[at + 1 :],
+            2: lambda: rows[:at] + [rows[at].replace(b",", b", ", 1)] + rows[at + 1 :],
+            3: lambda: rows[:at] + rows[at + 1 :],
+            4: lambda: [cell(rows[0], 2, b"set.other"), *rows[1:]],
+            5: lambda: rows + [cell(rows[at], 0, str(len(rows) - 1).encode())],
+            6: lambda: rows + [b"%d,1,1,1,1,\n" % (len(rows) - 1 + i) for i in range(5000)],
+            7: lambda: rows[:at],
+            8: lambda: rows + [bytes(100)],
+            9: lambda: [rows[0], *reversed(rows[1:])],
+        }[number % 10]()
+        shutil.rmtree(case)
+        case = bench.case("forged")
+        (case / "output").mkdir()
+        for name, content in kept.items():
+            (case / "output" / name).write_bytes(content)
+        part.write_bytes(b"".join(changed))
+        done = subprocess.run([bench.binary, *COMMAND], cwd=case, capture_output=True, text=True, check=False)
+        if done.returncode == 2:
+            assert "was changed since camgen wrote it" in done.stderr and "--restart" in done.stderr, done.stderr
+            assert part.read_bytes() == b"".join(changed), f"a refused part was changed: {number}"
+            run(bench.binary, [*COMMAND, "--restart"], case, expected=(0,))
+            refused += 1
+        else:
+            again += 1
+        assert bench.found(case) == bench.files, f"forged rows were kept: {number}: {sorted(bench.found(case))}"
+    shutil.rmtree(case)
+    return refused, again
+
+
+def at_once(bench):
+    """Under the stem of a running study no other command writes; under another one it does."""
+    case = bench.case("at-once")
+    process = bench.begun(case)
+    while process.poll() is None and not (case / "output" / "front.csv.part").exists():
+        time.sleep(0.001)
+    os.killpg(process.pid, signal.SIGSTOP)
+    try:
+        for words, code in ((["make", "feeder", "--name", "front", "--quiet"], 2), (["study", "front.toml", "--quiet"], 2),
+                            (["make", "feeder", "--name", "other", "--quiet", "--format", "csv"], 0)):
+            done = subprocess.run([bench.binary, *words], cwd=case, capture_output=True, text=True, check=False, timeout=60)
+            assert done.returncode == code and (code == 0 or "another run of camgen is writing" in done.stderr), f"{words}: {done.returncode} {done.stderr}"
+    finally:
+        os.killpg(process.pid, signal.SIGCONT)
+    assert process.wait() == 0
+    found = bench.found(case)
+    for name in bench.files:
+        assert name == ".camgen.json" or found[name] == bench.files[name], name
+    assert set(found) == {*bench.files, "other.csv"}, sorted(found)
+    shutil.rmtree(case)
+
+
+def full_disks(bench):
+    """A disk that is full at some moment, and then is not: nothing is lost. None if none can be mounted."""
+    sizes = (4, 16, 60, 120, 200, 260, 320, 400, 500)
+    for size in sizes:
+        case = bench.case("disk")
+        (case / "output").mkdir()
+        mount = ["mount", "-t", "tmpfs", "-o", f"size={size}k", "tmpfs", str(case / "output")]
+        if shutil.which("mount") is None or subprocess.run(mount, capture_output=True, check=False).returncode != 0:
+            return None
+        try:
+            done = subprocess.run([bench.binary, *COMMAND], cwd=case, capture_output=True, text=True, check=False)
+            assert done.returncode in (0, 2) and "panicked" not in done.stderr, done.stderr
+            there = set(bench.found(case))
+            assert done.returncode == 0 or "front.csv" not in there, f"{size} kB: {done.stderr}: {there}"
+            subprocess.run(["mount", "-o", "remount,size=100m", str(case / "output")], check=True)
+            run(bench.binary, COMMAND, case, expected=(0,))
+            assert bench.found(case) == bench.files, f"{size} kB: {sorted(bench.found(case))}"
+        finally:
+            subprocess.run(["umount", str(case / "output")], check=False)
+    return len(sizes)
+
+
+def broken(binary, directory, count, seed):
+    """Everything that may befall a study; lines of figures."""
+    bench = Bench(binary, directory)
+    came = killed_at_random(bench, count, seed)
+    yield f"{count} studies killed at random moments, {came} kills came: all end by the same command"
+    calls = killed_at_calls(bench, count, seed)
+    yield "no strace: no kills at calls" if calls is None else f"{min(count, calls[1])} of {calls[1]} calls at which it was killed, {calls[0]} kills came: all end by the same command"
+    refused, again = forged(bench, max(20, count // 5), seed)
+    yield f"{refused + again} forged tables: {refused} refused, {again} made again, none kept"
+    at_once(bench)
+    disks = full_disks(bench)
+    yield "no disk can be mounted" if disks is None else f"{disks} full disks: nothing is lost"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("binary")
@@ -216,6 +452,7 @@ def main():
     parser.add_argument("--count", type=int, default=4, help="rows of each study that are compared")
     parser.add_argument("--rows", type=int, default=8000, help="rows of the study that is killed")
     parser.add_argument("--kills", type=int, default=3)
+    parser.add_argument("--each", type=int, default=12, help="kills at random, and at calls")
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     binary = str(pathlib.Path(arguments.binary).resolve())
@@ -255,6 +492,8 @@ scale = "log"
 """
     rows = sum(compared(binary, directory, text, stem, arguments.count, arguments.seed) for stem, text in texts.items())
     print(f"study: {rows} rows of {len(texts)} studies have the figures of the command line to the last bit")
+    for line in broken(binary, directory, arguments.each, arguments.seed):
+        print(f"study: {line}")
     print("study: " + killed(binary, directory, arguments.rows, arguments.kills, arguments.seed))
 
 

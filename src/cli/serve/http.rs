@@ -69,9 +69,11 @@ impl Answer {
     }
 }
 
-/// Reads a request, writes the answer to it, and ends the connection.
-pub(super) fn converse(mut stream: TcpStream, answer: impl FnOnce(&HttpRequest) -> Answer) {
-    let (answer, whole) = match read(&mut stream) {
+/// Reads a request, writes the answer to it, and ends the connection. `whole` is called when the request is there.
+pub(super) fn converse(mut stream: TcpStream, whole: impl FnOnce(), answer: impl FnOnce(&HttpRequest) -> Answer) {
+    let request = read(&mut stream);
+    whole();
+    let (answer, whole) = match request {
         Ok(request) => (answer(&request), true),
         Err(Some(refusal)) => (refusal, false),
         Err(None) => return,
@@ -109,11 +111,13 @@ fn read(stream: &mut TcpStream) -> Result<HttpRequest, Option<Answer>> {
         Ok(())
     };
     let (mut request, length, head) = loop {
-        if let Some(found) = head(&bytes).map_err(Some)? {
-            break found;
-        }
-        if bytes.len() > LARGEST_HEAD {
+        let found = head(&bytes).map_err(Some)?;
+        let length = found.as_ref().map_or(bytes.len(), |(_, _, length)| *length);
+        if length > LARGEST_HEAD {
             return Err(Some(Answer::refused(431, "the head is too large")));
+        }
+        if let Some(found) = found {
+            break found;
         }
         more(&mut bytes)?;
     };

@@ -34,6 +34,12 @@ impl DirectoryHandle {
         Err(TryLockError::Error(io::ErrorKind::Unsupported.into()))
     }
 
+    pub(super) fn unlock(&self) {}
+
+    pub(super) fn again(&self) -> io::Result<Self> {
+        Ok(Self(self.0.clone()))
+    }
+
     pub(super) fn is_at(&self, path: &Path) -> io::Result<bool> {
         Ok(self.0 == path)
     }
@@ -62,6 +68,18 @@ impl DirectoryHandle {
 
     pub(super) fn file(&self, name: &str) -> io::Result<File> {
         File::open(self.0.join(name))
+    }
+
+    pub(super) fn create_to_extend(&self, name: &str) -> io::Result<File> {
+        File::options().read(true).write(true).create_new(true).open(self.0.join(name))
+    }
+
+    pub(super) fn file_to_extend(&self, name: &str) -> io::Result<File> {
+        File::options().read(true).write(true).open(self.0.join(name))
+    }
+
+    pub(super) fn has_only_name(&self, _: &File, name: &str) -> io::Result<bool> {
+        fs::symlink_metadata(self.0.join(name)).map(|data| data.is_file())
     }
 
     pub(super) fn rename(&self, from: &str, to: &str) -> io::Result<()> {

@@ -57,6 +57,17 @@ impl DirectoryHandle {
         self.0.try_lock()
     }
 
+    pub(super) fn unlock(&self) {
+        // Closing the handle unlocks it too.
+        let _ = self.0.unlock();
+    }
+
+    /// Another handle of the same directory, with a lock of its own.
+    pub(super) fn again(&self) -> io::Result<Self> {
+        let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::CLOEXEC;
+        Ok(Self(File::from(rustix::fs::openat(&self.0, ".", flags, Mode::empty())?)))
+    }
+
     pub(super) fn is_at(&self, path: &Path) -> io::Result<bool> {
         let own = self.0.metadata()?;
         match fs::metadata(path) {
@@ -89,6 +100,21 @@ impl DirectoryHandle {
         // Opening does not wait for a pipe that was put there in the meantime.
         let flags = OFlags::RDONLY | OFlags::NOFOLLOW | OFlags::NONBLOCK | OFlags::CLOEXEC;
         Ok(File::from(rustix::fs::openat(&self.0, name, flags, Mode::empty())?))
+    }
+
+    pub(super) fn create_to_extend(&self, name: &str) -> io::Result<File> {
+        let flags = OFlags::RDWR | OFlags::CREATE | OFlags::EXCL | OFlags::NOFOLLOW | OFlags::CLOEXEC;
+        Ok(File::from(rustix::fs::openat(&self.0, name, flags, NEW)?))
+    }
+
+    pub(super) fn file_to_extend(&self, name: &str) -> io::Result<File> {
+        let flags = OFlags::RDWR | OFlags::NOFOLLOW | OFlags::NONBLOCK | OFlags::CLOEXEC;
+        Ok(File::from(rustix::fs::openat(&self.0, name, flags, Mode::empty())?))
+    }
+
+    pub(super) fn has_only_name(&self, file: &File, name: &str) -> io::Result<bool> {
+        let (open, there) = (file.metadata()?, rustix::fs::statat(&self.0, name, AtFlags::SYMLINK_NOFOLLOW)?);
+        Ok((open.dev(), open.ino(), open.nlink()) == (there.st_dev, there.st_ino, 1))
     }
 
     pub(super) fn rename(&self, from: &str, to: &str) -> io::Result<()> {

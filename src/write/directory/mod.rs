@@ -68,7 +68,7 @@ impl Directory {
     fn made(path: &Path, made: &[PathBuf]) -> Result<Self, FilesError> {
         let opened = fs::create_dir_all(path).and_then(|()| DirectoryHandle::open(path));
         let opened = opened.map_err(|source| FilesError::Directory { path: path.to_owned(), source });
-        match opened.and_then(|held| lock(&held, path).map(|locked| (held, locked))) {
+        match opened.and_then(|held| lock(&held, path, PATIENCE).map(|locked| (held, locked))) {
             Ok((held, locked)) => Ok(Self { held, path: path.to_owned(), made: made.to_vec(), locked }),
             Err(error) => {
                 remove_empty(made);
@@ -81,11 +81,46 @@ impl Directory {
     pub(super) fn found(path: &Path) -> Result<Option<Self>, FilesError> {
         match DirectoryHandle::open(path) {
             Ok(held) => {
-                let locked = lock(&held, path)?;
+                let locked = lock(&held, path, PATIENCE)?;
                 Ok(Some(Self { held, path: path.to_owned(), made: Vec::new(), locked }))
             }
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(source) => Err(FilesError::Directory { path: path.to_owned(), source }),
+        }
+    }
+
+    /// Opens a directory, made if missing, without waiting for other runs: for files whose names no other run writes.
+    pub(super) fn unlocked(path: &Path) -> Result<Self, FilesError> {
+        let opened = fs::create_dir_all(path).and_then(|()| DirectoryHandle::open(path));
+        let held = opened.map_err(|source| FilesError::Directory { path: path.to_owned(), source })?;
+        Ok(Self { held, path: path.to_owned(), made: Vec::new(), locked: false })
+    }
+
+    /// The same directory, locked: whichever directory has its path by now. Waits for other runs.
+    pub(super) fn locked(&self) -> Result<Self, FilesError> {
+        self.locked_within(PATIENCE)
+    }
+
+    /// The same directory, locked; `None` while another run is in it.
+    pub(super) fn locked_if_free(&self) -> Result<Option<Self>, FilesError> {
+        match self.locked_within(Duration::ZERO) {
+            Err(FilesError::Busy { .. }) => Ok(None),
+            locked => locked.map(Some),
+        }
+    }
+
+    fn locked_within(&self, patience: Duration) -> Result<Self, FilesError> {
+        let failed = |source| FilesError::Directory { path: self.path.clone(), source };
+        let held = self.held.again().map_err(failed)?;
+        let locked = lock(&held, &self.path, patience)?;
+        Ok(Self { held, path: self.path.clone(), made: Vec::new(), locked })
+    }
+
+    /// Lets other runs into it; it stays open.
+    pub(super) fn unlock(&mut self) {
+        if self.locked {
+            self.held.unlock();
+            self.locked = false;
         }
     }
 
@@ -138,6 +173,26 @@ impl Directory {
         Ok(bytes)
     }
 
+    /// A file to be read.
+    pub(super) fn file(&self, name: &str) -> io::Result<File> {
+        self.held.file(name)
+    }
+
+    /// A new file that is read as well.
+    pub(super) fn create_to_extend(&self, name: &str) -> io::Result<File> {
+        self.held.create_to_extend(name)
+    }
+
+    /// An existing file to be read and written on.
+    pub(super) fn file_to_extend(&self, name: &str) -> io::Result<File> {
+        self.held.file_to_extend(name)
+    }
+
+    /// Whether an open file has this name, and no other.
+    pub(super) fn has_only_name(&self, file: &File, name: &str) -> io::Result<bool> {
+        self.held.has_only_name(file, name)
+    }
+
     /// Gives a file the name of another, which is then gone; a reader finds the one or the other at any time.
     pub(super) fn rename(&self, from: &str, to: &str) -> io::Result<()> {
         self.held.rename(from, to)
@@ -168,17 +223,17 @@ impl Drop for Directory {
 }
 
 /// Waits until no other run is in a directory; `false` where the file system has no locks.
-fn lock(held: &DirectoryHandle, path: &Path) -> Result<bool, FilesError> {
+fn lock(held: &DirectoryHandle, path: &Path, patience: Duration) -> Result<bool, FilesError> {
     let mut waited = Duration::ZERO;
     loop {
         match held.try_lock() {
             Ok(()) => return Ok(true),
-            Err(TryLockError::WouldBlock) if waited < PATIENCE => {
+            Err(TryLockError::WouldBlock) if waited < patience => {
                 sleep(PERIOD);
                 waited += PERIOD;
             }
             Err(TryLockError::WouldBlock) => {
-                return Err(FilesError::Busy { path: path.to_owned(), seconds: PATIENCE.as_secs() });
+                return Err(FilesError::Busy { path: path.to_owned(), seconds: patience.as_secs() });
             }
             Err(TryLockError::Error(error)) if held::has_no_locks(&error) => return Ok(false),
             Err(TryLockError::Error(source)) => return Err(FilesError::Directory { path: path.to_owned(), source }),
