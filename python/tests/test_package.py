@@ -104,6 +104,11 @@ def test_options_are_told_by_their_names():
         "lift": lambda: camgen.Motion.from_samples([0, 1, 2], [0, 1]),
         "segments": lambda: camgen.Motion.program([("cycloidal", "180deg", "20mm")]),
         "law": lambda: camgen.Motion.program([("cyclodal", "180deg", "20mm"), ("cycloidal", "180deg", 0.0)]),
+        # Texts that are no names of files.
+        "file": lambda: cam.check("\ud800"),
+        "directory": lambda: cam.draw().prove().write("a\ud800"),
+        "out": lambda: camgen.Study.load("lever-pareto").collect([], "\ud800"),
+        "typed": lambda: camgen._camgen.command(["camgen", "\ud800"]),
     }
     for parameter, call in wrong.items():
         with pytest.raises(camgen.OptionError) as raised:

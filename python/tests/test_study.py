@@ -205,3 +205,87 @@ def test_a_worker_of_another_version_is_refused_and_named(whole, cluster, tmp_pa
     finally:
         other.kill()
         other.wait()
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "null", "{}", '{"digest": 1, "size": "x", "shards": []}', '{"digest": "a", "size": 5, "shards": [{}]}',
+                                  '{"name": "an app", "start_url": "/"}'])
+def test_a_manifest_that_is_none_is_told_and_kept(whole, tmp_path, text):
+    place = tmp_path / "place"
+    place.mkdir()
+    (place / "manifest.json").write_text(text)
+    with pytest.raises(studies.StudyRunError, match="manifest.json is damaged, or is not the manifest of a study"):
+        studies.run(whole[0], out=tmp_path / "out", shards=str(place), size=1000, workers=1)
+    assert (place / "manifest.json").read_text() == text and len(list(place.iterdir())) == 1
+
+
+def test_a_manifest_that_was_cut_off_is_told(whole, tmp_path):
+    studies.run(whole[0], out=tmp_path / "out", workers=1, size=1500)
+    path = tmp_path / "out" / "shards-shards" / "manifest.json"
+    data = path.read_bytes()
+    for length in range(0, len(data) - 1, 40):
+        path.write_bytes(data[:length])
+        with pytest.raises(studies.StudyRunError, match="is damaged"):
+            studies.run(whole[0], out=tmp_path / "out", workers=1)
+        assert path.read_bytes() == data[:length]
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="links and pipes of Unix")
+@pytest.mark.parametrize("kind", ["link", "dangling", "pipe", "directory", "file"])
+@pytest.mark.parametrize("name", ["manifest.json", "rows-000000000000000.csv", "rows-000000000001500.csv"])
+def test_what_a_user_has_in_the_place_of_shards_stays(whole, tmp_path, kind, name):
+    place, victim = tmp_path / "place", tmp_path / "victim"
+    place.mkdir()
+    victim.write_text("mine\n")
+    path = place / name
+    {"link": lambda: path.symlink_to(victim), "dangling": lambda: path.symlink_to(tmp_path / "none"), "pipe": lambda: os.mkfifo(path),
+     "directory": path.mkdir, "file": lambda: path.write_text("mine\n")}[kind]()
+    before = os.lstat(path).st_ino
+    with pytest.raises(studies.StudyRunError):
+        studies.run(whole[0], out=tmp_path / "out", shards=str(place), size=1500, workers=1)
+    assert victim.read_text() == "mine\n" and os.lstat(path).st_ino == before and not (tmp_path / "none").exists()
+    assert list(place.iterdir()) == [path]
+
+
+PARENT = """
+import sys
+from camgen import study
+if __name__ == "__main__":
+    study.run(sys.argv[1], out=sys.argv[2], size=1000, workers=4, progress=lambda done, count: print(done, flush=True))
+"""
+
+
+def test_workers_end_with_their_parent(whole, tmp_path):
+    """Killed, the parent can tell its workers nothing: they notice it, and the next run finishes."""
+    psutil = pytest.importorskip("psutil")
+    module, path = tmp_path / "parent.py", tmp_path / "long.toml"
+    module.write_text(PARENT, "utf-8")
+    path.write_text(STUDY.replace("rows = 3000", "rows = 200000"), "utf-8")
+    parent = subprocess.Popen([sys.executable, str(module), str(path), str(tmp_path / "long")], stdout=subprocess.PIPE)
+    assert parent.stdout is not None and parent.stdout.readline()
+    children = psutil.Process(parent.pid).children(recursive=True)
+    assert len(children) >= 4
+    parent.kill()
+    parent.wait()
+    _, alive = psutil.wait_procs(children, timeout=10)
+    assert not alive, [process.cmdline() for process in alive]
+
+
+def test_a_base_elsewhere_is_refused(tmp_path):
+    secret = tmp_path / "secret"
+    secret.write_text("root:x:secret:0\n")
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    path = folder / "study.toml"
+    path.write_text(STUDY.replace('"feeder"', f'"{secret}"'), "utf-8")
+    with pytest.raises(camgen.MachineError) as raised:
+        camgen.Study.load(path)
+    assert "root:x" not in str(raised.value) and "lies outside of the folder" in str(raised.value)
+    with pytest.raises(camgen.MachineError):
+        camgen.Study.from_toml(STUDY.replace('"feeder"', f'"{secret}"'))
+
+
+@pytest.mark.parametrize("name", ["../x", "a/b", ".x", ""])
+def test_a_name_that_files_cannot_have_is_refused_before_the_work(whole, tmp_path, name):
+    with pytest.raises(camgen.OptionError):
+        studies.run(whole[0], out=tmp_path / "out" / "deep", name=name)
+    assert not (tmp_path / "out").exists() and not (tmp_path / "x-shards").exists()

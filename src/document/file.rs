@@ -105,6 +105,15 @@ mod tests {
         assert_eq!(what(&path, 4), "it is not UTF-8 text");
     }
 
+    /// Reading the log of the kernel waits for its next line; memory of a process is longer than its size says.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn files_that_the_system_makes_up_are_empty() {
+        for path in ["/proc/kmsg", "/proc/self/maps", "/proc/self/cmdline"] {
+            assert_eq!(bytes_of(Path::new(path), 4).unwrap_or_default(), b"", "{path}");
+        }
+    }
+
     #[cfg(unix)]
     #[test]
     fn devices_are_refused() {

@@ -9,9 +9,8 @@ use std::io::{self, Write};
 /// Writes one file: its rename is all.
 pub(super) fn write_one(directory: &Directory, name: &str, bytes: &[u8]) -> Result<(), FilesError> {
     let file = stage_one(directory, &mut 0, name, &mut |file| file.write_all(bytes))?;
-    let renamed = directory.rename(&file.staged, name).map_err(|source| {
+    let renamed = directory.rename(&file.staged, name).inspect_err(|_| {
         let _ = directory.remove(&file.staged);
-        source
     });
     let placed = renamed.and_then(|()| directory.sync());
     placed.map_err(|source| FilesError::File { path: directory.path_of(name), source })
