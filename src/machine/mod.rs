@@ -47,7 +47,7 @@ pub use parts::{MachinePart, MachineParts};
 pub use plate::PlateData;
 pub use source::{Catalogue, MachineSource, ReadParts};
 pub use start::{followers, schema, template, template_of_program};
-pub use stem::fault_of as fault_of_stem;
+pub use stem::{fault_of as fault_of_stem, fitting as fitting_stem};
 pub use title::Title;
 pub use track::{CounterData, TrackData};
 pub use turret::TurretData;

@@ -38,7 +38,8 @@ pub fn fault_of(stem: &str) -> Option<String> {
 }
 
 /// The stem nearest to a name that files can be called by.
-pub(super) fn fitting(name: &str) -> String {
+#[must_use]
+pub fn fitting(name: &str) -> String {
     let plain: String = name.chars().map(|c| if fits(c) { c } else { '-' }).collect();
     let mut stem: String = plain.trim_start_matches(['.', '-', ' ']).chars().take(LONGEST).collect();
     while stem.len() > MOST_BYTES {

@@ -8,7 +8,7 @@ use super::parameter::{Parameter, SPEED, Values};
 use super::parts::{base_of, command, limits, once_each, parameter, spread};
 use super::sampling::{self, Sampling};
 use crate::document::{FileFault, MOST_FAULTS, Reader, TableReader, file, similar};
-use crate::machine::{Machine, MachineSource, valid_rpm};
+use crate::machine::{Machine, MachineSource, fitting_stem, valid_rpm};
 use crate::refusal::Refusal;
 use crate::report::sha256;
 use serde_json::Value;
@@ -162,7 +162,7 @@ impl Study {
         let seed = root.get(&keys::SEED).unwrap_or(1.0) as u64;
         let study = Self {
             name,
-            stem: stem.to_owned(),
+            stem: fitting_stem(stem),
             kind,
             base: Arc::new(base),
             command,

@@ -14,6 +14,7 @@ use super::files::{Content, NewFile, OutputDirectory, StagedFiles, after};
 use super::finite;
 use super::growing::{GrowingFile, refuse_growing};
 use super::known::{DirectoryRecord, LARGEST, digest_of, file_digest, is_record, record_name};
+use super::one_file::target;
 use crate::document::file::bytes_of;
 use crate::document::{Input, shown};
 use crate::report::sha256;
@@ -196,8 +197,17 @@ pub fn open_growing(
 ) -> Result<GrowingFile, FilesError> {
     let OutputDirectory { directory, finished, .. } = place;
     let files: Vec<_> = others.iter().map(|name| RecordedFile { name: name.clone(), digest: None }).collect();
-    let free = if overwrite { Ok(()) } else { refuse(&directory, &files) };
+    // A link or a pipe in the place of a file is refused now, not after hours.
+    let mut free = others.iter().try_for_each(|name| refuse_odd(&directory, name));
+    if free.is_ok() && !overwrite {
+        free = refuse(&directory, &files);
+    }
     free.and_then(|()| GrowingFile::open(directory, name, of, restart)).map_err(after(finished))
+}
+
+fn refuse_odd(directory: &Directory, name: &str) -> Result<(), FilesError> {
+    let failed = |source| FilesError::File { path: directory.path_of(name), source };
+    target(directory, name).map(|_| ()).map_err(failed)
 }
 
 fn refuse(directory: &Directory, files: &[RecordedFile]) -> Result<(), FilesError> {

@@ -279,6 +279,19 @@ fn many_unknown_columns_are_refused_at_once() {
     assert!(begun.elapsed().as_secs() < 20, "{:?}", begun.elapsed());
 }
 
+/// The names of the files of a study are none of camgen's own.
+#[test]
+fn a_study_file_with_an_odd_name_has_files_with_plain_names() {
+    for (name, stem) in [(".camgen.toml", "camgen"), ("-a.toml", "a"), ("con.toml", "machine-con")] {
+        let directory = with(SWEEP);
+        fs::rename(directory.path().join("study.toml"), directory.path().join(name)).expect("renamed");
+        let path = directory.path().join(name).display().to_string();
+        let (code, told) = ended_in(&directory, &["study", &path, "--quiet"]);
+        assert_eq!(code, 0, "{told}");
+        assert!(directory.path().join("output").join(format!("{stem}.json")).exists(), "{name}");
+    }
+}
+
 /// The files of a stem under which a study makes a table are not written by another command.
 #[test]
 fn a_stem_in_use_is_refused() {

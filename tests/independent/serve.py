@@ -282,7 +282,7 @@ def saves_killed(binary, directory, count, seed):
         old = judged(f"killed at random, {number}")
     if shutil.which("strace") is None:
         return came, None
-    calls = ("openat", "write", "fsync", "renameat", "unlinkat", "fchmod", "flock", "fchown")
+    calls = ("open", "openat", "write", "fsync", "renameat", "unlinkat", "fchmod", "flock", "fchown")
     log = directory / "trace"
     program = Program(binary, where, "own.toml", prefix=["strace", "-f", "-o", str(log), "-e", f"trace={','.join(calls)}"])
     done = program.posted("/save", design=0, toml=texts[1 - old], before=texts[old])
@@ -294,7 +294,7 @@ def saves_killed(binary, directory, count, seed):
         name = line.partition(" ")[2].strip().partition("(")[0]
         if name in calls:
             counts[name] = counts.get(name, 0) + 1
-            begun = begun or "/kills\"" in line and "O_DIRECTORY" in line
+            begun = begun or name == "open" and "O_DIRECTORY" in line
             if begun:
                 found.append((name, counts[name]))
                 assert "O_CREAT" not in line or "0600" in line, f"it is readable to others before it has its mode: {line}"

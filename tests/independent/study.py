@@ -234,7 +234,7 @@ column = "checks.pressure_angle.value"
 """
 COMMAND = ["study", "front.toml", "--quiet", "--page"]
 # Calls that change something, or are the last before it.
-CALLS = ("openat", "write", "fsync", "renameat", "unlinkat", "ftruncate", "flock", "fchmod")
+CALLS = ("open", "openat", "write", "fsync", "renameat", "unlinkat", "ftruncate", "flock", "fchmod")
 
 
 class Bench:

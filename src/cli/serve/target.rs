@@ -69,7 +69,7 @@ impl MachineFile {
         if text.len() as u64 > LARGEST {
             return Err(refused(format!("it would be larger than {LARGEST} bytes")));
         }
-        let source = MachineSource::of_file(&self.path.to_string_lossy(), text);
+        let source = MachineSource::of_file(&self.name, text);
         let machine = source.and_then(|source| Machine::of_source(&source, &[]));
         machine.map(|_| ()).map_err(|error| refused(error.faults.first().map_or_else(String::new, first_line)))
     }
