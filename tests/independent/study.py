@@ -216,7 +216,7 @@ PARETO = """
 name = "front"
 base = "feeder"
 kind = "pareto"
-rows = 4500
+rows = ROWS
 set = ["cam.base_radius=60mm"]
 columns = ["cam.prime_radius_mm", "checks.pressure_angle.value"]
 [[parameter]]
@@ -240,8 +240,8 @@ CALLS = ("open", "openat", "write", "fsync", "renameat", "unlinkat", "ftruncate"
 class Bench:
     """A study, the files of an unbroken run of it, and how long that takes."""
 
-    def __init__(self, binary, directory):
-        self.binary, self.root = binary, directory / "broken"
+    def __init__(self, binary, directory, rows):
+        self.binary, self.root, self.text = binary, directory / "broken", PARETO.replace("ROWS", str(rows))
         self.root.mkdir()
         whole = self.case("whole")
         began = time.monotonic()
@@ -254,7 +254,7 @@ class Bench:
         path = self.root / name
         shutil.rmtree(path, ignore_errors=True)
         path.mkdir()
-        (path / "front.toml").write_text(PARETO, encoding="utf-8")
+        (path / "front.toml").write_text(self.text, encoding="utf-8")
         return path
 
     @staticmethod
@@ -431,9 +431,9 @@ def full_disks(bench):
     return len(sizes)
 
 
-def broken(binary, directory, count, seed):
+def broken(binary, directory, rows, count, seed):
     """Everything that may befall a study; lines of figures."""
-    bench = Bench(binary, directory)
+    bench = Bench(binary, directory, rows)
     came = killed_at_random(bench, count, seed)
     yield f"{count} studies killed at random moments, {came} kills came: all end by the same command"
     calls = killed_at_calls(bench, count, seed)
@@ -453,6 +453,7 @@ def main():
     parser.add_argument("--rows", type=int, default=8000, help="rows of the study that is killed")
     parser.add_argument("--kills", type=int, default=3)
     parser.add_argument("--each", type=int, default=12, help="kills at random, and at calls")
+    parser.add_argument("--short", type=int, default=4500, help="rows of the studies that are killed often")
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     binary = str(pathlib.Path(arguments.binary).resolve())
@@ -492,7 +493,7 @@ scale = "log"
 """
     rows = sum(compared(binary, directory, text, stem, arguments.count, arguments.seed) for stem, text in texts.items())
     print(f"study: {rows} rows of {len(texts)} studies have the figures of the command line to the last bit")
-    for line in broken(binary, directory, arguments.each, arguments.seed):
+    for line in broken(binary, directory, arguments.short, arguments.each, arguments.seed):
         print(f"study: {line}")
     print("study: " + killed(binary, directory, arguments.rows, arguments.kills, arguments.seed))
 
