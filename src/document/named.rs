@@ -75,7 +75,7 @@ impl NamedFiles {
             NamedFiles::Folder(folder) => (folder, by_user),
             NamedFiles::Confined(folder) => (folder, false),
         };
-        let path = path_of(folder, name, key, by_user)?;
+        let path = path_of(folder, (name, key, "machine file"), by_user)?;
         file::table_text_of(&path, largest).map_err(|why| {
             let elsewhere = "give its path relative to the folder of the machine file";
             let help = (!path.exists()).then(|| elsewhere.to_owned());
@@ -84,15 +84,15 @@ impl NamedFiles {
     }
 }
 
-/// What is wrong with a file that a text in a folder names under a key, if it lies neither there nor in a folder that the user allows.
+/// What is wrong with a file that a study file in a folder names under a key, if it lies neither there nor in a folder that the user allows.
 #[must_use]
 pub fn outside_fault(folder: &Path, name: &str, key: &str) -> Option<FileFault> {
-    let Misfit { message, help } = path_of(folder, name, key, false).err()?;
+    let Misfit { message, help } = path_of(folder, (name, key, "study file"), false).err()?;
     Some(FileFault { key: None, message, help, place: None })
 }
 
-/// The path of a file that a machine file in a folder names under a key. The user may name any.
-fn path_of(folder: &Path, name: &str, key: &str, by_user: bool) -> Result<PathBuf, Misfit> {
+/// The path of a file that a text in a folder names under a key; the text is `of` this kind. The user may name any.
+fn path_of(folder: &Path, (name, key, of): (&str, &str, &str), by_user: bool) -> Result<PathBuf, Misfit> {
     let path = folder.join(name);
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     READ.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone());
@@ -106,7 +106,7 @@ fn path_of(folder: &Path, name: &str, key: &str, by_user: bool) -> Result<PathBu
     }
     let of_file = file.parent().unwrap_or(&file);
     Err(Misfit {
-        message: format!("`{key}`: `{name}` lies outside of the folder `{}` of the file that names it", root.display()),
+        message: format!("`{key}`: `{name}` lies outside of the folder of the {of}, `{}`", root.display()),
         help: Some(format!("put it there, or allow its folder with --allow-path \"{}\"", of_file.display())),
     })
 }

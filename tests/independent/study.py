@@ -13,6 +13,7 @@ refused or made again; a full disk must lose nothing; and another command under 
 
 import argparse
 import csv
+import fcntl
 import itertools
 import json
 import math
@@ -387,13 +388,27 @@ def forged(bench, count, seed):
     return refused, again
 
 
+def stop_while_it_computes(process, out):
+    """Stops a study that has its table open, and is not writing a name at this moment."""
+    while process.poll() is None:
+        if (out / "front.csv.part").exists():
+            os.killpg(process.pid, signal.SIGSTOP)
+            handle = os.open(out, os.O_RDONLY | os.O_DIRECTORY)
+            try:
+                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                return
+            except BlockingIOError:
+                os.killpg(process.pid, signal.SIGCONT)
+            finally:
+                os.close(handle)
+        time.sleep(0.001)
+
+
 def at_once(bench):
     """Under the stem of a running study no other command writes; under another one it does."""
     case = bench.case("at-once")
     process = bench.begun(case)
-    while process.poll() is None and not (case / "output" / "front.csv.part").exists():
-        time.sleep(0.001)
-    os.killpg(process.pid, signal.SIGSTOP)
+    stop_while_it_computes(process, case / "output")
     try:
         for words, code in ((["make", "feeder", "--name", "front", "--quiet"], 2), (["study", "front.toml", "--quiet"], 2),
                             (["make", "feeder", "--name", "other", "--quiet", "--format", "csv"], 0)):
