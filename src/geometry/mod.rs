@@ -22,6 +22,7 @@ pub mod edge_tree;
 mod entity;
 pub mod following;
 pub mod lead_in;
+pub mod nearest_points;
 pub mod nurbs;
 pub mod patch_fit;
 pub mod points;

@@ -3,6 +3,7 @@
 use super::check::{Evidence, FileCheck, place};
 use crate::check::{Check, CheckExplanation};
 use crate::geometry::contour::Edge;
+use crate::geometry::nearest_points::nearest_distances;
 use crate::reading::{Chain, FileUnit, INCHES, OUTLINE_LAYER, OutlinePlace, Reading, StrayEntity, few};
 use crate::report::{Bound, Finding, Verdict, shown};
 use crate::units::LengthUnit;
@@ -245,9 +246,6 @@ fn widest_gap(chains: &[Chain]) -> Option<(f64, Vector2<f64>)> {
     let ends: Vec<Vector2<f64>> = open
         .flat_map(|chain| chain.edges.first().map(Edge::start).into_iter().chain(chain.edges.last().map(Edge::end)))
         .collect();
-    let gap = |(index, end): (usize, &Vector2<f64>)| {
-        let others = ends.iter().enumerate().filter(|(other, _)| *other != index);
-        (others.map(|(_, other)| (other - end).norm()).fold(f64::INFINITY, f64::min), *end)
-    };
-    ends.iter().enumerate().map(gap).max_by(|a, b| a.0.total_cmp(&b.0))
+    let gaps = nearest_distances(&ends).into_iter().zip(ends);
+    gaps.max_by(|a, b| a.0.total_cmp(&b.0))
 }
