@@ -227,6 +227,13 @@ impl LawCurve {
         self.joints.partition_point(|joint| *joint <= x)
     }
 
+    /// The part of a range of parts, at least one, that holds x or is nearest to it; at a joint the later one.
+    #[must_use]
+    pub fn part_within(&self, x: f64, parts: &Range<usize>) -> usize {
+        let joints = self.joints.get(parts.start..parts.end.saturating_sub(1)).unwrap_or_default();
+        parts.start + joints.partition_point(|joint| *joint <= x)
+    }
+
     /// First and last x of a part.
     #[must_use]
     pub fn range_of(&self, part: usize) -> (f64, f64) {

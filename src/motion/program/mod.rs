@@ -474,7 +474,7 @@ impl Program {
         let Some(curve) = &segment.curve else { return Jet { s: segment.from, ..Jet::default() } };
         let x = ((angle - segment.start) / segment.width).clamp(0.0, 1.0);
         // At a joint between pieces rounding may lead to the neighbour, which has another jerk.
-        let part = curve.part_of(x).clamp(source.parts.start, source.parts.end.saturating_sub(1));
+        let part = curve.part_within(x, &source.parts);
         let [s, ds, dds, ddds] = curve.at(part, x);
         let shape = Jet { s, ds, dds, ddds }.by_angle_times(segment.width).scaled(segment.travel);
         Jet { s: segment.from + shape.s, ..shape }
