@@ -342,7 +342,7 @@ fn of_table(
     if options.fit == Some(ImportFit::Centre) {
         return Err(Refusal::new("a table of lifts has no centre").remedy("leave --fit centre out"));
     }
-    let found = sought(&rows, (options, whole), deviation, (any_turn, false));
+    let found = sought(&rows, (options, whole), deviation, (any_turn, false))?;
     let told = table.told.clone();
     Ok(Imported { leverage, rounding: table.rounding, told, ..Imported::new("table", rows, noise, deviation, found) })
 }
@@ -352,9 +352,9 @@ fn sought(
     (options, whole): (&ImportOptions, bool),
     deviation: f64,
     (any_turn, from_lowest): (bool, bool),
-) -> FoundMotion {
+) -> Result<FoundMotion, Refusal> {
     if whole {
-        return FoundMotion::whole(rows, rows.range().0, Vec::new());
+        return Ok(FoundMotion::whole(rows, rows.range().0, Vec::new()));
     }
     let laws = laws(options);
     found(rows, &Sought { laws: &laws, spline: options.spline, deviation, any_turn, from_lowest })
@@ -378,7 +378,7 @@ fn of_outline(
         let what = "the centre of an outline is the origin of its drawing";
         return Err(Refusal::new(what).remedy("move the drawing, or import points of it"));
     }
-    let found = sought(&rows, (options, whole), deviation, (options.fit == Some(ImportFit::Angle), true));
+    let found = sought(&rows, (options, whole), deviation, (options.fit == Some(ImportFit::Angle), true))?;
     let noise = rows.noise();
     Ok(Imported {
         leverage,
@@ -416,7 +416,7 @@ fn of_points(
         let deviation = asked(options, rows.quantity, leverage)?.unwrap_or(usual);
         checked(&rows, deviation, "point")?;
         let (from, to) = rows.widest_gap();
-        let found = sought(&rows, (options, whole), deviation, (fit != ImportFit::Nothing, true));
+        let found = sought(&rows, (options, whole), deviation, (fit != ImportFit::Nothing, true))?;
         if centred {
             let [x, y] = found.model.shift;
             shift += MILLIMETRES * Vector2::new(x, y);

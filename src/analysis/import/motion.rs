@@ -7,10 +7,13 @@ use super::recognise::{FittedLaw, Stretch};
 use super::round;
 use super::sought::Sought;
 use crate::motion::laws::SegmentEnd;
+use crate::refusal::Refusal;
 
 /// Turns that may be rests are tried in all combinations up to this many; a turn must leave this much less than a rest.
 const COMBINED: u32 = 6;
 const WORTH: f64 = 0.85;
+/// Most rises and returns in which laws are looked for: a motion with more turns back in the noise of its positions.
+pub(super) const MOST_STRETCHES: usize = 100;
 /// A dwell narrower than so many usual spacings, where the motion turns back, is none.
 const NARROW: f64 = 1.0;
 /// A rest of a spline shorter than this share of the filling may be none.
@@ -36,6 +39,8 @@ pub(super) struct FoundMotion {
     pub(super) segments: Vec<FoundSegment>,
     /// No law was found, and nothing rests.
     pub(super) whole: bool,
+    /// Rises and returns that are too many to look for laws.
+    pub(super) unsought: Option<usize>,
 }
 
 /// A stretch with the fits for each kind of its ends, by rest and turn.
@@ -69,8 +74,14 @@ impl Candidates {
 }
 
 /// The motion of positions.
-pub(super) fn found(rows: &Positions, sought: &Sought<'_>) -> FoundMotion {
+///
+/// # Errors
+/// [`Refusal`] where laws alone are wanted of too many rises and returns.
+pub(super) fn found(rows: &Positions, sought: &Sought<'_>) -> Result<FoundMotion, Refusal> {
     let mut all = plateaus(rows, sought.deviation);
+    if all.len() > MOST_STRETCHES {
+        return without_laws(rows, all.len(), sought);
+    }
     // From the lowest rest on.
     let lowest = (0..all.len()).min_by(|a, b| level(&all, *a).total_cmp(&level(&all, *b))).unwrap_or(0);
     all.rotate_left(lowest);
@@ -89,10 +100,20 @@ pub(super) fn found(rows: &Positions, sought: &Sought<'_>) -> FoundMotion {
         let over = found.over(rows, sought.deviation);
         let next: Vec<bool> = banned.iter().enumerate().map(|(at, own)| *own || over.contains(&at)).collect();
         if !sought.spline || found.whole || next == banned {
-            return found;
+            return Ok(found);
         }
         banned = next;
     }
+}
+
+/// A motion of too many rises and returns: a spline, where one is allowed.
+fn without_laws(rows: &Positions, stretches: usize, sought: &Sought<'_>) -> Result<FoundMotion, Refusal> {
+    if sought.spline {
+        let whole = FoundMotion::whole(rows, rows.range().0, Vec::new());
+        return Ok(FoundMotion { unsought: Some(stretches), ..whole });
+    }
+    let what = format!("{stretches} rises and returns: laws are looked for in at most {MOST_STRETCHES}");
+    Err(Refusal::new(what).remedy("give a larger --deviation, above the noise of the positions, or add spline to --law"))
 }
 
 impl FoundMotion {
@@ -101,7 +122,7 @@ impl FoundMotion {
         let segments = vec![ModelSegment { law: ModelLaw::Unknown, from: 0, to: 0 }];
         let nodes = vec![rows.angle(0)];
         let model = Model { nodes, levels: vec![level], segments, fill: Some(rows.fill), shift: [0.0; 2] };
-        Self { model, segments: vec![FoundSegment { fits, turns: false, stretch: None }], whole: true }
+        Self { model, segments: vec![FoundSegment { fits, turns: false, stretch: None }], whole: true, unsought: None }
     }
 
     /// The stretches whose laws leave more than a deviation.
@@ -280,7 +301,7 @@ fn joined(
     let turns = ((first + 1e-9) / rows.fill).floor() * rows.fill;
     model.nodes.iter_mut().for_each(|node| *node -= turns);
     own_first(&model, &mut segments);
-    FoundMotion { model, segments, whole: false }
+    FoundMotion { model, segments, whole: false, unsought: None }
 }
 
 /// Puts the law that was chosen before the others that were fitted.

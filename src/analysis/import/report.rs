@@ -3,7 +3,7 @@
 use super::DEVIATION;
 use super::design::{told, told_of, unit};
 use super::model::{LawParameter, Left, ModelLaw};
-use super::motion::FoundMotion;
+use super::motion::{FoundMotion, MOST_STRETCHES};
 use super::positions::Positions;
 use super::spline::position;
 use crate::check::Measure;
@@ -339,7 +339,9 @@ impl Imported {
         if let Some(radius) = value.base_radius_mm {
             words.push(format!("base radius {} mm", shown(radius)));
         }
-        if self.found.whole {
+        if let Some(stretches) = self.found.unsought {
+            words.push(format!("{stretches} rises and returns, in more than {MOST_STRETCHES} no law is looked for: the whole motion is a spline through points"));
+        } else if self.found.whole {
             words.push("no law and no dwell was found: the whole motion is a spline through points".into());
         }
         let model = &self.found.model;
