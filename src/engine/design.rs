@@ -1,6 +1,6 @@
 //! A cam of a text: solved, drawn, proved, as figures, as a page shows it, as files.
 
-use super::{EngineAnswer, EngineFile, EngineRequest, remedies};
+use super::{EngineAnswer, EngineFile, EngineRequest, remedies, values};
 use crate::body::{Accuracy, Body, Request};
 use crate::geometry::MILLIMETRES;
 use crate::machine::{Machine, MachineSource, valid_rpm};
@@ -21,6 +21,19 @@ const DIRECTORY: &str = "output";
 /// Largest tolerance, m.
 const LARGEST_TOLERANCE: f64 = 1e-3;
 
+/// The name of the design of a request.
+fn name(request: &EngineRequest) -> &str {
+    if request.name.is_empty() { "design" } else { &request.name }
+}
+
+/// The machine of a text; the answer says which values hold where the text gives none.
+pub(super) fn machine(request: &EngineRequest, toml: &str, answer: &mut EngineAnswer) -> Result<Machine, Error> {
+    let source = MachineSource::from_toml(&format!("{}.toml", name(request)), toml).with_texts(request.files.clone());
+    let machine = Machine::of_source(&source, &[])?;
+    answer.say("usual", values::usual(&machine, toml));
+    Ok(machine)
+}
+
 /// The proven cam of a text, and how its files are written, without a list of formats those that it has; the answer says what is known before it
 /// is drawn.
 pub(super) fn proven(
@@ -29,16 +42,14 @@ pub(super) fn proven(
     formats: Option<Vec<String>>,
     answer: &mut EngineAnswer,
 ) -> Result<(ProvenAssembly, Writing), Error> {
-    let name = if request.name.is_empty() { "design" } else { &request.name };
-    let source = MachineSource::from_toml(&format!("{name}.toml"), toml).with_texts(request.files.clone());
-    let machine = Machine::of_source(&source, &[])?;
-    let assembly = spec(request, machine)?.assemble()?;
+    let assembly = spec(request, machine(request, toml, answer)?)?.assemble()?;
     let body = assembly.first().body();
     let kind = body.kind();
     answer.say("command", kind.command);
     answer.say("kind", kind.keys);
-    answer.say("values", values(body));
+    answer.say("values", values::values(body, toml));
     answer.say("motion", segments(body.machine()));
+    let name = name(request);
     let stem = if request.usual_names { assembly.first().stem(name, None) } else { name.to_owned() };
     let writing = Writing { formats, ..Writing::to(DIRECTORY, stem) };
     let (formats, _) = writing.chosen(body)?;
@@ -103,12 +114,6 @@ fn spec(request: &EngineRequest, machine: Machine) -> Result<Spec, Error> {
 
 fn refusal(why: impl Into<String>) -> Error {
     Error::Solve(Refusal::new(why))
-}
-
-/// The value of every key that has an effect, as it was typed.
-fn values(body: &dyn Body) -> Map<String, Value> {
-    let inputs = body.machine().inputs(body.kind().keys);
-    inputs.into_iter().map(|input| (input.key, Value::from(input.typed))).collect()
 }
 
 /// What would let each check pass that promises it.

@@ -73,11 +73,12 @@ fn range_of((dimension, bounds): Range, units: &mut Map<String, Value>) -> Value
     json!({"dimension": name, "low": low, "high": high})
 }
 
-/// The units of a dimension with their sizes in SI.
+/// The units of a dimension, in all their spellings, with their sizes in SI.
 fn units_of(dimension: Dimension) -> Value {
     let symbols = dimension.unit_list();
     let size = |symbol: &str| units::parse(&format!("1 {symbol}"), dimension).ok().map(|quantity| quantity.si);
-    let sizes = symbols.split(", ").filter_map(|symbol| Some((symbol.to_owned(), json!(size(symbol)?))));
+    let all = symbols.split(", ").map(str::to_owned).chain(dimension.spellings().map(str::to_owned));
+    let sizes = all.filter_map(|symbol| Some((symbol.clone(), json!(size(&symbol)?))));
     Value::Object(sizes.collect())
 }
 

@@ -10,6 +10,7 @@ mod designs;
 mod keys;
 mod remedies;
 mod text;
+mod values;
 
 pub use designs::commands;
 pub use text::TextChange;
@@ -175,10 +176,13 @@ pub fn answer(request: &EngineRequest) -> EngineAnswer {
             }
             Ok(toml) => {
                 answer.say("toml", toml.clone());
-                answer.say("given", text::given(&toml));
-                if request.task == Task::Cam
-                    && let Err(error) = design::made(request, &toml, &mut answer)
-                {
+                answer.say("given", text::given(&toml).into_iter().map(|key| key.path).collect::<Vec<_>>());
+                let made = match request.task {
+                    // A text that is no design yet has no limits.
+                    Task::Text => design::machine(request, &toml, &mut answer).map(drop).or(Ok(())),
+                    _ => design::made(request, &toml, &mut answer),
+                };
+                if let Err(error) = made {
                     answer.refuse(&error);
                 }
             }

@@ -94,7 +94,7 @@ fn change_of(document: &mut DocumentMut, change: &TextChange) -> Result<(), Refu
 /// The table at a path; it is added where it is missing.
 fn table_at<'t>(root: &'t mut Table, path: &[PathPart<'_>]) -> Result<&'t mut dyn TableLike, Refusal> {
     let mut table: &mut dyn TableLike = root;
-    for (name, index) in path {
+    for (depth, (name, index)) in path.iter().enumerate() {
         let missing = || Refusal::new(format!("there is no table `{name}` to change"));
         let item = table.entry(name).or_insert_with(|| Item::Table(implicit()));
         table = match (index, item) {
@@ -104,9 +104,10 @@ fn table_at<'t>(root: &'t mut Table, path: &[PathPart<'_>]) -> Result<&'t mut dy
                 element.as_inline_table_mut().ok_or_else(missing)?
             }
             (None, item) => {
-                // A word in the place of a table gives way to it.
+                // A word in the place of a table gives way to it; the keys for which it stood keep it.
                 if !item.is_table_like() {
-                    *item = Item::Table(Table::new());
+                    let names: Vec<&str> = path.iter().take(depth + 1).map(|(name, _)| *name).collect();
+                    *item = Item::Table(table_for_word(&names.join("."), item));
                 }
                 item.as_table_like_mut().ok_or_else(missing)?
             }
@@ -114,6 +115,16 @@ fn table_at<'t>(root: &'t mut Table, path: &[PathPart<'_>]) -> Result<&'t mut dy
         };
     }
     Ok(table)
+}
+
+/// A table at a path with the keys for which a word stood in its place.
+fn table_for_word(path: &str, word: &Item) -> Table {
+    let mut table = Table::new();
+    let word = word.as_str().unwrap_or_default();
+    for key in keys_for_word(path, word) {
+        table.insert(key.name, Item::Value(Value::from(word)));
+    }
+    table
 }
 
 /// A table whose header is written only where it has keys of its own.
@@ -132,6 +143,10 @@ fn list_at<'t>(
     let item = table_at(document.as_table_mut(), path)?
         .entry(name)
         .or_insert_with(|| Item::ArrayOfTables(ArrayOfTables::new()));
+    // A list of inline tables becomes one of tables of their own.
+    if item.is_array() {
+        *item = std::mem::take(item).into_array_of_tables().map_or_else(|other| other, Item::ArrayOfTables);
+    }
     item.as_array_of_tables_mut().ok_or_else(|| Refusal::new(format!("`{name}` is not a list of tables")))
 }
 
@@ -165,35 +180,38 @@ fn set(table: &mut dyn TableLike, name: &str, mut value: Value) {
     }
 }
 
-/// The key of a path, indices left open, with the other keys of its table.
-fn key_of(path: &str) -> Option<(&'static Key, impl Iterator<Item = &'static Key>)> {
-    let names: Vec<&str> = path.split('.').map(|part| part.split('[').next().unwrap_or_default()).collect();
-    let (name, table) = names.split_last()?;
-    let table = table.join(".");
-    let keys = || {
-        let table = table.clone();
-        let sections = catalogue().keys.sections.iter().filter(move |section| section.path == table);
-        sections.flat_map(|section| section.keys)
-    };
-    Some((keys().find(|key| key.name == *name)?, keys()))
+/// The keys of the table of a path, indices left open, and the name of the key there.
+fn keys_about(path: &str) -> (impl Iterator<Item = &'static Key> + use<>, &str) {
+    let (table, name) = path.rsplit_once('.').unwrap_or(("", path));
+    let names: Vec<&str> = table.split('.').map(|part| part.split('[').next().unwrap_or_default()).collect();
+    let table = names.join(".");
+    let sections = catalogue().keys.sections.iter().filter(move |section| section.path == table);
+    (sections.flat_map(|section| section.keys), name)
 }
 
-/// What a value of the key at a path may be.
-fn form_of(path: &str) -> Option<KeyForm> {
-    key_of(path).map(|(key, _)| key.form)
+/// The key of a path.
+pub(super) fn key_of(path: &str) -> Option<&'static Key> {
+    let (mut keys, name) = keys_about(path);
+    keys.find(|key| key.name == name)
 }
 
 /// The name of the key that gives the same dimension: the radius of a diameter, and the reverse.
 fn doubled(path: &str) -> Option<&'static str> {
-    let (own, mut others) = key_of(path)?;
-    own.halved.or_else(|| others.find(|key| key.halved == Some(own.name)).map(|key| key.name))
+    let (mut others, name) = keys_about(path);
+    key_of(path)?.halved.or_else(|| others.find(|key| key.halved == Some(name)).map(|key| key.name))
+}
+
+/// The path of the key that gives the same dimension.
+pub(super) fn twin_of(path: &str) -> Option<String> {
+    let twin = doubled(path)?;
+    Some(path.rsplit_once('.').map_or_else(|| twin.to_owned(), |(table, _)| format!("{table}.{twin}")))
 }
 
 /// A value as it was typed: text in quotes unless its key takes numbers, truths or lists.
 fn value(path: &str, typed: &str) -> Value {
     let typed = typed.trim();
     let unquoted = typed.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).unwrap_or(typed);
-    let bare = match form_of(path) {
+    let bare = match key_of(path).map(|key| key.form) {
         Some(
             KeyForm::Number(_)
             | KeyForm::Numbers(_)
@@ -211,29 +229,78 @@ fn value(path: &str, typed: &str) -> Value {
     Value::from(unquoted)
 }
 
-/// The paths of the keys that a text has.
-pub(super) fn given(text: &str) -> Vec<String> {
+/// A key that a text has.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct GivenKey {
+    /// Its path.
+    pub(super) path: String,
+    /// Its value as it is typed into a field.
+    pub(super) typed: String,
+}
+
+/// The keys that a text has; a word in the place of a table as the keys that it stands for.
+pub(super) fn given(text: &str) -> Vec<GivenKey> {
     let mut found = Vec::new();
     if let Ok(document) = text.parse::<DocumentMut>() {
-        collect("", document.as_table(), &mut found);
+        document.iter().for_each(|(name, item)| collect(name, item, &mut found));
     }
     found
 }
 
-fn collect(path: &str, table: &dyn TableLike, found: &mut Vec<String>) {
-    for (name, item) in table.iter() {
-        let path = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
-        match item {
-            Item::ArrayOfTables(list) => {
-                for (index, table) in list.iter().enumerate() {
-                    collect(&format!("{path}[{index}]"), table, found);
-                }
-            }
-            item => match item.as_table_like() {
-                Some(table) => collect(&path, table, found),
-                None => found.push(path),
-            },
+fn collect(path: &str, item: &Item, found: &mut Vec<GivenKey>) {
+    let mut collect_table = |path: &str, table: &dyn TableLike| {
+        table.iter().for_each(|(name, item)| collect(&format!("{path}.{name}"), item, found));
+    };
+    if let Some(table) = item.as_table_like() {
+        return collect_table(path, table);
+    }
+    if let Some(tables) = tables_of(item) {
+        return tables.enumerate().for_each(|(index, table)| collect_table(&format!("{path}[{index}]"), table));
+    }
+    let Some(value) = item.as_value() else { return };
+    let typed = typed_of(value);
+    let before = found.len();
+    found.extend(
+        keys_for_word(path, &typed)
+            .map(|key| GivenKey { path: format!("{path}.{}", key.name), typed: typed.clone() }),
+    );
+    if found.len() == before {
+        found.push(GivenKey { path: path.to_owned(), typed });
+    }
+}
+
+/// The elements of an array of tables, however it is written.
+fn tables_of(item: &Item) -> Option<Box<dyn Iterator<Item = &dyn TableLike> + '_>> {
+    if let Item::ArrayOfTables(list) = item {
+        return Some(Box::new(list.iter().map(|table| table as &dyn TableLike)));
+    }
+    let list = item.as_array().filter(|list| !list.is_empty() && list.iter().all(Value::is_inline_table))?;
+    Some(Box::new(list.iter().filter_map(Value::as_inline_table).map(|table| table as &dyn TableLike)))
+}
+
+/// The keys of a table in whose place this word stands; none for another word or path.
+fn keys_for_word<'w>(table: &'w str, word: &'w str) -> impl Iterator<Item = &'static Key> + use<'w> {
+    let sections = catalogue().keys.sections.iter().filter(move |section| section.path == table);
+    sections.flat_map(|section| section.keys).filter(move |key| key.for_table == Some(word))
+}
+
+/// A value as it is typed: a text without quotes, a number without underscores, a list on one line.
+fn typed_of(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.value().clone(),
+        Value::Array(items) => format!("[{}]", items.iter().map(item_of_list).collect::<Vec<_>>().join(", ")),
+        other => {
+            let mut plain = other.clone();
+            plain.decor_mut().clear();
+            plain.to_string().replace('_', "")
         }
+    }
+}
+
+fn item_of_list(value: &Value) -> String {
+    match value {
+        Value::String(text) => Value::from(text.value().as_str()).to_string(),
+        other => typed_of(other),
     }
 }
 
@@ -281,6 +348,6 @@ mod tests {
     fn a_table_that_is_missing_is_made() {
         let text = changed(TEXT, &[set("follower.roller.radius", "8 mm")]).expect("changed");
         assert!(text.contains("[follower.roller]\nradius = \"8 mm\"") && !text.contains("[follower]\n"), "{text}");
-        assert_eq!(given(&text).last().map(String::as_str), Some("follower.roller.radius"));
+        assert_eq!(given(&text).last().map(|key| key.path.as_str()), Some("follower.roller.radius"));
     }
 }

@@ -172,7 +172,7 @@ pub(crate) struct MachineValues {
 impl MachineValues {
     /// Those that have an effect on a kind of cam as a command names it, defaults too.
     pub(crate) fn inputs(&self, command: &str) -> Vec<Input> {
-        self.catalogue.keys.with_effect(&self.key_values.inputs, command)
+        track::without_disc(self.catalogue.keys.with_effect(&self.key_values.inputs, command))
     }
 }
 
@@ -236,7 +236,7 @@ impl Machine {
             key_values: Arc::new(KeyValues {
                 keys: reader.given(source.by_user),
                 overridden: reader.given(false),
-                inputs: track::without_disc(limits::inputs(reader, &*follower.shape, quantity)),
+                inputs: limits::inputs(reader, &*follower.shape, quantity),
             }),
             follower,
         })
@@ -422,6 +422,18 @@ impl Machine {
     #[must_use]
     pub fn inputs(&self, command: &str) -> Vec<Input> {
         self.values().inputs(command)
+    }
+
+    /// As [`Machine::inputs`], and that the body is a disc, which the hash of the inputs leaves out.
+    #[must_use]
+    pub(crate) fn inputs_with_body(&self, command: &str) -> Vec<Input> {
+        self.catalogue.keys.with_effect(&self.key_values.inputs, command)
+    }
+
+    /// The limits that hold where the file gives none, as a person would type them.
+    #[must_use]
+    pub(crate) fn usual_limits(&self) -> Vec<Input> {
+        limits::usual(&self.limits, &self.cam)
     }
 
     /// Every value of it, shared.

@@ -22,7 +22,7 @@ function quantityOf(typed) {
   return match ? { number: Number(match[2]), unit: match[3] } : null;
 }
 
-/** Ends and step of the slider of a value: around it, within the range of its key. */
+/** Ends and step of the slider of a value: around it in whole steps, within the range of its key. */
 function sliderOf(key, typed) {
   const found = quantityOf(typed);
   if (!found || !key.ranges) return null;
@@ -35,13 +35,21 @@ function sliderOf(key, typed) {
   const step = 10 ** (Math.floor(Math.log10(span)) - 2);
   const low = Math.max(range.low / size, found.number > 0 && range.low >= 0 ? found.number / 4 : found.number - span);
   const high = Math.min(range.high / size, found.number + span);
-  const round = (value, by) => Number((by(value / step) * step).toPrecision(12));
-  return { low: round(low, Math.ceil), high: round(high, Math.floor), step, unit: found.unit, value: found.number };
+  // Whole steps away from the value: a browser moves a value between two steps to one of them.
+  const round = (end) => Number((found.number + Math.trunc((end - found.number) / step) * step).toPrecision(12));
+  return { low: round(low), high: round(high), step, unit: found.unit, value: found.number };
+}
+
+/** Whether a slider can stay as it is for another value: it is between its ends, on a whole step. */
+function isOn({ low, high, step, unit }, found) {
+  if (!found || found.unit !== unit || found.number <= low || found.number >= high) return false;
+  const steps = (found.number - low) / step;
+  return Math.abs(steps - Math.round(steps)) < 1e-6;
 }
 
 /** A value of a slider as typed, with the unit that the value had. */
 function typedOf(value, slider) {
-  return `${Number(Number(value).toPrecision(6))}${slider.unit ? (slider.unit === "%" ? slider.unit : ` ${slider.unit}`) : ""}`;
+  return `${Number(Number(value).toPrecision(12))}${slider.unit ? (slider.unit === "%" ? slider.unit : ` ${slider.unit}`) : ""}`;
 }
 
 /** The paths of the tables of a section in this design: one, or one for each element of a list. */
@@ -54,7 +62,7 @@ function pathsOf(section, answer) {
 /** One key: its label, a field, and a slider where its value is a number. */
 function fieldOf(path, key, answer) {
   const isGiven = answer.given.includes(path);
-  const typed = (answer.values ?? {})[path]?.replace(/^Ø/, "") ?? "";
+  const typed = (answer.values ?? {})[path] ?? "";
   const id = `key-${path}`;
   const box = make("div", { className: isGiven ? "field" : "field absent" });
   const label = make("label", { htmlFor: id, title: key.about }, key.name.replace(/_/g, " "));
@@ -62,11 +70,11 @@ function fieldOf(path, key, answer) {
   const one = { path, key, box, typed, slider: null, range: null };
   if (key.words && !key.ranges) {
     one.input = make("select", { id }, ...(isGiven || key.presence === "default" ? [] : [make("option", { value: "" }, "–")]), ...key.words.map((word) => make("option", { value: word }, word)));
-    one.input.addEventListener("change", () => commit([{ set: { key: path, to: one.input.value } }]));
+    one.input.addEventListener("change", () => commit([one.input.value === "" ? { remove: path } : { set: { key: path, to: one.input.value } }]));
   } else if (key.file) {
     one.input = fileField(id, path, typed);
   } else {
-    one.input = make("input", { id, type: "text", autocomplete: "off", placeholder: isGiven ? "" : key.example });
+    one.input = make("input", { id, type: "text", autocomplete: "off" });
     if (key.words) {
       const list = make("datalist", { id: `${id}-words` }, ...key.words.map((word) => make("option", { value: word })));
       one.input.setAttribute("list", list.id);
@@ -102,7 +110,7 @@ function fileField(id, path) {
   const list = make("select", { id }, make("option", { value: "" }, "–"), ...names.map((name) => make("option", { value: name }, name)), make("option", { value: CHOOSE }, text("chooseFile")));
   list.addEventListener("change", () => {
     if (list.value !== CHOOSE) return commit([list.value ? { set: { key: path, to: list.value } } : { remove: path }]);
-    list.value = doc.last?.values?.[path] ?? "";
+    select(list, doc.last?.values?.[path] ?? "");
     pickFile(".csv,.txt,.tsv,.dat", async (file) => {
       doc.files = { ...doc.files, [file.name]: await file.text() };
       formOf = "";
@@ -119,18 +127,26 @@ function pickFile(accept, take) {
   input.click();
 }
 
+/** Shows a value in a list: its words are the same in capitals; one that is not in the list is added to it. */
+function select(list, typed) {
+  const same = [...list.options].find(({ value }) => value.toLowerCase() === typed.trim().toLowerCase());
+  if (!same) list.append(make("option", { value: typed }, typed || "–"));
+  list.value = same ? same.value : typed;
+}
+
 /** What a field shows: the value as typed; of "auto" the slider starts from what was found. */
 function fillField(one, answer) {
-  const typed = ((answer.values ?? {})[one.path] ?? "").replace(/^Ø/, "");
+  const typed = (answer.values ?? {})[one.path] ?? "";
   one.typed = typed;
-  if (one.input.value !== typed && (document.activeElement !== one.input || one.input.tagName === "SELECT")) one.input.value = typed;
-  one.box.classList.toggle("changed", typed !== (doc.sent.values?.[one.path] ?? "").replace(/^Ø/, ""));
+  if (one.input.tagName === "SELECT") select(one.input, typed);
+  else if (one.input.value !== typed && document.activeElement !== one.input) one.input.value = typed;
+  one.input.placeholder = typed ? "" : (answer.usual ?? {})[one.path] ?? text("example", { value: one.key.example });
+  one.box.classList.toggle("changed", typed !== (doc.sent.values?.[one.path] ?? ""));
   if (!one.range) return;
   if (one.filled === typed && typed !== "auto") return;
   one.filled = typed;
   const found = quantityOf(typed) ? typed : chosenValue(one.path);
-  const fits = one.slider && quantityOf(found) && one.slider.unit === quantityOf(found).unit && quantityOf(found).number > one.slider.low && quantityOf(found).number < one.slider.high;
-  if (!fits) one.slider = sliderOf(one.key, found);
+  if (!one.slider || !isOn(one.slider, quantityOf(found))) one.slider = sliderOf(one.key, found);
   one.range.hidden = !one.slider;
   if (!one.slider) return;
   Object.assign(one.range, { min: one.slider.low, max: one.slider.high, step: one.slider.step });

@@ -22,8 +22,8 @@ const BODIES = {
   barrel: { of: ["roller", "swinging-roller"], keys: ['outer_radius = "auto"', 'groove_depth = "12 mm"', 'roller_height = "11 mm"', 'clearance = "0.03 mm"'], picture: "M10 8H50V38H10ZM4 20H10V26H4ZM50 20H56V26H50ZM18 8C22 20 38 24 40 38M24 8C28 20 44 22 46 34" },
   globoid: { of: ["roller"], keys: ['rests_on = "rib"', 'groove_depth = "17 mm"', 'roller_height = "16 mm"', 'clearance = "0.02 mm"'], numbers: ["stations", "riseOver", "rpm"], picture: "M4 4H26C19 16 19 30 26 42H4C10 30 10 16 4 4ZM9 15L20 20M9 25L20 30M56 4A20 20 0 0 0 56 42M36 23H26M40 12L31 7M40 34L31 39M52 23a3 3 0 1 0 .01 0" },
 };
-/** Keys of the limits that can be given at once, with an example. */
-const NEW_LIMITS = [["pressure_angle", "30 deg"], ["min_convex_radius", "5 mm"], ["size", "200 mm"], ["wall", "8 mm"], ["contact_stress", "1200 MPa"]];
+/** Keys of the limits that can be given at once. */
+const NEW_LIMITS = ["pressure_angle", "min_convex_radius", "size", "wall", "contact_stress"];
 const NEW_NUMBERS = [["stations", 8], ["rise", 30], ["riseOver", 120], ["dwellOver", 60], ["returnOver", 100], ["rpm", 250]];
 /** Arms of followers, mm; that of a flat one reaches to the camshaft. */
 const ARMS = { "swinging-roller": 110, "swinging-flat": 200 };
@@ -91,7 +91,7 @@ let formsOf = "";
 function newCam() {
   formsOf = language;
   const number = ([id, value]) => make("label", {}, make("span"), " ", make("input", { id: `new-${id}`, type: "text", inputMode: "decimal", value: String(value), size: 6, required: true }));
-  const limit = ([key, example]) => make("label", { title: aboutOf("limits", key) }, `${text(`limit_${key}`)} `, make("input", { id: `new-limit-${key}`, type: "text", placeholder: example, size: 9 }));
+  const limit = (key) => make("label", { title: aboutOf("limits", key) }, `${text(`limit_${key}`)} `, make("input", { id: `new-limit-${key}`, type: "text", size: 9 }));
   const laws = make("select", { id: "new-law" }, ...keyTable.laws.map(({ name }) => make("option", { value: name }, name)));
   laws.value = "modified-sine";
   const go = make("button", { type: "submit", id: "new-make" }, text("make"));
@@ -130,6 +130,15 @@ function fitBodies(form_) {
     label.hidden = !numbers.includes(id);
     label.firstElementChild.textContent = text(id === "riseOver" && numbers.includes("stations") ? "stepOver" : id, { along: text(along) });
   }
+  usualLimits(form_);
+}
+
+/** Shows in each empty limit the one that holds without it. */
+async function usualLimits(form_) {
+  const asked = askedOf(form_);
+  if (asked.fault) return;
+  const { usual = {} } = await engine({ task: "text", toml: textOfNew({ ...asked, limits: [] }) }).catch(() => ({}));
+  for (const key of NEW_LIMITS) byId(`new-limit-${key}`).placeholder = usual[`limits.${key}`] ?? "–";
 }
 
 /** What the form says, or what is wrong with it. */
@@ -146,6 +155,6 @@ function askedOf(form_) {
   if (numbers.includes("stations") && !(Number.isInteger(asked.stations) && asked.stations >= 4 && asked.stations <= 60)) return { fault: text("notStations") };
   const sum = asked.riseOver + (asked.dwellOver ?? 0) + (asked.returnOver ?? 0);
   if (sum > most) return { fault: text(numbers === IN_A_TURN ? "overTurn" : "overPart", { sum: shown(sum), most }) };
-  asked.limits = NEW_LIMITS.map(([key]) => [key, byId(`new-limit-${key}`).value.trim().replace(/"/g, "")]).filter(([, value]) => value);
+  asked.limits = NEW_LIMITS.map((key) => [key, byId(`new-limit-${key}`).value.trim().replace(/"/g, "")]).filter(([, value]) => value);
   return asked;
 }

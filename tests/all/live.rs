@@ -5,7 +5,9 @@ use crate::common::program::{camgen_in, files};
 use camgen::catalogue::catalogue;
 use camgen::engine::{self, EngineRequest, Task, TextChange};
 use camgen::machine::Machine;
+use camgen::units::{self, Dimension};
 use camgen::write::html::live::ENGINE;
+use std::collections::BTreeMap;
 use std::fs;
 
 fn toml(name: &str) -> String {
@@ -223,5 +225,176 @@ fn a_disc_that_fails_is_named() {
     assert_eq!(run.code, 1, "{}", run.err);
     for check in failed {
         assert!(run.err.contains(&format!("the counter disc fails {check}: ")), "{}", run.err);
+    }
+}
+
+/// The keys of a text and their values as a person reads them.
+fn keys_of(text: &str) -> BTreeMap<String, String> {
+    fn walk(path: &str, item: &toml_edit::Item, found: &mut BTreeMap<String, String>) {
+        if let Some(table) = item.as_table_like() {
+            let join = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
+            table.iter().for_each(|(name, item)| walk(&join(name), item, found));
+        } else if let Some(list) = item.as_array_of_tables() {
+            for (index, table) in list.iter().enumerate() {
+                walk(&format!("{path}[{index}]"), &toml_edit::Item::Table(table.clone()), found);
+            }
+        } else if let Some(text) = item.as_str() {
+            found.insert(path.to_owned(), text.to_owned());
+        } else {
+            found.insert(path.to_owned(), item.to_string().trim().to_owned());
+        }
+    }
+    let mut found = BTreeMap::new();
+    walk("", text.parse::<toml_edit::DocumentMut>().expect("TOML").as_item(), &mut found);
+    found
+}
+
+fn answer_to(toml: &str, command: &str) -> engine::EngineAnswer {
+    let request = EngineRequest { name: "own".into(), toml: toml.into(), command: command.into(), ..EngineRequest::default() };
+    engine::answer(&request)
+}
+
+/// The values of an answer that a page shows; `None` where no cam can be made.
+fn values(answer: &engine::EngineAnswer) -> Option<BTreeMap<String, String>> {
+    serde_json::from_value(answer.found.get("values")?.clone()).ok()
+}
+
+/// The values that a page shows of a text.
+fn shown(toml: &str) -> BTreeMap<String, String> {
+    let answer = answer_to(toml, "");
+    values(&answer).unwrap_or_else(|| panic!("{toml}: {:?}", answer.found.get("faults")))
+}
+
+/// A number that is a hundredth larger, with its unit.
+fn stepped(typed: &str) -> Option<String> {
+    let typed = typed.trim_start_matches('Ø');
+    let end = typed.find(|c: char| !c.is_ascii_digit() && !"+-.e".contains(c)).unwrap_or(typed.len());
+    let (number, unit) = typed.split_at(end);
+    number.parse::<f64>().ok().map(|number| format!("{}{unit}", 1.01 * number))
+}
+
+/// A page shows every value of a text, and a value that is a little larger is written to the same key in the same unit, whatever else it has.
+fn assert_shown(name: &str, toml: &str, of_page: &BTreeMap<String, String>) -> usize {
+    let of_file = keys_of(toml);
+    for (key, value) in of_file.iter().filter(|(key, _)| *key != "cam.keyway") {
+        assert_eq!(of_page.get(key), Some(value), "{name}: {key}");
+        let Some(next) = stepped(value) else { continue };
+        let text = engine::changed_text(toml, &[set(key, &next)]).expect("changed");
+        let mut expected = of_file.clone();
+        expected.insert(key.clone(), next);
+        assert_eq!(keys_of(&text), expected, "{name}: {key}");
+    }
+    of_file.len()
+}
+
+#[test]
+fn the_page_shows_every_value_of_every_design() {
+    let answer = engine::answer(&EngineRequest { task: Task::Designs, ..EngineRequest::default() });
+    let mut tried = 0;
+    for design in answer.found["designs"].as_array().expect("a list") {
+        let [name, text] = ["name", "toml"].map(|key| design[key].as_str().expect("text"));
+        for command in design["commands"].as_array().expect("commands") {
+            let answer = answer_to(text, command.as_str().expect("a command"));
+            tried += assert_shown(name, text, &values(&answer).expect("values"));
+        }
+    }
+    assert!(tried > 300, "{tried}");
+}
+
+/// Every radius that a design of the page can give by its diameter, on two designs.
+#[test]
+fn a_diameter_is_shown_as_it_is() {
+    let length = |text: &str| units::parse(text, Dimension::Length).ok();
+    for section in &catalogue().keys.sections {
+        for (key, radius) in section.keys.iter().filter_map(|key| Some((key, key.halved?))) {
+            let (path, twin) = (section.path_of(key), format!("{}.{radius}", section.path));
+            let mut tried = 0;
+            for embedded in &catalogue().embedded {
+                let given = keys_of(embedded.toml).get(&twin).and_then(|typed| length(typed));
+                let doubled = given.map_or_else(|| "120 mm".to_owned(), |radius| radius.in_same_unit(2.0 * radius.si));
+                let text = engine::changed_text(embedded.toml, &[set(&path, &doubled)]).expect("changed");
+                let answer = answer_to(&text, "");
+                let Some(of_page) = values(&answer) else { continue };
+                assert_eq!((of_page.get(&path), of_page.get(&twin)), (Some(&doubled), None), "{}: {path}", embedded.name);
+                let usual = answer.found["usual"][&twin].as_str().and_then(length).expect("a length");
+                assert!((usual.si - 0.5 * length(&doubled).expect("a length").si).abs() < 1e-12, "{path}");
+                assert_shown(embedded.name, &text, &of_page);
+                tried += 1;
+                if tried == 2 {
+                    break;
+                }
+            }
+            // Of a belt brake there is no page.
+            assert!(tried > 0 || path.starts_with("brake"), "{path}");
+        }
+    }
+}
+
+/// Values in all forms in which a file may have them.
+#[test]
+fn a_page_shows_values_in_the_form_of_the_file() {
+    let design = |cam: &str, segments: &str| {
+        format!(
+            "name = \"a \\\"b\\\"\"\n[motion]\nrpm = 1_20\nstart = \"0 in\"\nsegment = [{segments}]\n[follower.roller]\ndiameter = \"Ø 0.5 in\"\n[cam]\nthickness = \"0.5\\\"\"\n{cam}"
+        )
+    };
+    let segments = "{ law = \"cycloidal\", over = \"90°\", to = \"0.4 in\" }, { law = \"Dwell\", over = \"90 deg\" }, { law = \"3-4-5\", to = \"0 in\" }";
+    let text = design("body = \"Disc\"\nbore_diameter = \"20 mm\"\nkeyway = \"auto\"\n[limits]\novershoot = \"1%\"\n", segments);
+    let of_page = shown(&text);
+    let expected = [
+        ("name", "a \"b\""),
+        ("motion.rpm", "120"),
+        ("motion.segment[0].over", "90°"),
+        ("motion.segment[1].law", "Dwell"),
+        ("motion.segment[2].to", "0 in"),
+        ("follower.roller.diameter", "Ø 0.5 in"),
+        ("cam.body", "Disc"),
+        ("cam.thickness", "0.5\""),
+        ("cam.bore_diameter", "20 mm"),
+        ("cam.keyway.width", "auto"),
+        ("cam.keyway.depth", "auto"),
+        ("cam.base_radius", "auto"),
+        ("limits.overshoot", "1%"),
+    ];
+    for (key, value) in expected {
+        assert_eq!(of_page.get(key).map(String::as_str), Some(value), "{key}");
+    }
+    assert!(!of_page.contains_key("cam.bore_radius") && !of_page.contains_key("follower.roller.radius"), "{of_page:?}");
+    assert_eq!(shown(&design("", segments)).get("cam.body").map(String::as_str), Some("disc"));
+    // The other key of a table for which a word stood keeps it, and a list of inline tables can grow.
+    let text = engine::changed_text(&text, &[set("cam.keyway.width", "6 mm")]).expect("changed");
+    let keys = keys_of(&text);
+    let of = |key: &str| keys.get(key).map(String::as_str);
+    assert_eq!((of("cam.keyway.width"), of("cam.keyway.depth")), (Some("6 mm"), Some("auto")));
+    let inserted = [TextChange::Insert("motion.segment[1]".into()), set("motion.segment[1].law", "dwell"), set("motion.segment[1].over", "10 deg")];
+    let text = engine::changed_text(&text, &inserted).expect("changed");
+    let of_page = shown(&text);
+    assert_eq!(of_page.get("motion.segment[3].law").map(String::as_str), Some("3-4-5"), "{text}");
+}
+
+/// What a page shows in an empty limit is the limit of the check.
+#[test]
+fn usual_limits_are_those_of_the_checks() {
+    for (name, keys) in [("feeder", 3), ("lever", 3), ("conjugate", 3)] {
+        let text = toml(name).split("[limits]").next().unwrap_or_default().to_owned();
+        let request = EngineRequest { name: "own".into(), toml: text, page: Some(10), ..EngineRequest::default() };
+        let answer = engine::answer(&request);
+        let usual = |key: &str, dimension: Dimension| {
+            let typed = answer.found["usual"][format!("limits.{key}")].as_str().map(str::to_owned);
+            typed.map(|typed| units::parse(&typed, dimension).expect("a quantity").si)
+        };
+        let usual = [("pressure_angle", usual("pressure_angle", Dimension::Angle), 1.0_f64.to_radians()),
+            ("wall", usual("wall", Dimension::Length), 1e-3),
+            ("size", usual("size", Dimension::Length), 1e-3),
+            ("contact_stress", usual("contact_stress", Dimension::Pressure), 1e6)];
+        let checks = answer.found["cam"]["checks"].as_array().expect("checks");
+        let mut compared = 0;
+        for (check, limit, unit) in usual {
+            let Some(found) = checks.iter().find(|found| found["check"] == check) else { continue };
+            let Some(of_check) = found["limit"].as_f64() else { continue };
+            assert!(limit.is_some_and(|limit| (limit / unit - of_check).abs() < 1e-9 * of_check), "{name}: {check}");
+            compared += 1;
+        }
+        assert!(compared >= keys, "{name}: {compared}");
     }
 }

@@ -2,7 +2,8 @@
 
 Random moves of sliders on embedded designs: nothing on the console; after each the verdict is that of the command line for the TOML that the
 page gives, the JSON report has the same bytes, and DXF, SVG, STEP and CSV that are downloaded have the same bytes as the files of `camgen` and
-pass `camgen check`. A value out of range names its key and leaves the cam in grey; undo leads back to the text as sent, byte for byte. Then the
+pass `camgen check`. Every field shows the value of the file, and one step of its slider writes the next value to the same key in the same
+unit. A value out of range names its key and leaves the cam in grey; undo leads back to the text as sent, byte for byte. Then the
 job of a packaging designer as a script of clicks, the motion editor, a measured table, a design that names a file, tabs, two designs next to each
 other, the keyboard alone, the second language, light and dark, and widths from 390 px to 4K. Frames per second while a slider moves, time to proof,
 start time and memory are printed, not judged: they are those of the machine.
@@ -17,6 +18,7 @@ import shutil
 import subprocess
 import sys
 import time
+import tomllib
 from pathlib import Path
 
 from playwright.sync_api import sync_playwright
@@ -186,6 +188,87 @@ def moves(live, binary, directory, command, name, count, every, generator):
         if live.refused() or live.page.is_visible(".broken"):
             live.after(lambda: live.page.click("#undo"))
     return found
+
+
+def keys_of(toml):
+    """The keys of a text with their values as they are typed."""
+    def walk(path, value):
+        if isinstance(value, dict):
+            for name, inside in value.items():
+                yield from walk(f"{path}.{name}" if path else name, inside)
+        elif isinstance(value, list) and value and isinstance(value[0], dict):
+            for index, inside in enumerate(value):
+                yield from walk(f"{path}[{index}]", inside)
+        else:
+            yield path, str(value).lower() if isinstance(value, bool) else value
+
+    return dict(walk("", tomllib.loads(toml)))
+
+
+def number_of(typed):
+    """The number and the unit of a value."""
+    match = re.fullmatch(r"Ø?\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*(.*)", str(typed))
+    return (float(match[1]), match[2]) if match else (None, str(typed))
+
+
+def values_shown(live, count, generator):
+    """Every field shows the value of the file, and one step of a slider writes this value and nothing else: the next number in the same unit."""
+    fields = live.page.evaluate("Object.fromEntries([...document.querySelectorAll('.field')].map((e) => e.querySelector('input, select')).map((e) => [e.id.slice(4), e.value]))")
+    given = keys_of(live.toml())
+    for key, value in given.items():
+        if key in fields and not isinstance(value, list):
+            assert number_of(fields[key]) == number_of(value) or fields[key].lower() == str(value).lower(), (key, fields[key], value)
+    sliders = [key.removeprefix("key-") for key, *_ in live.sliders()]
+    doubled = [key for key in sliders if "diameter" in key or "radius" in key]
+    for key in doubled + generator.sample(sliders, min(count, len(sliders))):
+        before, typed = keys_of(live.toml()), live.page.input_value(f"[id='key-{key}']")
+        step = """(id) => { const e = document.getElementById(id).parentElement.querySelector('input[type=range]'); const by = Number(e.max) > Number(e.value) ? 1 : -1;
+          const before = Number(e.value); if (by > 0) e.stepUp(); else e.stepDown(); e.dispatchEvent(new Event('input')); e.dispatchEvent(new Event('change')); return [before, Number(e.step) * by]; }"""
+        result = []
+        live.after(lambda: result.extend(live.page.evaluate(step, f"key-{key}")))
+        after, (number, unit) = keys_of(live.toml()), number_of(typed)
+        changed = {one for one in before.keys() | after.keys() if before.get(one) != after.get(one)}
+        assert changed == {key}, (key, changed)
+        start = result[0] if number is None else number
+        assert abs(number_of(after[key])[0] - start - result[1]) < 1e-9 * abs(start) + 1e-12, (key, typed, after[key], result)
+        assert number is None or number_of(after[key])[1] == unit, (key, typed, after[key])
+        live.after(lambda: live.page.click("#undo"))
+    return len(fields)
+
+
+# Diameters in every place, a body that is a default, words in capitals, inches, a list of inline tables.
+FORMS = """name = "forms"
+motion = { rpm = 120, start = "0 in", segment = [{ law = "cycloidal", over = "90°", to = "0.4 in" }, { law = "Dwell", over = "90 deg" }, { law = "3-4-5", to = "0 in" }] }
+[follower.roller]
+diameter = "0.75 in"
+[cam]
+body = "Disc"
+base_diameter = "3.15 in"
+bore_diameter = "20 mm"
+thickness = "15 mm"
+keyway = "auto"
+[limits]
+cutter_diameter = "12 mm"
+pressure_angle = "40 deg"
+"""
+
+
+def forms(browser, binary, directory, generator):
+    """A design whose values are in other forms than those of the embedded ones, and limits of which the usual ones are shown."""
+    (directory / "forms.toml").write_text(FORMS)
+    with Serving(binary, directory, "forms.toml") as address:
+        live = Live(browser, address, "http://127.0.0.1:")
+        values_shown(live, 100, generator)
+        shown = lambda key: live.page.evaluate("(id) => { const e = document.getElementById(id); return [e.value, e.placeholder]; }", f"key-{key}")
+        assert live.page.input_value("[id='key-cam.body']") == "disc" and shown("cam.bore_radius") == ["", "10 mm"], shown("cam.bore_radius")
+        assert shown("follower.roller.radius") == ["", "0.375 in"] and shown("limits.size") == ["", "2000 mm"] and shown("limits.wall") == ["", "3 mm"]
+        live.page.click("#designs")
+        live.until("document.getElementById('new-limit-size')?.placeholder === '2000 mm'")
+        limits = {key: live.page.get_attribute(f"#new-limit-{key}", "placeholder") for key in ("pressure_angle", "min_convex_radius", "wall", "contact_stress")}
+        assert limits == {"pressure_angle": "30 deg", "min_convex_radius": "–", "wall": "3 mm", "contact_stress": "1500 MPa"}, limits
+        live.page.click("#new-follower-swinging-roller", force=True)
+        live.until("document.getElementById('new-limit-pressure_angle').placeholder === '45 deg'")
+        live.close()
 
 
 def undone(live, sent):
@@ -640,6 +723,7 @@ def judge(browser, options, directory, name, command, generator):
     assert sent == text, f"{name}: another text than the file"
     first = same_files(live, binary, directory, command, name)
     assert first == ("failed" if (name, command) == FAILING else "passed"), first
+    values_shown(live, 4, generator)
     begin = memory(live)
     # What the page keeps of the last cam is there after the first change.
     warmed(live)
@@ -689,6 +773,7 @@ def main():
         browser = playwright.chromium.launch(executable_path=browser_path(), args=FLAGS)
         for name in names:
             print("live:", judge(browser, options, directory, name.split(":")[0], known[name], generator), flush=True)
+        forms(browser, options.binary, directory, generator)
         tabled(browser, options.binary, directory)
         usual_names(browser, options.binary, directory)
         acts, seconds = designed(browser, page_of(directory, names[0].split(":")[0]).as_uri(), options.binary, directory)
