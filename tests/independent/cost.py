@@ -2,9 +2,10 @@
 
 First the commands that once took minutes or gigabytes. Then hostile values of keys and flags, with 1 GiB of addresses. Then a search that climbs on the time of the processor: of the keys of the
 embedded machines, with the commands that read them, values are scaled by powers of ten and flags changed; what takes longer is
-changed further, for so many seconds. The time is that by the clock or that of the processor, whichever is less; what takes more than
-5 s is run again, and the lesser time counts. What still takes more is told; it is wrong above three times as long, since a machine
-may be slow or busy.
+changed further, for so many seconds. The time is that by the clock or that of the processor, whichever is less, over the slowness of
+the machine at that moment: the time of a fixed loop before and after the command, over the time that it takes on a machine at rest.
+What takes more than 5 s is run again, and the lesser time counts. What still takes more is reported; it is wrong above three times as
+long.
 
 usage: cost.py CAMGEN_BINARY DIRECTORY [--hostile N] [--seconds N] [--seed S] [--only WORDS] [--verbose]
 """
@@ -23,6 +24,8 @@ LONGEST = 5.0  # s
 BUSY = 3.0
 LARGEST = 512 << 20
 ADDRESSES, FEW_ADDRESSES = 4 << 30, 1 << 30
+# Steps of a loop, and its time on a machine at rest, s.
+LOOP, LOOP_TIME = 1_000_000, 0.08
 PATIENCE = 60  # s of the processor; ten times as long by the clock, since a machine may be busy
 
 
@@ -52,6 +55,14 @@ def once(words, directory, addresses):
     return run.returncode, seconds, used.ru_maxrss * 1024, told
 
 
+def slowness():
+    """How much slower the machine is now than one at rest, at least 1."""
+    start, value = time.process_time(), 0
+    for step in range(LOOP):
+        value = (31 * value + step) & 0xFFFF
+    return max(1.0, (time.process_time() - start) / LOOP_TIME)
+
+
 class Worst:
     def __init__(self, directory):
         self.directory, self.runs, self.slow, self.wrong, self.time, self.memory = directory, 0, 0, 0, (0.0, ""), (0, "")
@@ -60,8 +71,9 @@ class Worst:
         """Runs a command and holds it against the limits; its time."""
         code, seconds, memory, told = once(words, self.directory, addresses)
         if seconds > LONGEST:
+            before = slowness()
             code, again, memory, told = once(words, self.directory, addresses)
-            seconds = min(seconds, again)
+            seconds = min(seconds, again) / max(before, slowness())
         self.runs += 1
         self.time, self.memory = max(self.time, (seconds, what)), max(self.memory, (memory, what))
         if LONGEST < seconds <= BUSY * LONGEST:
