@@ -261,8 +261,7 @@ fn collect(path: &str, item: &Item, found: &mut Vec<GivenKey>) {
     let typed = typed_of(value);
     let before = found.len();
     found.extend(
-        keys_for_word(path, &typed)
-            .map(|key| GivenKey { path: format!("{path}.{}", key.name), typed: typed.clone() }),
+        keys_for_word(path, &typed).map(|key| GivenKey { path: format!("{path}.{}", key.name), typed: typed.clone() }),
     );
     if found.len() == before {
         found.push(GivenKey { path: path.to_owned(), typed });

@@ -292,7 +292,8 @@ fn the_lift_on_an_outline_is_exact() {
 fn no_law_is_looked_for_in_noise() {
     let noisy = |degree: u32| format!("{degree},{:.4}", lift(degree) + if degree % 2 == 0 { 0.1 } else { -0.1 });
     let rows = table("deg,mm", noisy);
-    let words = |more: &[&'static str]| [&ROLLER[..], &["--from", "table", "--deviation", "0.1um", "--dry-run"], more].concat();
+    let words =
+        |more: &[&'static str]| [&ROLLER[..], &["--from", "table", "--deviation", "0.1um", "--dry-run"], more].concat();
     let run = import(rows.as_bytes(), &words(&[]));
     assert!(run.code == 0 && run.out.contains("no law is looked for"), "{}{}", run.out, run.err);
     let run = import(rows.as_bytes(), &words(&["--law", "cycloidal"]));

@@ -250,7 +250,8 @@ fn keys_of(text: &str) -> BTreeMap<String, String> {
 }
 
 fn answer_to(toml: &str, command: &str) -> engine::EngineAnswer {
-    let request = EngineRequest { name: "own".into(), toml: toml.into(), command: command.into(), ..EngineRequest::default() };
+    let request =
+        EngineRequest { name: "own".into(), toml: toml.into(), command: command.into(), ..EngineRequest::default() };
     engine::answer(&request)
 }
 
@@ -315,7 +316,12 @@ fn a_diameter_is_shown_as_it_is() {
                 let text = engine::changed_text(embedded.toml, &[set(&path, &doubled)]).expect("changed");
                 let answer = answer_to(&text, "");
                 let Some(of_page) = values(&answer) else { continue };
-                assert_eq!((of_page.get(&path), of_page.get(&twin)), (Some(&doubled), None), "{}: {path}", embedded.name);
+                assert_eq!(
+                    (of_page.get(&path), of_page.get(&twin)),
+                    (Some(&doubled), None),
+                    "{}: {path}",
+                    embedded.name
+                );
                 let usual = answer.found["usual"][&twin].as_str().and_then(length).expect("a length");
                 assert!((usual.si - 0.5 * length(&doubled).expect("a length").si).abs() < 1e-12, "{path}");
                 assert_shown(embedded.name, &text, &of_page);
@@ -339,7 +345,10 @@ fn a_page_shows_values_in_the_form_of_the_file() {
         )
     };
     let segments = "{ law = \"cycloidal\", over = \"90°\", to = \"0.4 in\" }, { law = \"Dwell\", over = \"90 deg\" }, { law = \"3-4-5\", to = \"0 in\" }";
-    let text = design("body = \"Disc\"\nbore_diameter = \"20 mm\"\nkeyway = \"auto\"\n[limits]\novershoot = \"1%\"\n", segments);
+    let text = design(
+        "body = \"Disc\"\nbore_diameter = \"20 mm\"\nkeyway = \"auto\"\n[limits]\novershoot = \"1%\"\n",
+        segments,
+    );
     let of_page = shown(&text);
     let expected = [
         ("name", "a \"b\""),
@@ -366,7 +375,11 @@ fn a_page_shows_values_in_the_form_of_the_file() {
     let keys = keys_of(&text);
     let of = |key: &str| keys.get(key).map(String::as_str);
     assert_eq!((of("cam.keyway.width"), of("cam.keyway.depth")), (Some("6 mm"), Some("auto")));
-    let inserted = [TextChange::Insert("motion.segment[1]".into()), set("motion.segment[1].law", "dwell"), set("motion.segment[1].over", "10 deg")];
+    let inserted = [
+        TextChange::Insert("motion.segment[1]".into()),
+        set("motion.segment[1].law", "dwell"),
+        set("motion.segment[1].over", "10 deg"),
+    ];
     let text = engine::changed_text(&text, &inserted).expect("changed");
     let of_page = shown(&text);
     assert_eq!(of_page.get("motion.segment[3].law").map(String::as_str), Some("3-4-5"), "{text}");
@@ -383,10 +396,12 @@ fn usual_limits_are_those_of_the_checks() {
             let typed = answer.found["usual"][format!("limits.{key}")].as_str().map(str::to_owned);
             typed.map(|typed| units::parse(&typed, dimension).expect("a quantity").si)
         };
-        let usual = [("pressure_angle", usual("pressure_angle", Dimension::Angle), 1.0_f64.to_radians()),
+        let usual = [
+            ("pressure_angle", usual("pressure_angle", Dimension::Angle), 1.0_f64.to_radians()),
             ("wall", usual("wall", Dimension::Length), 1e-3),
             ("size", usual("size", Dimension::Length), 1e-3),
-            ("contact_stress", usual("contact_stress", Dimension::Pressure), 1e6)];
+            ("contact_stress", usual("contact_stress", Dimension::Pressure), 1e6),
+        ];
         let checks = answer.found["cam"]["checks"].as_array().expect("checks");
         let mut compared = 0;
         for (check, limit, unit) in usual {

@@ -113,7 +113,8 @@ fn without_laws(rows: &Positions, stretches: usize, sought: &Sought<'_>) -> Resu
         return Ok(FoundMotion { unsought: Some(stretches), ..whole });
     }
     let what = format!("{stretches} rises and returns: laws are looked for in at most {MOST_STRETCHES}");
-    Err(Refusal::new(what).remedy("give a larger --deviation, above the noise of the positions, or add spline to --law"))
+    Err(Refusal::new(what)
+        .remedy("give a larger --deviation, above the noise of the positions, or add spline to --law"))
 }
 
 impl FoundMotion {
