@@ -145,7 +145,7 @@ function fillField(one, answer) {
   if (!one.range) return;
   if (one.filled === typed && typed !== "auto") return;
   one.filled = typed;
-  const found = quantityOf(typed) ? typed : chosenValue(one.path);
+  const found = typed === "auto" ? chosenValue(one.path) : typed;
   if (!one.slider || !isOn(one.slider, quantityOf(found))) one.slider = sliderOf(one.key, found);
   one.range.hidden = !one.slider;
   if (!one.slider) return;

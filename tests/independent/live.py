@@ -202,7 +202,11 @@ def keys_of(toml):
         else:
             yield path, str(value).lower() if isinstance(value, bool) else value
 
-    return dict(walk("", tomllib.loads(toml)))
+    found = dict(walk("", tomllib.loads(toml)))
+    # A word in the place of a table stands for two of its keys.
+    if word := found.pop("cam.keyway", None):
+        found |= {"cam.keyway.width": word, "cam.keyway.depth": word}
+    return found
 
 
 def number_of(typed):
