@@ -144,7 +144,7 @@ def _kept(place: str) -> Optional[dict[str, Any]]:
     try:
         kept = json.loads(data)
         shards = [{**shard, "start": int(shard["start"]), "end": int(shard["end"]), "sha256": str(shard["sha256"])} for shard in kept["shards"]]
-        found = {"digest": str(kept["digest"]), "size": int(kept["size"]), "shards": shards}
+        found: dict[str, Any] = {"digest": str(kept["digest"]), "size": int(kept["size"]), "shards": shards}
     except (ValueError, KeyError, TypeError) as error:
         what = f"{place}/{MANIFEST} is damaged, or is not the manifest of a study ({type(error).__name__}: {error})"
         raise StudyRunError(f"{what}: remove it with its shards, or give another place with shards=") from error
