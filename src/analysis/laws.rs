@@ -194,6 +194,8 @@ fn of_cam(machine: &Machine, program: &Program, law: &'static Law, rpm: Option<f
 /// # Errors
 /// [`Refusal`] when the file has no motion, none of its segments leads from rest to rest, or there is no column to sort by.
 pub fn analysis(machine: Option<&Machine>, asked: &LawsOptions) -> Result<Analysis, Refusal> {
+    let machine = machine.map(|machine| machine.at_rpm(asked.rpm)).transpose()?;
+    let machine = machine.as_ref();
     let program = match machine {
         Some(machine) => Some(machine.program().ok_or_else(without_motion)?),
         None => None,

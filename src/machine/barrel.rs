@@ -1,9 +1,10 @@
 //! The measures of a barrel: what the roller reaches of its groove, and how long the blank is.
 
 use crate::document::Presence::{Default, Optional};
-use crate::document::cams::{BARREL, GLOBOID, MAKE};
+use crate::document::cams::{BARREL, GLOBOID, GROOVE, MAKE};
 use crate::document::range::LONGEST;
 use crate::document::{Field, KeySection, Occurrence, Reader, TableReader, above};
+use crate::geometry::MILLIMETRES;
 use crate::units::Dimension::Length;
 
 /// What only a barrel has.
@@ -17,12 +18,12 @@ pub struct BarrelData {
 
 const ROLLER_HEIGHT: Field<f64> = Field::quantity(
     "roller_height",
-    "how far the roller reaches into the groove of a barrel or a globoid; the depth of the groove when absent",
+    "how far the roller reaches into a groove, the length of its line of contact: less than the depth by the clearance at the floor and by a chamfer; the depth of the groove when absent",
     Optional("11 mm"),
     Length,
     above(0.0, LONGEST),
 )
-.only(&[BARREL, GLOBOID]);
+.only(&[GROOVE, BARREL, GLOBOID]);
 const BLANK_LENGTH: Field<Option<f64>> = Field::words_or_quantity(
     "blank_length",
     "length of the blank of a barrel along its axis; \"auto\": the groove and the wall on either side of it, in whole millimetres",
@@ -41,7 +42,15 @@ pub(super) const SECTION: KeySection = KeySection {
     keys: &[ROLLER_HEIGHT.key, BLANK_LENGTH.key],
 };
 
-pub(super) fn read(reader: &Reader<'_>) -> Option<BarrelData> {
+pub(super) fn read(reader: &Reader<'_>, groove_depth: Option<f64>) -> Option<BarrelData> {
     let table: TableReader<'_> = reader.table(&SECTION);
-    Some(BarrelData { roller_height: table.get(&ROLLER_HEIGHT), blank_length: table.get(&BLANK_LENGTH)? })
+    let roller_height = table.get(&ROLLER_HEIGHT);
+    if let (Some(reach), Some(depth)) = (roller_height, groove_depth)
+        && reach > depth
+    {
+        let message = format!("the roller reaches {} into a groove that is less deep", table.typed(&ROLLER_HEIGHT));
+        let help = format!("it must not exceed cam.groove_depth, {} mm", MILLIMETRES * depth);
+        table.fail(&ROLLER_HEIGHT, message, Some(help));
+    }
+    Some(BarrelData { roller_height, blank_length: table.get(&BLANK_LENGTH)? })
 }

@@ -6,7 +6,7 @@ use super::parallel_key;
 use super::plate::{self, PlateData};
 use super::track::{self, TrackData};
 use crate::document::Presence::{Default, Optional, Required};
-use crate::document::cams::{DISCS, EVEN, TURNING, WITH_A_BASE};
+use crate::document::cams::{DISCS, EVEN, GROOVE, TURNING, WITH_A_BASE};
 use crate::document::range::{HIGHEST_STRESS, LONGEST, THINNEST};
 use crate::document::{Bounds, Field, Key, KeySection, Occurrence, Reader, TableReader, above, within};
 use crate::follower::FollowerData;
@@ -71,6 +71,13 @@ impl CamData {
         }))
     }
 
+    /// Length of the line along which a straight roller touches the cam, m: its reach into a groove, else the thickness.
+    #[must_use]
+    pub fn contact_length(&self) -> Option<f64> {
+        let TrackData { body, barrel, groove_depth, .. } = &self.track;
+        if *body == GROOVE { barrel.roller_height.or(*groove_depth) } else { self.thickness }
+    }
+
     /// Density of the disc, kg/m³.
     #[must_use]
     pub fn density(&self) -> f64 {
@@ -93,7 +100,7 @@ const BASE_DIAMETER: Key =
     BASE_RADIUS.diameter("base_diameter", "diameter of the base circle, in the place of its radius", "90 mm");
 const THICKNESS: Field<f64> = Field::quantity(
     "thickness",
-    "thickness of the disc or plate, at least 1 um: for the solid, the mass and the contact stress",
+    "thickness of the disc or plate, at least 1 um: for the solid, the mass and, except in a groove, the contact stress",
     Optional("30 mm"),
     Length,
     within(THINNEST, LONGEST),

@@ -4,7 +4,7 @@ use super::bearing::{self, BearingData};
 use crate::document::Presence::{Default, Optional, Required};
 use crate::document::cams::MAKE;
 use crate::document::range::{LARGEST_FORCE, LONGEST, STIFFEST};
-use crate::document::{Field, KeySection, Occurrence, Reader, TableReader, above, within};
+use crate::document::{Field, Input, KeySection, Occurrence, Reader, TableReader, above, within};
 use crate::follower::FollowerData;
 use crate::motion::Quantity;
 use crate::units::Dimension::{
@@ -44,6 +44,16 @@ pub struct VibrationData {
     pub damping: f64,
 }
 
+/// What the damping of the load on an elastic train acts against.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DampingAgainst {
+    /// The frame: the force is proportional to the velocity of the load.
+    #[default]
+    Frame,
+    /// The follower, as the train's own damping: the force is proportional to the velocity with which the train is deformed.
+    Follower,
+}
+
 /// What moves with the follower of a motion program.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Dynamics {
@@ -53,6 +63,8 @@ pub struct Dynamics {
     pub guide: Option<GuideData>,
     /// The elastic train behind it.
     pub vibration: Option<VibrationData>,
+    /// What its damping acts against.
+    pub damping_against: DampingAgainst,
     /// Coefficient of speed fluctuation that a flywheel on the shaft is to keep.
     pub fluctuation: Option<f64>,
     /// The bearing of its roller.
@@ -66,6 +78,7 @@ impl Dynamics {
             spring: spring(reader, follower, quantity),
             guide: guide(reader, follower, quantity),
             vibration: vibration(reader),
+            damping_against: damping_against(reader),
             fluctuation: fluctuation(reader),
             bearing: bearing::read(reader, follower),
         }
@@ -171,7 +184,20 @@ const NATURAL_FREQUENCY: Field<f64> = Field::quantity(
     Frequency,
     above(0.0, HIGHEST_FREQUENCY),
 );
-const RATIO: Field<f64> = Field::number("damping", "damping ratio, below 1", Default("0"), within(0.0, 1.0 - 1e-9));
+const RATIO: Field<f64> = Field::number(
+    "damping",
+    "damping ratio of the load against what damping_against says, below 1",
+    Default("0"),
+    within(0.0, 1.0 - 1e-9),
+);
+const AGAINST: Field<DampingAgainst> = Field::words(
+    "damping_against",
+    "what the damping acts against: \"frame\", a force 2 ζ ω m x' on the load; \"follower\", the damping of the train itself, 2 ζ ω m (x' - y')",
+    Default("frame"),
+    &["frame", "follower"],
+    &[DampingAgainst::Frame, DampingAgainst::Follower],
+)
+.also(&["against"]);
 
 /// `[vibration]`.
 pub(super) const VIBRATION: KeySection = KeySection {
@@ -179,7 +205,7 @@ pub(super) const VIBRATION: KeySection = KeySection {
     about: "an elastic train from the follower to its load, as one mass on one spring",
     occurs: Occurrence::Optional,
     cams: &[MAKE],
-    keys: &[NATURAL_FREQUENCY.key, RATIO.key],
+    keys: &[NATURAL_FREQUENCY.key, RATIO.key, AGAINST.key],
 };
 
 /// A key of `[spring]` in the kind of the follower, or a fault that names both.
@@ -261,4 +287,15 @@ pub(super) fn refuse_for_plate(reader: &Reader<'_>) {
 fn vibration(reader: &Reader<'_>) -> Option<VibrationData> {
     let table = reader.find(&VIBRATION)?;
     Some(VibrationData { natural_frequency: table.get(&NATURAL_FREQUENCY)?, damping: table.get(&RATIO)? })
+}
+
+/// What the damping of its load acts against.
+fn damping_against(reader: &Reader<'_>) -> DampingAgainst {
+    reader.find(&VIBRATION).and_then(|table| table.get(&AGAINST)).unwrap_or_default()
+}
+
+/// The inputs of a file without the default of `damping_against`: its files keep the hash that they had before there was another.
+pub(super) fn without_frame(inputs: Vec<Input>) -> Vec<Input> {
+    let against = VIBRATION.path_of(&AGAINST.key);
+    inputs.into_iter().filter(|input| input.key != against || input.value != "frame").collect()
 }

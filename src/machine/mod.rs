@@ -36,7 +36,7 @@ pub use barrel::BarrelData;
 pub use bearing::BearingData;
 pub use cutting::{Controller, CuttingData, CuttingForm, MillingDirection, RadiusCompensation};
 pub use disc::{CamData, Keyway, Rotation};
-pub use dynamics::{Dynamics, GuideData, SpringData, VibrationData};
+pub use dynamics::{DampingAgainst, Dynamics, GuideData, SpringData, VibrationData};
 pub use embedded::{EMBEDDED, Embedded};
 pub(crate) use lift_table::read as read_lift_table;
 pub use limits::{Limits, OvershootLimit, customary_stress, customary_stress_of, stress_at_rest};
@@ -68,6 +68,8 @@ use std::sync::Arc;
 const OPPOSITE: &str = "follower (opposite offset)";
 /// The key that [`Machine::ask_for_cutter`] changes.
 const LARGEST_CUTTER: &str = "limits.cutter_radius";
+/// The key that [`Machine::at_rpm`] sets.
+const SPEED: &str = "motion.rpm";
 
 pub(crate) const NAME: Field<String> =
     Field::text("name", "name of the machine on the sheet and in the report", Required("my press"));
@@ -127,6 +129,8 @@ pub struct Machine {
     pub(crate) name: String,
     /// The motion program, when described.
     motion: Option<Arc<program::Program>>,
+    /// What that was read from, if it depends on the speed.
+    timed: Option<Arc<TimedMotion>>,
     /// Follower.
     pub(crate) follower: FollowerData,
     /// What moves with the follower of a motion program.
@@ -151,6 +155,13 @@ pub struct Machine {
     key_values: Arc<KeyValues>,
 }
 
+/// What a motion that depends on the speed of its cam is read from again for another speed.
+#[derive(Debug)]
+struct TimedMotion {
+    source: MachineSource,
+    overrides: Vec<String>,
+}
+
 /// Keys and values of a machine file.
 #[derive(Debug, Clone, Default)]
 struct KeyValues {
@@ -172,7 +183,7 @@ pub(crate) struct MachineValues {
 impl MachineValues {
     /// Those that have an effect on a kind of cam as a command names it, defaults too.
     pub(crate) fn inputs(&self, command: &str) -> Vec<Input> {
-        track::without_disc(self.catalogue.keys.with_effect(&self.key_values.inputs, command))
+        dynamics::without_frame(track::without_disc(self.catalogue.keys.with_effect(&self.key_values.inputs, command)))
     }
 }
 
@@ -182,7 +193,26 @@ impl Machine {
     /// # Errors
     /// All faults found, each with its place.
     pub fn of_source(source: &MachineSource, overrides: &[String]) -> Result<Self, MachineError> {
-        source.read(overrides, |reader| Self::of(reader, source))
+        let machine = source.read(overrides, |reader| Self::of(reader, source))?;
+        let is_timed = machine.motion.as_ref().is_some_and(|program| program.is_timed());
+        let timed = || Arc::new(TimedMotion { source: source.clone(), overrides: overrides.to_vec() });
+        Ok(Self { timed: is_timed.then(timed), ..machine })
+    }
+
+    /// The machine with its motion as it is at a speed of the cam, rpm: rates per second and a polydyne cam depend on it.
+    ///
+    /// # Errors
+    /// [`Refusal`] where there is no such motion at that speed.
+    pub fn at_rpm(&self, rpm: Option<f64>) -> Result<Self, Refusal> {
+        let of_file = self.motion.as_ref().and_then(|program| program.rpm());
+        let other = rpm.filter(|rpm| Some(*rpm) != of_file);
+        let Some((rpm, timed)) = other.zip(self.timed.as_ref()) else { return Ok(self.clone()) };
+        let sets_speed = |set: &&String| set.split('=').next().is_some_and(|key| key.trim() == SPEED);
+        let others = timed.overrides.iter().filter(|set| !sets_speed(set)).cloned();
+        let overrides: Vec<String> = others.chain([format!("{SPEED}={rpm}")]).collect();
+        let read = timed.source.read(&overrides, |reader| Self::of(reader, &timed.source));
+        let motion = read.map_err(|error| Refusal::new(format!("the motion at {rpm} rpm: {error}")))?.motion;
+        Ok(Self { motion, ..self.clone() })
     }
 
     fn of(reader: &Reader<'_>, source: &MachineSource) -> Option<Self> {
@@ -217,13 +247,15 @@ impl Machine {
         }
         let as_made = as_made::read(reader, &follower, cam.track.body);
         let counter = track::read_counter(reader, &follower);
-        let barrel = barrel::read(reader)?;
+        let barrel = barrel::read(reader, cam.track.groove_depth)?;
         let follower = turret::carried(follower, turret);
+        let inputs = limits::inputs(reader, &*follower.shape, quantity);
         let cam = CamData { track: TrackData { counter, barrel, turret, ..cam.track }, ..cam };
         Some(Self {
             catalogue: source.catalogue,
             name: reader.table(&ROOT).get(&NAME)?,
             motion,
+            timed: None,
             cam,
             as_made,
             material_name: disc::material_name(reader),
@@ -236,7 +268,7 @@ impl Machine {
             key_values: Arc::new(KeyValues {
                 keys: reader.given(source.by_user),
                 overridden: reader.given(false),
-                inputs: limits::inputs(reader, &*follower.shape, quantity),
+                inputs,
             }),
             follower,
         })
@@ -367,6 +399,12 @@ impl Machine {
     #[must_use]
     pub fn bearing(&self) -> Option<BearingData> {
         self.dynamics.bearing
+    }
+
+    /// What the damping of the load on that train acts against.
+    #[must_use]
+    pub fn damping_against(&self) -> DampingAgainst {
+        self.dynamics.damping_against
     }
 
     /// The elastic train behind the follower of a motion program, when the file describes one.

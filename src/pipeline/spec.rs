@@ -87,6 +87,11 @@ impl Spec {
         Self { machine, solve: Box::new(solve), resolver: None, inputs: None }
     }
 
+    /// A cam that cannot be made.
+    fn refused(machine: Machine, refusal: Refusal) -> Self {
+        Self::of_several(machine, move |_, _| Err(refusal))
+    }
+
     /// All inputs of the solution in addition to the machine.
     pub(crate) fn with_inputs(self, inputs: Vec<Input>) -> Self {
         Self { inputs: Some(inputs), ..self }
@@ -137,6 +142,10 @@ impl Spec {
     /// ```
     #[must_use]
     pub fn of_program(machine: Machine, rpm: Option<f64>) -> Option<Self> {
+        let machine = match machine.at_rpm(rpm) {
+            Ok(machine) => machine,
+            Err(refusal) => return Some(Self::refused(machine, refusal)),
+        };
         let (motion, of_file) = machine.motion()?;
         let rpm = rpm.or(of_file);
         let inputs = rpm.map(|rpm| Input::number("rpm", rpm)).into_iter().collect();
@@ -172,6 +181,10 @@ impl Spec {
     /// The cam of this name that is made with that of the motion program of a machine, alone; `None` when the file has no motion.
     #[must_use]
     pub fn made_with_program(machine: Machine, rpm: Option<f64>, name: &'static str) -> Option<Self> {
+        let machine = match machine.at_rpm(rpm) {
+            Ok(machine) => machine,
+            Err(refusal) => return Some(Self::refused(machine, refusal)),
+        };
         let (motion, of_file) = machine.motion()?;
         let rpm = rpm.or(of_file);
         let inputs = rpm.map(|rpm| Input::number("rpm", rpm)).into_iter().collect();

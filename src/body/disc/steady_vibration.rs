@@ -1,9 +1,10 @@
 //! The steady vibration of a load behind an elastic train, exact for any number of waves of the lift.
 //!
-//! The deviation z = x − y of the load from the follower obeys z'' + 2ζκ z' + κ² z = −(y'' + 2ζκ y') by the cam angle, κ the natural frequency over
-//! that of the cam; where the velocity of the follower jumps, z' jumps the other way. Over a short cell the solution is that of the free
+//! The deviation z = x − y of the load from the follower obeys z'' + 2ζκ z' + κ² z = −(y'' + 2ζκ y') with respect to the cam angle, κ the natural frequency
+//! divided by that of the cam, if the damping acts against the frame; if it acts against the follower, the right side is −y''. Where the velocity of the follower jumps, z' jumps the other way. Over a short cell the solution is that of the free
 //! vibration and an integral of the exact motion (Duhamel); what it is after a turn is what it was before.
 
+use crate::machine::DampingAgainst;
 use crate::motion::Motion;
 use crate::numeric::extremum::Extremum;
 use crate::numeric::{quadrature, root};
@@ -23,6 +24,7 @@ pub(super) struct ElasticTrain {
     pub(super) frequency: f64,
     /// Share of the critical damping, below 1.
     pub(super) damping: f64,
+    pub(super) against: DampingAgainst,
 }
 
 /// Deviation and its rate.
@@ -42,7 +44,10 @@ impl ElasticTrain {
     /// The state after an angle from a state on, with this motion from an angle of a piece on.
     fn after(self, state: State, motion: &dyn Motion, (piece, from, to): (usize, f64, f64)) -> State {
         let [of_value, of_rate] = self.free(to - from);
-        let drag = 2.0 * self.damping * self.frequency;
+        let drag = match self.against {
+            DampingAgainst::Frame => 2.0 * self.damping * self.frequency,
+            DampingAgainst::Follower => 0.0,
+        };
         let driven = |order: usize| {
             let push = |at: f64| {
                 let lift = motion.jet(piece, at);
@@ -152,10 +157,20 @@ mod tests {
             let ratio = 3.0 / frequency;
             let (re, im) = (1.0 - ratio * ratio, 2.0 * damping * ratio);
             let known = libm::hypot(re - 1.0, im) / libm::hypot(re, im);
-            let found = ElasticTrain { frequency, damping }.largest_deviation(&Wave).value;
+            let against = DampingAgainst::Frame;
+            let found = ElasticTrain { frequency, damping, against }.largest_deviation(&Wave).value;
+            assert!((found / known - 1.0).abs() < 1e-9, "{frequency} {damping}: {found} {known}");
+            // Against the follower H = (1 + 2iζq)/(1 − q² + 2iζq).
+            let known = ratio * ratio / libm::hypot(re, im);
+            let against = DampingAgainst::Follower;
+            let found = ElasticTrain { frequency, damping, against }.largest_deviation(&Wave).value;
             assert!((found / known - 1.0).abs() < 1e-9, "{frequency} {damping}: {found} {known}");
         }
-        assert_eq!(ElasticTrain { frequency: 3.0, damping: 0.0 }.largest_deviation(&Wave).value, f64::INFINITY);
+        let against = DampingAgainst::Frame;
+        assert_eq!(
+            ElasticTrain { frequency: 3.0, damping: 0.0, against }.largest_deviation(&Wave).value,
+            f64::INFINITY
+        );
     }
 
     /// With jumps of velocity and acceleration the series of waves comes near, the more waves are summed up.
@@ -164,7 +179,7 @@ mod tests {
         let segments = [(named("parabola"), 1.5, 0.02), (None, 1.0, 0.0), (named("line"), 2.0, 0.0), (None, 0.0, 0.0)];
         let program = Program::new(Quantity::Length, 0.0, &segments);
         let (frequency, damping) = (7.3, 0.05);
-        let found = ElasticTrain { frequency, damping }.largest_deviation(&program);
+        let found = ElasticTrain { frequency, damping, against: DampingAgainst::Frame }.largest_deviation(&program);
         let waves = program.harmonics(20_000).waves;
         let at = |angle: f64| {
             let term = |(order, [a, b]): (u32, &[f64; 2])| {

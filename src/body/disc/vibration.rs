@@ -1,9 +1,10 @@
-//! The load behind an elastic train, as one mass on one spring that the follower moves: ẍ + 2 ζ ω_n ẋ + ω_n² x = ω_n² y.
+//! The load behind an elastic train, as one mass on one spring that the follower moves: ẍ + 2 ζ ω_n ẋ + ω_n² x = ω_n² y with its damping against the frame,
+//! ẍ + 2 ζ ω_n (ẋ − ẏ) + ω_n² (x − y) = 0 with that of the train itself.
 
 use super::steady_vibration::ElasticTrain;
 use super::{Disc, program};
 use crate::geometry::MILLIMETRES;
-use crate::machine::VibrationData;
+use crate::machine::{DampingAgainst, VibrationData};
 use crate::motion::Quantity;
 use crate::motion::program::{Harmonics, Program};
 use crate::numeric::extremum::Extremum;
@@ -65,7 +66,7 @@ pub struct Vibration {
 }
 
 impl Vibration {
-    fn of(program: &Program, lobes: u32, data: VibrationData, speed: f64) -> Self {
+    fn of(program: &Program, lobes: u32, (data, against): (VibrationData, DampingAgainst), speed: f64) -> Self {
         let frequency = TAU * data.natural_frequency / speed;
         let movement = |movement: &crate::motion::program::ProgramMovement| {
             let worst = movement.largest_residual(((1.0 - BESIDE) * frequency, (1.0 + BESIDE) * frequency));
@@ -95,7 +96,7 @@ impl Vibration {
         Self {
             frequency,
             movements: program.movements().iter().map(movement).collect(),
-            deviation: ElasticTrain { frequency, damping: data.damping }.largest_deviation(program),
+            deviation: ElasticTrain { frequency, damping: data.damping, against }.largest_deviation(program),
             resonances,
             harmonics,
         }
@@ -113,7 +114,12 @@ impl Disc {
     pub(super) fn vibrating(&self) -> Option<&Vibration> {
         let found = self.program_follower.vibration.get_or_init(|| {
             let (data, speed) = (self.machine.vibration().filter(|_| self.is_of_program())?, self.speed?);
-            Some(Vibration::of(self.motion.program()?, self.motion.lobes(), data, speed))
+            Some(Vibration::of(
+                self.motion.program()?,
+                self.motion.lobes(),
+                (data, self.machine.damping_against()),
+                speed,
+            ))
         });
         found.as_ref()
     }
@@ -130,11 +136,17 @@ impl Disc {
             .iter()
             .map(|at| json!({"order": at.order, "rpm": at.rpm, "amplitude": size * at.amplitude}))
             .collect();
+        let against = match self.machine.damping_against() {
+            DampingAgainst::Frame => "frame",
+            DampingAgainst::Follower => "follower",
+        };
+        let damped = if data.damping > 0.0 { format!(", damped against the {against}") } else { String::new() };
         let deviation = size * found.deviation.value;
         let value = json!({
             "unit": unit,
             "natural_frequency_hz": data.natural_frequency,
             "damping": data.damping,
+            "damping_against": against,
             "frequency_ratio": found.frequency,
             "movements": movements,
             "deviation_max": finite(deviation),
@@ -144,7 +156,7 @@ impl Disc {
         let mut words: Vec<String> = found.movements.iter().map(movement_words).collect();
         words.push(match finite(deviation) {
             Some(deviation) => format!(
-                "in steady operation the load deviates from the follower by up to {} {unit}, at {:.3}°",
+                "in steady operation the load{damped} deviates from the follower by up to {} {unit}, at {:.3}°",
                 shown(deviation),
                 degrees(found.deviation.at)
             ),

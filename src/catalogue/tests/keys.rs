@@ -140,6 +140,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("guide.overhang", "20 mm"),
     ("vibration.natural_frequency", "50 Hz"),
     ("vibration.damping", "0.05"),
+    ("vibration.damping_against", "follower"),
     ("flywheel.fluctuation", "0.01"),
     ("as_made.roller_radius", "3 um"),
     ("as_made.centre_distance", "-20 um"),

@@ -336,8 +336,12 @@ pub(super) const NATURAL_FREQUENCY: Field<f64> = Field::quantity(
     Frequency,
     above(0.0, LARGEST_NUMBER),
 );
-pub(super) const DAMPING: Field<f64> =
-    Field::number("damping", "damping ratio: share of the critical damping", Default("0"), within(0.0, 1.0));
+pub(super) const DAMPING: Field<f64> = Field::number(
+    "damping",
+    "damping ratio of the load against the frame: share of the critical damping",
+    Default("0"),
+    within(0.0, 1.0),
+);
 pub(super) const OWN_RPM: Field<f64> = Field::number(
     "rpm",
     "speed for which the cam is made, motion.rpm when absent",

@@ -220,6 +220,8 @@ pub struct Program {
     rows: Vec<rows::RowFigures>,
     /// The summaries of the segments, once they are needed.
     summaries: OnceLock<Vec<SegmentSummary>>,
+    /// Whether it would be another one at another speed.
+    timed: bool,
 }
 
 impl Program {
@@ -377,6 +379,7 @@ impl Program {
             load: None,
             rows: Vec::new(),
             summaries: OnceLock::new(),
+            timed: false,
         }
     }
 
@@ -414,6 +417,12 @@ impl Program {
     #[must_use]
     pub fn rpm(&self) -> Option<f64> {
         self.rpm
+    }
+
+    /// Whether it would be another one at another speed: for rates per second, and for the speed of a polydyne cam.
+    #[must_use]
+    pub fn is_timed(&self) -> bool {
+        self.timed
     }
 
     /// The elastic load for which it is the motion of the cam.

@@ -1,9 +1,9 @@
 //! A cam whose elastic load makes the motion of the program: `[motion.polydyne]`.
 //!
-//! The load, damped against the train, follows ẍ + 2ζω_n ẋ + ω_n² x = ω_n² y. For it to move as s(θ) the cam's motion is
+//! The load, damped against the frame, follows ẍ + 2ζω_n ẋ + ω_n² x = ω_n² y. For it to move as s(θ) the cam's motion is
 //! y = s + 2ζq s' + q² s'' with q = Ω/ω_n, by exact derivatives; it has two continuous derivatives less than s.
 
-use super::keys::{DAMPING, NATURAL_FREQUENCY, OWN_RPM, POLYDYNE};
+use super::keys::{DAMPING, NATURAL_FREQUENCY, OWN_RPM, POLYDYNE, RPM, SECTION};
 use super::{EndState, Jump, Program, ProgramSegment, ROUNDING};
 use crate::document::Reader;
 use crate::motion::laws::LawCurve;
@@ -28,6 +28,9 @@ pub(super) fn read(reader: &Reader<'_>, program: Program) -> Option<Program> {
     }
     let rpm = if table.has(&OWN_RPM) { Some(table.get(&OWN_RPM)?) } else { program.rpm };
     let Some(rpm) = rpm else {
+        if reader.find(&SECTION).is_some_and(|motion| motion.has(&RPM)) {
+            return None;
+        }
         let help = "add rpm here, or motion.rpm";
         table.fail(&OWN_RPM, "a polydyne cam is made for one speed".into(), Some(help.into()));
         return None;

@@ -5,8 +5,8 @@ use super::fault_reported::FaultReported;
 use super::half_turn;
 use super::keys::{
     ACCELERATION, AMPLITUDES, AT, BEGINS, BETWEEN_ROWS, BY, DWELL, END, EXPRESSED, EndWord, FRACTIONS, INFLECTION,
-    JERK, LAW, LINE, MINIMISE, OVER, POLYNOMIAL, RAMP, REPEAT, RPM, SECTION, SEGMENT, SPLINE, START, STROKE, TABULATED,
-    TO, UNTIL, USUAL, VELOCITY,
+    JERK, LAW, LINE, MINIMISE, OVER, OWN_RPM, POLYDYNE, POLYNOMIAL, RAMP, REPEAT, RPM, SECTION, SEGMENT, SPLINE, START,
+    STROKE, TABULATED, TO, UNTIL, USUAL, VELOCITY,
 };
 use super::{EndState, Mover, Program, SegmentSpec};
 use super::{forms, optimum, polydyne, rows};
@@ -32,7 +32,21 @@ pub(crate) fn read(
     follower: Option<FollowerMovement>,
     span: Option<ProgramSpan>,
 ) -> Option<Program> {
-    polydyne::read(reader, as_given(reader, follower, span)?)
+    let program = polydyne::read(reader, as_given(reader, follower, span)?)?;
+    Some(Program { timed: depends_on_speed(reader), ..program })
+}
+
+/// Whether a motion without a fault would be another one at another speed.
+fn depends_on_speed(reader: &Reader<'_>) -> bool {
+    let of_load = || reader.find(&POLYDYNE).is_some_and(|load| !load.has(&OWN_RPM));
+    let per_second = |segment: &TableReader<'_>| {
+        let by_time = |(order, key): (u32, &Field<String>)| {
+            let rate = segment.get(key).and_then(|text| units::parse_rate(&text, order).ok());
+            rate.is_some_and(|rate| rate.by_time)
+        };
+        [(1, &VELOCITY), (2, &ACCELERATION), (3, &JERK)].into_iter().any(by_time)
+    };
+    of_load() || reader.elements(&SEGMENT).any(|segment| per_second(&segment))
 }
 
 /// The motion that the file gives.
@@ -44,11 +58,7 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Optio
     let form = forms::MotionForm::find(reader, &table, !segments.is_empty()).ok()?;
     let stroke = stroke(&table, span);
     if segments.is_empty() && form.is_none() {
-        if !reader.is_explained(&SEGMENT) {
-            let help =
-                Some("add [[motion.segment]] with law, over and to; or formula, points, table or fourier".into());
-            table.fail(&START, "a motion needs segments".into(), help);
-        }
+        report_no_segments(reader, &table);
         return None;
     }
     let lobes = lobes(&table);
@@ -58,18 +68,23 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Optio
         report_mismatch(&table, (quantity, follower), &lengths(&segments, start));
     }
     let rpm = table.get(&RPM);
-    let (at, lobes) = (table.get(&AT)?, lobes?);
-    let stroke = stroke.ok()?;
+    let (at, lobes, stroke) = (table.get(&AT)?, lobes?, stroke.ok()?);
     let of_yoke = span == Some(ProgramSpan::HalfTurn);
     if of_yoke {
         half_turn::refuse_even(&table, lobes);
     }
-    let speed = rpm.map(|rpm| rpm * TAU / 60.0);
-    let arm = follower.and_then(|follower| follower.arm);
     let fill = stroke.unwrap_or(TAU / f64::from(lobes));
     let halved = of_yoke && half_turn::is_covered(&segments, at, 0.5 * fill);
-    let fill = if halved { 0.5 * fill } else { fill };
-    let whole = ProgramContext { quantity, arc, arm, speed, at, fill, by_travel: stroke.is_some() };
+    let whole = ProgramContext {
+        quantity,
+        arc,
+        arm: follower.and_then(|follower| follower.arm),
+        speed: rpm.map(|rpm| rpm * TAU / 60.0),
+        has_faulty_speed: rpm.is_none() && table.has(&RPM),
+        at,
+        fill: if halved { 0.5 * fill } else { fill },
+        by_travel: stroke.is_some(),
+    };
     let index = index(&table, span, (form.is_some(), lobes)).ok()?;
     if let Some(form) = form {
         return Some(Program { rpm, ..form.program(&table, whole, (start, lobes))? });
@@ -96,6 +111,13 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Optio
     }
 }
 
+fn report_no_segments(reader: &Reader<'_>, table: &TableReader<'_>) {
+    if !reader.is_explained(&SEGMENT) {
+        let help = "add [[motion.segment]] with law, over and to; or formula, points, table or fourier";
+        table.fail(&START, "a motion needs segments".into(), Some(help.into()));
+    }
+}
+
 /// The rows of the lift table of a file for its follower, where there is one without fault.
 pub(crate) fn table_rows(reader: &Reader<'_>, follower: Option<FollowerMovement>) -> Option<rows::TableRows> {
     let table = reader.find(&SECTION)?;
@@ -108,7 +130,16 @@ pub(crate) fn table_rows(reader: &Reader<'_>, follower: Option<FollowerMovement>
         return None;
     }
     let fill = TAU / f64::from(lobes);
-    let whole = ProgramContext { quantity, arc, arm: follower.arm, speed: None, at: 0.0, fill, by_travel: false };
+    let whole = ProgramContext {
+        quantity,
+        arc,
+        arm: follower.arm,
+        speed: None,
+        has_faulty_speed: false,
+        at: 0.0,
+        fill,
+        by_travel: false,
+    };
     rows::table_rows(&table, whole)
 }
 
@@ -459,6 +490,7 @@ fn rate(
             match whole.speed {
                 _ if !rate.by_time => Ok(Some(value)),
                 Some(speed) => Ok(Some((0..order).fold(value, |value, _| value / speed))),
+                None if whole.has_faulty_speed => Err(FaultReported),
                 None => fail(
                     format!("`{name}` per second needs motion.rpm"),
                     "add motion.rpm, or give the rate per angle".into(),

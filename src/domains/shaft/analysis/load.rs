@@ -53,6 +53,7 @@ impl CamOnShaft {
             return Ok(Some(Self { cam, disc: None, speed, rpm: rpm.to_vec() }));
         }
         let rpm = rpm.first().copied();
+        let own = &own.at_rpm(rpm).map_err(cannot)?;
         let (body, rpm) = match (own.press(), own.motion()) {
             (Err(_), Some((motion, of_file))) => {
                 let rpm = rpm.or(of_file);
