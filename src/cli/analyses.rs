@@ -230,7 +230,7 @@ pub(crate) fn compare_of(
         _ if names.is_empty() => return Err(Failure("--flank is for a body with several flanks".into())),
         _ => return Err(Failure(format!("give --flank {}", names.join(" or --flank ")))),
     };
-    let options = ComparisonOptions { ball: args.ball.unwrap_or(0.0), fit: args.fit };
+    let options = ComparisonOptions { ball: args.ball.radius().unwrap_or(0.0), fit: args.fit };
     Ok((comparison::analysis(cam.body(), cut, &points, options).map_err(Failure::new)?, name))
 }
 

@@ -157,6 +157,18 @@ fn design(args: &CheckArgs, bytes: &[u8]) -> Result<Design, Failure> {
     Ok(Design { told: Some(told), ..Design::given(spec(args)?) })
 }
 
+impl CheckArgs {
+    /// The machine of a file with the overrides, for the cutter that is given: where the size is `auto`, the cam is as large as `make` makes it for
+    /// this cutter.
+    pub(super) fn machine_of(&self, name: &str) -> Result<(Machine, String), Failure> {
+        let (mut machine, name) = self.common.machine_of(name)?;
+        if let Some(radius) = self.cutter_radius.or(self.cutter_diameter) {
+            machine.ask_for_cutter(radius);
+        }
+        Ok((machine, name))
+    }
+}
+
 /// The cam that the file should contain.
 fn spec(args: &CheckArgs) -> Result<Spec, Failure> {
     #[cfg(feature = "brake")]
@@ -170,10 +182,10 @@ fn spec(args: &CheckArgs) -> Result<Spec, Failure> {
         return super::brake::of_brake(&machine).map(|(spec, _)| spec);
     }
     if let Some(design) = &args.design {
-        let (machine, _) = args.common.machine_of(design)?;
+        let (machine, _) = args.machine_of(design)?;
         return of_program(&args.common, (machine, design));
     }
-    let (machine, _) = args.common.machine()?;
+    let (machine, _) = args.machine_of(args.common.machine_name())?;
     let of_a_program = machine.press().is_err() && machine.motion().is_some();
     match args.cam.unwrap_or(if of_a_program { CheckTarget::Make } else { CheckTarget::Rotary }) {
         CheckTarget::Make => of_program(&args.common, (machine, args.common.machine_name())),

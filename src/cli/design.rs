@@ -175,7 +175,7 @@ fn by_hash(args: &CheckArgs, folder: &Path, hash: &str) -> Option<Design> {
         |spec: &Spec, kind| requests.iter().any(|request| spec.inputs_hash(kind, request).as_deref() == Some(hash));
     let named = catalogue().names().into_iter().map(str::to_owned);
     for name in named.chain(design_files(folder)) {
-        let Ok((machine, _)) = args.common.machine_of(&name) else { continue };
+        let Ok((machine, _)) = args.machine_of(&name) else { continue };
         for (kind, spec) in specs(args, &machine, &name) {
             if is_one(&spec, kind) {
                 let told = format!("found by the hash in the file: {} of {name}, inputs {hash}", kind.0);

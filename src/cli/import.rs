@@ -26,7 +26,7 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
         Some(form) => form,
         // What says how a table is read is said of a table.
         None if of_table(args).iter().any(|(_, given)| *given) => ImportForm::Table,
-        None => form_of(&args.file, !args.follower.is_empty() || args.ball.is_some())?,
+        None => form_of(&args.file, !args.follower.is_empty() || args.ball.radius().is_some())?,
     };
     refuse_flags(args, form)?;
     let source = match form {
@@ -40,7 +40,7 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
         ImportForm::Points => {
             let text = table_text_of(&args.file, LARGEST_TABLE).map_err(|why| unread(&file, &why))?;
             let points = measured::read(&text).map_err(|why| Failure(format!("`{file}`: {why}")))?;
-            ImportSource::Points(points, 1e3 * args.ball.unwrap_or(0.0))
+            ImportSource::Points(points, 1e3 * args.ball.radius().unwrap_or(0.0))
         }
     };
     let analysis = import::analysis(&source, &options).map_err(|why| Failure(format!("`{file}`: {why}")))?;
@@ -159,7 +159,7 @@ fn refuse_flags(args: &ImportArgs, form: ImportForm) -> Result<(), Failure> {
     if let Some((flag, _)) = of_table(args).iter().find(|(_, given)| *given && form != ImportForm::Table) {
         return refused(flag, "a lift table", "table");
     }
-    if args.ball.is_some() && form != ImportForm::Points {
+    if args.ball.radius().is_some() && form != ImportForm::Points {
         return refused("--ball", "measured points", "points");
     }
     if args.layer.is_some() && form != ImportForm::Outline {

@@ -5,8 +5,8 @@ use super::files::OutputArgs;
 #[cfg(feature = "linkage")]
 use super::parse::power_share;
 use super::parse::{
-    LawOrSpline, crank_step, cutter_radius, force, format, law, law_or_spline, lift, rpm, segment_angle, stiffness,
-    word,
+    LawOrSpline, crank_step, cutter_diameter, cutter_radius, force, format, law, law_or_spline, lift, rpm,
+    segment_angle, stiffness, word,
 };
 #[cfg(feature = "shaft")]
 use super::parse::{Order, order, stiffnesses};
@@ -291,6 +291,25 @@ pub(crate) struct SizeArgs {
     pub(in crate::cli) analysis: AnalysisArgs,
 }
 
+/// The ball whose centres measured points are.
+#[derive(Debug, Args)]
+pub(crate) struct BallArgs {
+    /// Radius of the ball whose centres the points are, half of --ball-diameter [default: 0, points on the profile]
+    #[arg(long = "ball", value_name = "RADIUS", value_parser = cutter_radius, allow_hyphen_values = true)]
+    ball_radius: Option<f64>,
+
+    /// Diameter of that ball, in the place of its radius
+    #[arg(long, value_name = "DIAMETER", conflicts_with = "ball_radius", value_parser = cutter_diameter, allow_hyphen_values = true)]
+    ball_diameter: Option<f64>,
+}
+
+impl BallArgs {
+    /// Its radius, m.
+    pub(in crate::cli) fn radius(&self) -> Option<f64> {
+        self.ball_radius.or(self.ball_diameter)
+    }
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct CompareArgs {
     /// The measured points: a table of x and y, or of angle and radius, in millimetres and degrees, of lines of text
@@ -301,9 +320,8 @@ pub(crate) struct CompareArgs {
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: String,
 
-    /// Radius of the ball whose centres the points are [default: 0, points on the profile]
-    #[arg(long, value_name = "RADIUS", value_parser = cutter_radius)]
-    pub(in crate::cli) ball: Option<f64>,
+    #[command(flatten)]
+    pub(in crate::cli) ball: BallArgs,
 
     /// What is fitted before deviations are measured: angle (about the shaft), centre (angle and centre) or none
     #[arg(long, value_name = "WHAT", default_value = "angle", ignore_case = true, value_parser = word::<ComparisonFit>())]
@@ -346,9 +364,8 @@ pub(crate) struct ImportArgs {
     #[arg(long, value_name = "DEVIATION", value_parser = lift, allow_hyphen_values = true)]
     pub(in crate::cli) deviation: Option<LengthOrAngle>,
 
-    /// Radius of the ball whose centres the points are [default: 0, points on the profile]
-    #[arg(long, value_name = "RADIUS", value_parser = cutter_radius, allow_hyphen_values = true)]
-    pub(in crate::cli) ball: Option<f64>,
+    #[command(flatten)]
+    pub(in crate::cli) ball: BallArgs,
 
     /// What is found of the position of the cam: angle (the first rise then begins at 0 deg), centre (angle and centre, from the dwells) or none
     /// [default: angle for points, none for a table and an outline]
