@@ -2,7 +2,7 @@
 
 use super::{Analysis, Picture};
 use crate::body::disc::{BestPlace, Disc, SizeFigures};
-use crate::body::{Body, Figures, Kind, needs_base_circle};
+use crate::body::{Body, Figures, Kind, needs_base_circle, sized_disc};
 use crate::document::{Input, NamedChoice, cams};
 use crate::follower::FollowerPlacement;
 use crate::geometry::MILLIMETRES;
@@ -142,6 +142,7 @@ fn opened(machine: &Machine, free: &[FreeDimension]) -> Result<Machine, Refusal>
 /// # Errors
 /// [`Refusal`] when the file has no motion, its follower no such place, or no size keeps the limits.
 pub fn analysis(machine: &Machine, free: &[FreeDimension], rpm: Option<f64>) -> Result<Analysis, Refusal> {
+    let machine = &machine.at_rpm(rpm)?;
     let (motion, of_file) = machine.motion().ok_or_else(|| {
         Refusal::new("the machine file has no [motion]").remedy("give the file of a cam that `camgen make` cuts")
     })?;
@@ -151,7 +152,7 @@ pub fn analysis(machine: &Machine, free: &[FreeDimension], rpm: Option<f64>) -> 
     }
     let rpm = rpm.or(of_file);
     needs_base_circle(machine, "the smallest cam of `camgen size`")?;
-    let disc = Disc::of_motion(&opened(machine, free)?, motion, rpm)?;
+    let disc = sized_disc(&opened(machine, free)?, &motion, rpm)?;
     let place = disc.follower().place();
     let nearest = place.and_then(|place| Some((place, disc.nearest(place).ok()?)));
     let figures = disc.size();

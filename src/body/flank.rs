@@ -2,6 +2,7 @@
 
 use crate::geometry::solid::SplineSurface;
 use crate::numeric::spline::bspline_basis;
+use crate::refusal::{Refusal, WorkBound};
 use nalgebra::Vector3;
 
 /// Steps to the nearest point of a patch.
@@ -18,6 +19,19 @@ pub struct Flank {
     pub deviation: f64,
     /// Volume within the flank, mm³.
     pub volume: f64,
+}
+
+/// Spline cells of the flanks of a barrel or a globoid: each is compared with the exact flank at 64 points or more.
+const CELLS: WorkBound = WorkBound { what: "spline cells of the flanks", most: 12_000 };
+
+/// Refuses more cells than a command compares in its time.
+///
+/// # Errors
+/// [`Refusal`] with the number and the bound.
+pub(super) fn refuse_too_many(patches: &[SplineSurface]) -> Result<(), Refusal> {
+    let spans = |knots: &[f64]| knots.windows(2).filter(|pair| pair[1] > pair[0]).count();
+    let cells = patches.iter().map(|patch| spans(&patch.u) * spans(&patch.v)).sum();
+    CELLS.allow(cells).map_err(|refusal| refusal.remedy("give a coarser --tolerance"))
 }
 
 impl SplineSurface {

@@ -1,13 +1,11 @@
 //! Where the force on the roller of a groove changes flank.
 //!
 //! On one flank the roller turns one way and on the other the other: n = ±|C'|/r − the turn of what carries it, so that its spin jumps
-//! by 2|C'|/r. Before it touches the other flank it crosses the clearance. The follower then moves freely: from the moment at which the force F
-//! along the path is 0 the cam moves away from it with F/m, which grows as F' t, so that the play k/cos α is crossed in t = ∛(6 k m/(F' cos α)) and
-//! the flank is hit with v = F' t²/(2 m). Where the force jumps to F at once, v = √(2 k F/(m cos α)).
+//! by 2|C'|/r. Before it touches the other flank it crosses the clearance. The follower then moves freely from the moment at which the force F along the
+//! path changes its sign: its distance g from the flank that it leaves follows m g'' + c g' + k g = |F|, until it is the play j/cos α (`flight`).
 
+use super::flight::Flight;
 use crate::check::{Check, CheckExplanation, CheckScope, Measure, Subject};
-use crate::load::Pressing;
-use crate::motion::Jet;
 use crate::numeric::root;
 use crate::profile::Worst;
 use crate::report::{Bound, degrees, shown};
@@ -43,7 +41,7 @@ pub struct FlankSwitch {
     pub to_lifting: bool,
     /// Turns of the roller about its own axis for a turn of the cam, before and after.
     pub spin: [f64; 2],
-    /// Velocity with which it hits the other flank along its path, m/s; `None` where no mass or no speed is known.
+    /// Velocity with which it hits the other flank along its path, m/s; `None` without a mass or a speed, or if the force turns back before.
     pub impact: Option<f64>,
 }
 
@@ -85,33 +83,24 @@ impl ForceOverTurn<'_> {
 }
 
 /// A roller where the force changes flank.
-pub(super) struct SwitchingRoller {
-    pub(super) lift: Jet,
+pub(super) struct SwitchingRoller<'a> {
     /// |C'|/r, and the turn of what carries it, for a turn of the cam.
     pub(super) by_path: f64,
     pub(super) carrier_turn: f64,
     /// Way of the roller along its path for a lift, m or m/rad.
     pub(super) leverage: f64,
-    /// The play as a lift, m or rad.
-    pub(super) play: f64,
+    /// How it moves across the play, if a force is known.
+    pub(super) flight: Option<Flight<'a>>,
 }
 
-impl SwitchingRoller {
-    /// The change of flank at a cam angle, with what presses the roller on, where that is known.
-    pub(super) fn switch(&self, at: f64, to_lifting: bool, pressing: Option<Pressing>) -> FlankSwitch {
+impl SwitchingRoller<'_> {
+    /// The change of flank at a cam angle.
+    pub(super) fn switch(&self, at: f64, to_lifting: bool) -> FlankSwitch {
         let sign = if to_lifting { 1.0 } else { -1.0 };
         let spin = [-sign, sign].map(|side| side * self.by_path - self.carrier_turn);
-        let impact = pressing.filter(|pressing| pressing.speed > 0.0).and_then(|pressing| self.impact(&pressing));
+        let impact = self.flight.as_ref().and_then(|flight| flight.impact(at, sign));
+        let impact = impact.map(|velocity| self.leverage * velocity);
         FlankSwitch { at: at.rem_euclid(TAU), to_lifting, spin, impact }
-    }
-
-    fn impact(&self, pressing: &Pressing) -> Option<f64> {
-        let acceleration = (pressing.at(&self.lift) / pressing.mass).abs();
-        let rate = (pressing.rate_at(&self.lift) * pressing.speed / pressing.mass).abs();
-        let by_jump = (2.0 * self.play * acceleration).sqrt();
-        let time = libm::cbrt(6.0 * self.play / rate);
-        let by_rate = if rate > 0.0 { 0.5 * rate * time * time } else { 0.0 };
-        (pressing.mass > 0.0).then(|| self.leverage * by_jump.max(by_rate))
     }
 }
 

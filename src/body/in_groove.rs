@@ -5,10 +5,12 @@
 //! names. The pressure is that of N spread evenly over the reach b, p² = N E* κ/(π b), with the largest reduced curvature κ along it. On that flank the
 //! roller turns n = ±|V|/r − the turn of what carries it, for a turn of the cam. Friction is left out.
 
+use super::Body;
 use super::flank_switch::{self, FlankSwitch, ForceOverTurn, SwitchFigures, SwitchingRoller};
+use super::flight::Flight;
 use super::roller_bearing::{self, RollerBearing, RollerDuty, RollingOverTurn};
 use super::shaft_torque::{DynamicsFigures, ShaftTorque, TorqueOverTurn};
-use super::{Body, stress};
+use super::stress::RollerContact;
 use crate::check::contact_stress::{self, ContactKind};
 use crate::check::{Measures, Subject};
 use crate::load::Pressing;
@@ -188,10 +190,8 @@ impl<'a> GrooveForces<'a> {
             let lifting = self.acting(at) >= 0.0;
             let of = |(contact, force): (GrooveContact, f64)| {
                 let curvature = contact.curvatures[usize::from(!lifting)];
-                match crown {
-                    Some(crown) => stress::under_crown(force, (curvature, crown), material),
-                    None => stress::along_line(force, (curvature, contact.length), material),
-                }
+                let contact = RollerContact { curvature, crown, length: Some(contact.length) };
+                contact.pressure(force, material).unwrap_or(0.0)
             };
             self.bearing(at).map(of).fold(0.0, f64::max)
         };
@@ -276,19 +276,21 @@ impl<'a> GrooveForces<'a> {
         let largest = self.largest(|at| self.acting(at).abs()).value;
         let stretches = self.body.smooth_stretches();
         let changes = ForceOverTurn { force: &force, largest, stretches: &stretches }.changes()?;
+        Some(changes.into_iter().filter_map(|(at, to_lifting)| self.switch(at, to_lifting)).collect())
+    }
+
+    fn switch(&self, (piece, start): (usize, f64), to_lifting: bool) -> Option<FlankSwitch> {
+        let contact = self.body.contacts((piece, start), to_lifting).into_iter().next()?;
         let clearance = self.body.machine().cam.track.clearance;
-        let switch = |(at, to_lifting): ((usize, f64), bool)| {
-            let contact = self.body.contacts(at, to_lifting).into_iter().next()?;
-            let roller = SwitchingRoller {
-                lift: self.lift(at),
-                by_path: contact.by_path[0],
-                carrier_turn: contact.carrier_turn[0],
-                leverage: contact.leverage,
-                play: clearance / (libm::cos(contact.pressure_angle) * contact.leverage),
-            };
-            Some(roller.switch(at.1, to_lifting, Some(self.pressing)))
+        let lift = |angle: f64| self.lift(self.body.motion().locate(angle));
+        let play = |angle: f64| {
+            let found = self.body.contacts(self.body.motion().locate(angle), to_lifting).into_iter().next();
+            let contact = found.unwrap_or(contact);
+            clearance / (libm::cos(contact.pressure_angle) * contact.leverage)
         };
-        Some(changes.into_iter().filter_map(switch).collect())
+        let GrooveContact { by_path: [by_path, _], carrier_turn: [carrier_turn, _], leverage, .. } = contact;
+        let flight = Some(Flight { pressing: self.pressing, lift: &lift, play: &play });
+        Some(SwitchingRoller { by_path, carrier_turn, leverage, flight }.switch(start, to_lifting))
     }
 }
 

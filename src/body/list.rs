@@ -3,6 +3,7 @@
 use super::disc::{self, Disc};
 use super::groove::{self, Groove};
 use super::{Kind, ProgramCams, barrel, conjugate, globoid, rib, wedge, yoke};
+use crate::document::cams;
 use crate::machine::Machine;
 use crate::motion::Motion;
 use crate::refusal::Refusal;
@@ -76,6 +77,20 @@ pub(crate) fn needs_base_circle(machine: &Machine, what: &str) -> Result<(), Ref
     let Some(other) = other else { return Ok(()) };
     let refusal = Refusal::new(format!("{what} is that of a disc, and this is a {}", other.kind.noun));
     Err(refusal.remedy("`camgen make` reports the sizes and angles of other bodies"))
+}
+
+/// The disc of a machine by whose base radius its body is sized, of the size that all of the body requires.
+///
+/// # Errors
+/// [`Refusal`] when motion and follower do not fit each other, or no radius keeps the limits.
+pub(crate) fn sized_disc(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<Disc, Refusal> {
+    match machine.body() {
+        cams::CONJUGATE => conjugate::main(machine, motion, rpm),
+        cams::GROOVE => Groove::sized_disc(machine, motion, rpm),
+        cams::RIB => rib::Rib::sized_middle(machine, motion, rpm),
+        cams::YOKE => yoke::Yoke::sized_disc(machine, motion, rpm),
+        _ => Disc::of_motion(machine, Arc::clone(motion), rpm),
+    }
 }
 
 /// Kinds that are made with one of these.

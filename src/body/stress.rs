@@ -1,5 +1,6 @@
 //! Pressure between roller and cam, after Hertz.
 
+use crate::document::cams::GROOVE;
 use crate::document::range::LONGEST;
 use crate::follower::Element;
 use crate::geometry::MILLIMETRES;
@@ -32,7 +33,7 @@ type PowerOfPressure<'a> = (Box<dyn Fn(usize, f64) -> f64 + 'a>, i32);
 
 /// The pressure in the line of contact, p = √(F E*/(π b R)), 1/R = the sum of the curvatures, concave negative; or in the ellipse under a
 /// roller whose rim has the radius `crown` along the axis, m, on a disc that is straight along it. The roller is of steel and as wide as the
-/// cam is thick (K. L. Johnson, Contact Mechanics, 1985, §4.2).
+/// thickness of the cam, or as it reaches into its groove (K. L. Johnson, Contact Mechanics, 1985, §4.2).
 fn power_of_pressure<'a>(
     force: Force<'a>,
     curves: Curves<'a>,
@@ -61,7 +62,7 @@ fn power_of_pressure<'a>(
         };
         return Some((Box::new(cube), 3));
     }
-    let width = machine.cam.thickness?;
+    let width = machine.cam.contact_length()?;
     let square = move |piece: usize, at: f64| {
         let (force, curvature) = both(piece, at);
         force * modulus * curvature / (PI * width)
@@ -69,8 +70,20 @@ fn power_of_pressure<'a>(
     Some((Box::new(square), 2))
 }
 
-/// The largest pressure along a line, or under a crowned roller.
+/// The largest pressure along a line, or under a crowned roller: one so flat that its ellipse would be longer than the cam is pressed at least as
+/// hard as a straight one.
 pub(crate) fn largest(
+    force: Force<'_>,
+    curves: (Curves<'_>, &[JumpRange]),
+    machine: &Machine,
+    crown: Option<f64>,
+) -> Option<Worst> {
+    let found = largest_of_one(force, curves, machine, crown);
+    let straight = crown.and_then(|_| largest_of_one(force, curves, machine, None));
+    found.into_iter().chain(straight).reduce(Worst::or_larger)
+}
+
+fn largest_of_one(
     force: Force<'_>,
     (curves, acting): (Curves<'_>, &[JumpRange]),
     machine: &Machine,
@@ -97,12 +110,25 @@ pub(crate) fn exceeds_somewhere(
     })
 }
 
-/// The thickness at which a line of contact keeps a limit that it exceeds, as a key of the machine file: the pressure goes with
-/// 1/√b. `None` where no thickness that is accepted would.
-pub(crate) fn thickness_for(machine: &Machine, largest: f64, limit: f64) -> Option<String> {
+/// The keys of the machine file with which a line of contact is so long that it keeps a limit: the pressure is proportional to 1/√b. `None` if no
+/// accepted length does.
+pub(crate) fn length_for(machine: &Machine, largest: f64, limit: f64) -> Option<String> {
+    let cam = &machine.cam;
     let over = largest / limit;
-    let thickness = (MILLIMETRES * machine.cam.thickness? * over * over).ceil();
-    (thickness < MILLIMETRES * LONGEST).then(|| format!("cam.thickness = \"{thickness} mm\""))
+    let length = (MILLIMETRES * cam.contact_length()? * over * over).ceil();
+    if length >= MILLIMETRES * LONGEST {
+        return None;
+    }
+    if cam.track.body != GROOVE {
+        return Some(format!("cam.thickness = \"{length} mm\""));
+    }
+    let depth = MILLIMETRES * cam.track.groove_depth?;
+    let height = cam.track.barrel.roller_height.map(|_| format!("cam.roller_height = \"{length} mm\""));
+    let deeper = (length > depth || height.is_none()).then(|| format!("cam.groove_depth = \"{length} mm\""));
+    // As much metal behind the floor as now.
+    let thickness = cam.thickness.map(|thickness| MILLIMETRES * thickness).filter(|thickness| length >= *thickness);
+    let thicker = thickness.map(|thickness| format!("cam.thickness = \"{} mm\"", (length + thickness - depth).ceil()));
+    Some(height.into_iter().chain(deeper).chain(thicker).collect::<Vec<_>>().join(" with "))
 }
 
 /// Pressure in the middle of the ellipse where a steel sphere of a radius (m) is pressed with a force (N) onto a surface of a
@@ -121,14 +147,24 @@ pub(crate) fn of_sphere(force: f64, radius: f64, curvatures: (f64, f64), materia
     in_ellipse(force, (relative(curvatures.0), relative(curvatures.1)), contact_modulus(material))
 }
 
-/// Pressure in a line of contact of a length (m) of a steel roller under a force (N), where both curvatures add up to `curvature`, 1/m: Pa.
-pub(crate) fn along_line(force: f64, (curvature, length): (f64, f64), material: Material) -> f64 {
-    (force * contact_modulus(material) * curvature.max(0.0) / (PI * length)).sqrt()
+/// A steel roller on a surface that is straight along it.
+pub(crate) struct RollerContact {
+    /// The sum of both curvatures, 1/m.
+    pub(crate) curvature: f64,
+    /// Radius of the rim along the axis, m; `None` of a straight roller.
+    pub(crate) crown: Option<f64>,
+    /// Length of the line of contact of a straight roller, m, if it is known.
+    pub(crate) length: Option<f64>,
 }
 
-/// Pressure under a crowned steel roller on a surface that is straight along it, Pa.
-pub(crate) fn under_crown(force: f64, (curvature, crown): (f64, f64), material: Material) -> f64 {
-    in_ellipse(force, (curvature, 1.0 / crown), contact_modulus(material))
+impl RollerContact {
+    /// Largest pressure under a force (N), Pa; `None` of a straight roller whose length of contact is not known.
+    pub(crate) fn pressure(&self, force: f64, material: Material) -> Option<f64> {
+        let modulus = contact_modulus(material);
+        let straight = self.length.map(|length| (force * modulus * self.curvature.max(0.0) / (PI * length)).sqrt());
+        let crowned = self.crown.map(|crown| in_ellipse(force, (self.curvature, 1.0 / crown), modulus));
+        straight.into_iter().chain(crowned).reduce(f64::max)
+    }
 }
 
 /// Largest pressure between any two bodies, Pa, by the sums of their curvatures in the two principal directions, 2A and 2B in either order, 1/m, and E*, Pa.

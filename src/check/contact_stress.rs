@@ -2,6 +2,7 @@
 
 use super::force_closure::WITHOUT_INERTIA;
 use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
+use crate::document::cams::GROOVE;
 use crate::follower::Element;
 use crate::machine::{CamMaterial, Machine, Material, customary_stress_of, stress_at_rest};
 use crate::profile::Worst;
@@ -17,10 +18,10 @@ pub const CHECK: Check = Check {
             contact holds; in a point of contact it warns up to the limit at rest.",
     explained: CheckExplanation {
         bound: Bound::AtMost,
-        formula: "p² = F E*/(π b R) in a line of length b, 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, 1/R = 1/ρ + 1/r with ρ below 0 where the profile is concave; Hertz's ellipse under a crown or a sphere \
+        formula: "p² = F E*/(π b R) in a line whose length b is the thickness of the cam, or in a groove the reach of the roller, 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, 1/R = 1/ρ + 1/r with ρ below 0 where the profile is concave; Hertz's ellipse under a crown or a sphere \
                   (K. L. Johnson, Contact Mechanics)",
         usual: "depends on the material; of hardened steel 1500 MPa in running contact, the fatigue limit of ISO 281, and in a point at rest 4200 MPa (ISO 76)",
-        change: "a wider or larger roller, a larger `follower.*.crown_radius`, a larger `cam.base_radius`, a harder `cam.material`, or `limits.contact_stress`",
+        change: "a thicker cam or a deeper groove under a roller as wide, a larger roller, a larger `follower.*.crown_radius`, a larger `cam.base_radius`, a harder `cam.material`, or `limits.contact_stress`",
     },
 };
 
@@ -35,7 +36,7 @@ pub enum ContactKind {
     Sphere,
 }
 
-/// Measure of the largest pressure, Pa, `None` where thickness, material or forces are not given; with changes, each of which alone keeps a limit
+/// Measure of the largest pressure, Pa, `None` where length of contact, material or forces are not given; with changes, each of which alone keeps a limit
 /// that it exceeds.
 #[must_use]
 pub fn measure(
@@ -90,8 +91,11 @@ fn missing(contact: ContactKind, subject: &Subject<'_>) -> &'static str {
     if subject.curves.is_some_and(|curves| curves.element() == (Element::Roller { radius: 0.0 })) {
         return "a knife edge has no radius; give a roller with the radius that the edge has when worn";
     }
-    match (contact != ContactKind::Line, cam.thickness.is_some(), cam.material.is_some()) {
+    let in_groove = cam.track.body == GROOVE;
+    match (contact != ContactKind::Line, cam.contact_length().is_some(), cam.material.is_some()) {
         (true, ..) | (false, true, false) => "cam.material is not given",
+        (false, false, true) if in_groove => "cam.groove_depth is not given",
+        (false, false, false) if in_groove => "cam.groove_depth and cam.material are not both given",
         (false, false, true) => "cam.thickness is not given",
         (false, false, false) => "cam.thickness and cam.material are not both given",
         (false, true, true) => "no force on the follower is known",

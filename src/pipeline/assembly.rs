@@ -231,16 +231,11 @@ impl ProvenAssembly {
         own.chain(self.others.iter().flat_map(of)).collect()
     }
 
-    /// The checks that the other cams fail, by their names. A base radius in a remedy is that of the other disc, which has no key of its own.
+    /// The checks that the other cams fail, by their names.
     #[must_use]
     pub fn failures_of_others(&self) -> Vec<(&str, Vec<Finding>)> {
-        let of_this_disc = |finding: &Finding| Finding {
-            note: finding.note.as_ref().map(|note| note.replace("a base radius of ", "a base radius of this disc of ")),
-            ..finding.clone()
-        };
-        let failed = |cam: &Proven| {
-            cam.findings().iter().filter(|finding| finding.verdict == Verdict::Fail).map(of_this_disc).collect()
-        };
+        let failed =
+            |cam: &Proven| cam.findings().iter().filter(|finding| finding.verdict == Verdict::Fail).cloned().collect();
         self.others.iter().map(|(name, cam)| (name.as_str(), failed(cam))).collect()
     }
 

@@ -97,7 +97,12 @@ impl SpanCell<'_> {
 
     /// The deviation with as many places as the decision needs.
     pub(super) fn found(&self, exact: &dyn ExactFlank, tolerance: f64) -> FlankDeviation {
-        let mut found = self.at_places(exact, PLACES);
+        self.refined(self.at_places(exact, PLACES), exact, tolerance)
+    }
+
+    /// The same, from the result at the first places.
+    fn refined(&self, first: FlankDeviation, exact: &dyn ExactFlank, tolerance: f64) -> FlankDeviation {
+        let mut found = first;
         for doubling in 1..=DOUBLINGS {
             let decided = found.bound <= tolerance || !(found.worst.value.abs() <= tolerance);
             if decided || found.folded {
@@ -129,6 +134,9 @@ fn of_span(span: &SpanCell<'_>, exact: &dyn ExactFlank, tolerance: f64) -> Flank
     let [a, b, c, d] = [corner(u.0, v.0), corner(u.1, v.0), corner(u.0, v.1), corner(u.1, v.1)];
     let count = |first: f64, second: f64| (first.max(second) / CELL).ceil().clamp(1.0, MOST_CELLS);
     let (along, across) = (count((b - a).norm(), (d - c).norm()), count((c - a).norm(), (d - b).norm()));
+    if along.max(across) == 1.0 {
+        return span.refined(whole, exact, tolerance);
+    }
     let part = |range: (f64, f64), of: f64, i: f64| {
         let place = |share: f64| range.0 + (range.1 - range.0) * share;
         (place(i / of), place((i + 1.0) / of))

@@ -69,7 +69,7 @@ impl Barrel {
     fn farthest(&self, place: impl Fn(FlankSide, (usize, f64)) -> Option<(f64, f64)>, radius: f64) -> Worst {
         let mut worst = Worst { value: 0.0, ..Worst::NONE };
         for (piece, angle) in self.places() {
-            for side in [FlankSide::Upper, FlankSide::Lower] {
+            for side in FlankSide::BOTH {
                 let Some((polar, height)) = place(side, (piece, angle)) else { continue };
                 let off = (self.distance_unrolled((polar, height), radius, angle) - self.signed(side).abs()).abs();
                 if off > worst.value {

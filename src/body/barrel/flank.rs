@@ -4,6 +4,7 @@
 //! That is kept far below the tolerance: a flank that misses everywhere to one side would change the volume.
 
 use super::{Barrel, FlankSide};
+use crate::body::flank::refuse_too_many;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::patch_fit::{FlankStretch, fitted};
 use crate::geometry::solid::SplineSurface;
@@ -85,7 +86,7 @@ impl Barrel {
     /// [`Refusal`] when the tolerance is finer than splines of a reasonable size can keep.
     pub(super) fn flanks(&self, tolerance: f64) -> Result<Flanks, Refusal> {
         let stretches = self.stretches();
-        let both: Vec<FlankStretch<'_>> = [FlankSide::Upper, FlankSide::Lower]
+        let both: Vec<FlankStretch<'_>> = FlankSide::BOTH
             .into_iter()
             .flat_map(|side| stretches.iter().map(move |stretch| (side, *stretch)))
             .map(|(side, stretch)| FlankStretch {
@@ -98,6 +99,7 @@ impl Barrel {
             Refusal::new(format!("the flanks of the barrel miss by {missed:.2e} mm, with {rings} rings of splines"))
                 .remedy("give a coarser --tolerance, a larger cam.outer_radius or a smoother motion")
         })?;
+        refuse_too_many(&upper)?;
         let lower = upper.split_off(stretches.len());
         let is_level = |(_, stretch): &(usize, &Stretch)| self.is_level(stretch.piece, stretch.start);
         let seams = stretches.iter().enumerate().filter(is_level).map(|(index, _)| index).collect();

@@ -1,9 +1,18 @@
 //! The roller of a barrel under force.
 
-use super::Barrel;
-use super::contact::RollerPath;
+use super::contact::{AxisLine, RollerPath};
+use super::{Barrel, FlankSide};
 use crate::body::in_groove::{GrooveContact, InGroove};
 use crate::motion::Motion;
+
+impl Barrel {
+    /// Length of the line along which the roller touches a flank, m: from its inner end, or the floor, to where the flank leaves the cylinder.
+    fn length_of_contact(&self, axis: &AxisLine, flank: FlankSide) -> f64 {
+        let at = |radius: f64| axis.on_cylinder(self.signed(flank), radius).map(|found| found.line.v);
+        let [inner, _] = self.touched(axis);
+        at(self.floor()).zip(at(self.outer)).map_or(0.0, |(floor, outer)| outer - inner.max(floor)).max(0.0)
+    }
+}
 
 impl InGroove for Barrel {
     fn motion(&self) -> &dyn Motion {
@@ -18,7 +27,7 @@ impl InGroove for Barrel {
         self.roller
     }
 
-    fn contacts(&self, (piece, angle): (usize, f64), _lifting: bool) -> Vec<GrooveContact> {
+    fn contacts(&self, (piece, angle): (usize, f64), lifting: bool) -> Vec<GrooveContact> {
         let lift = self.motion.jet(piece, angle);
         let axis = self.path.at(&lift);
         let [inner, outer] = self.touched(&axis);
@@ -35,7 +44,7 @@ impl InGroove for Barrel {
         });
         vec![GrooveContact {
             roller: 0,
-            length: outer - inner,
+            length: self.length_of_contact(&axis, if lifting { FlankSide::Lower } else { FlankSide::Upper }),
             pressure_angle: self.path.pressure_angle(&lift, middle),
             leverage,
             curvatures,

@@ -159,11 +159,6 @@ impl Barrel {
             let what = format!("the groove of {deep:.3} mm reaches the axis of the barrel");
             return Err(Refusal::new(what).remedy("give a larger cam.outer_radius or a smaller cam.groove_depth"));
         }
-        if self.reach > self.depth {
-            let reach = MILLIMETRES * self.reach;
-            let what = format!("the roller reaches {reach:.3} mm into a groove of {deep:.3} mm");
-            return Err(Refusal::new(what).remedy("cam.roller_height must not exceed cam.groove_depth"));
-        }
         for (piece, at) in self.places() {
             let axis = self.axis(piece, at);
             let known = |axis: &AxisLine| {
@@ -271,14 +266,18 @@ impl Barrel {
         Worst { value: sharpest.value.recip(), ..sharpest }
     }
 
-    /// The smallest distance from the roller's axis at which a flank would fold over itself, m, anywhere along the groove's depth.
+    /// The smallest distance from the roller's axis at which a flank would fold over itself, m, anywhere along the groove's depth: where the flank
+    /// itself meets the floor and the outside, which at a pressure angle is nearer to the shaft along the roller than its axis does. 0 where a flank
+    /// does not reach them.
     fn least_fold(&self) -> Worst {
         let sharpest = self.largest(|jet| {
             let axis = self.path.at(jet);
-            let folds = [self.floor(), self.outer].map(|from_axis| {
-                let point = axis.point(axis.at_distance(from_axis));
-                point.folds_at(&axis, 1.0).min(point.folds_at(&axis, -1.0))
-            });
+            let of = |flank: FlankSide, radius: f64| {
+                let distance = self.signed(flank);
+                let found = axis.on_cylinder(distance, radius);
+                found.map_or(0.0, |found| found.line.folds_at(&axis, distance.signum()))
+            };
+            let folds = FlankSide::BOTH.map(|flank| of(flank, self.floor()).min(of(flank, self.outer)));
             folds.into_iter().map(f64::recip).fold(0.0, f64::max)
         });
         Worst { value: sharpest.value.recip(), ..sharpest }

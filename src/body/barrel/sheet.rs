@@ -106,7 +106,7 @@ fn section(barrel: &Barrel, view: &mut SheetView) {
         let place = barrel.motion.locate(angle);
         let height =
             |flank, radius: f64| barrel.edge(flank, radius, place).map_or(f64::NAN, |found| MILLIMETRES * found.height);
-        let [upper, lower] = [FlankSide::Upper, FlankSide::Lower].map(|flank| height(flank, barrel.outer));
+        let [upper, lower] = FlankSide::BOTH.map(|flank| height(flank, barrel.outer));
         let points = [at(0.0, low), at(side * outer, low), at(side * outer, lower), at(side * floor, lower)];
         let more = [at(side * floor, upper), at(side * outer, upper), at(side * outer, high), at(0.0, high)];
         shapes.push(SheetShape::Path(points.into_iter().chain(more).collect()));
@@ -154,7 +154,7 @@ fn tables(barrel: &Barrel) -> Vec<PlaceTable> {
         let place = barrel.motion.locate(degrees.to_radians());
         let mut cells = vec![rounded(degrees)];
         for radius in [barrel.outer, barrel.floor()] {
-            for flank in [FlankSide::Upper, FlankSide::Lower] {
+            for flank in FlankSide::BOTH {
                 let found = barrel.edge(flank, radius, place);
                 let [angle, height] = found.map_or([f64::NAN; 2], |found| {
                     [barrel.sense() * (degrees + found.ahead.to_degrees()), MILLIMETRES * found.height]

@@ -24,6 +24,10 @@ pub enum FlankSide {
     Lower,
 }
 
+impl FlankSide {
+    pub(super) const BOTH: [Self; 2] = [Self::Upper, Self::Lower];
+}
+
 /// A curve of the developed view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BarrelCurve {
@@ -58,9 +62,15 @@ impl Barrel {
         if self.machine.cam.rotation == Rotation::Clockwise { 1.0 } else { -1.0 }
     }
 
-    /// Place (mm) and unit tangent of a curve of the developed view at a cam angle of a piece: x along the circumference of the outside, which grows with
+    /// Point (mm) and unit tangent of a curve of the developed view at a cam angle of a piece: x along the circumference of the outside, which grows with
     /// the cam angle of a cam that turns clockwise, y along the axis.
     pub(super) fn developed_at(&self, curve: BarrelCurve, place: (usize, f64)) -> (Vector2<f64>, Vector2<f64>) {
+        let (point, slope) = self.developed_with_slope(curve, place);
+        (point, slope.normalize())
+    }
+
+    /// That point (mm) with its derivative with respect to the cam angle, mm/rad.
+    fn developed_with_slope(&self, curve: BarrelCurve, place: (usize, f64)) -> (Vector2<f64>, Vector2<f64>) {
         let distance = match curve {
             BarrelCurve::Flank(side) => self.signed(side),
             BarrelCurve::Pitch => 0.0,
@@ -71,7 +81,7 @@ impl Barrel {
         };
         let x = |value: f64| self.sense() * self.outer * value;
         let slope = Vector2::new(x(found.by_angle[0]), found.by_angle[1]);
-        (Vector2::new(x(place.1 + found.ahead), found.height) * MILLIMETRES, slope.normalize())
+        (Vector2::new(x(place.1 + found.ahead), found.height) * MILLIMETRES, slope * MILLIMETRES)
     }
 
     /// The cam angle, within the turn of the motion, at which the roller comes nearest to a point of the cam, m, with the point's distance across and
@@ -89,39 +99,36 @@ impl Barrel {
             let second = [-across - axis.across[2], -axis.along[2]];
             (off, first, second)
         };
-        let square = |angle: f64| {
-            let ([a, b], ..) = apart(angle);
-            a * a + b * b
-        };
+        let square = |off: [f64; 2]| off[0] * off[0] + off[1] * off[1];
         let longest = self.distances[0].max(self.distances[1]) / radius;
         let step = APART * longest;
-        let tried = (-TRIED..=TRIED).map(|i| polar + step * f64::from(i));
-        let start = tried.map(|angle| (square(angle), angle)).reduce(|a, b| if b.0 < a.0 { b } else { a });
-        let (mut least, mut at) = start.unwrap_or((f64::NAN, polar));
+        let tried = (-TRIED..=TRIED).map(|i| polar + step * f64::from(i)).map(|angle| (angle, apart(angle)));
+        let start = tried.reduce(|a, b| if square(b.1.0) < square(a.1.0) { b } else { a });
+        let (mut at, mut here) = start.unwrap_or_else(|| (polar, apart(polar)));
         for _ in 0..STEPS {
-            let ([a, b], [da, db], [dda, ddb]) = apart(at);
+            let ([a, b], [da, db], [dda, ddb]) = here;
             let (slope, bend) = (a * da + b * db, da * da + db * db + a * dda + b * ddb);
             let steepest = slope / (da * da + db * db);
             // A longer step could lead to where the roller's axis, without its end, passes the point on the far side of the cam.
             let mut by = (if bend > 0.0 { slope / bend } else { steepest }).clamp(-longest, longest);
             // A step that does not come nearer is halved.
-            let mut next = (square(at - by), at - by);
+            let mut next = apart(at - by);
             for _ in 0..STEPS {
-                if next.0 <= least {
+                if square(next.0) <= square(here.0) {
                     break;
                 }
                 by *= 0.5;
-                next = (square(at - by), at - by);
+                next = apart(at - by);
             }
-            if next.0 > least {
+            if square(next.0) > square(here.0) {
                 break;
             }
-            (least, at) = next;
+            (at, here) = (at - by, next);
             if by.abs() <= AT_REST {
                 break;
             }
         }
-        (at, apart(at).0)
+        (at, here.0)
     }
 
     /// Volume of the groove, m³: on each cylinder the area between the two flanks, ∮ z dφ.
@@ -199,21 +206,29 @@ impl SweptFlanks for Barrel {
         let (start, end) = self.motion.range();
         let at = |angle: f64| {
             let (piece, inside) = self.motion.locate(angle);
-            let (place, tangent) = self.developed_at(curve, (piece, inside));
-            // The place of an angle beyond the turn of the motion.
+            let (place, slope) = self.developed_with_slope(curve, (piece, inside));
+            // The point of an angle beyond the turn of the motion.
             let shift = MILLIMETRES * self.sense() * self.outer * (angle - inside);
-            (place + Vector2::new(shift, 0.0), tangent)
+            (place + Vector2::new(shift, 0.0), slope)
         };
-        let turn = MILLIMETRES * self.sense() * self.outer;
-        let mut angle = point.x / turn;
+        let away = |angle: f64| (point - at(angle).0).norm();
+        let within = |angle: f64| angle.clamp(start - 1e-9, end + 1e-9);
+        let polar = point.x / (MILLIMETRES * self.sense() * self.outer);
+        let step = APART * self.distances[0].max(self.distances[1]) / self.outer;
+        let tried = (-TRIED..=TRIED).map(|i| within(polar + step * f64::from(i)));
+        let mut angle = tried.min_by(|a, b| away(*a).total_cmp(&away(*b))).unwrap_or(polar);
         for _ in 0..STEPS {
-            let (place, tangent) = at(angle);
-            let by = (point - place).dot(&tangent) * tangent.x / turn;
-            angle = (angle + by).clamp(start - 1e-9, end + 1e-9);
+            let (place, slope) = at(angle);
+            let mut by = (point - place).dot(&slope) / slope.norm_squared();
+            // A step that does not come nearer is halved.
+            while by.abs() > AT_REST && !(away(within(angle + by)) < away(angle)) {
+                by *= 0.5;
+            }
             if by.abs() <= AT_REST {
                 break;
             }
+            angle = within(angle + by);
         }
-        ((point - at(angle).0).norm(), self.motion.locate(angle).1)
+        (away(angle), self.motion.locate(angle).1)
     }
 }

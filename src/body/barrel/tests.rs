@@ -22,7 +22,7 @@ fn a_point_is_as_far_from_the_flank_as_it_was_moved() {
         for i in 0..40 {
             let (piece, angle) = barrel.motion.locate(0.157 * f64::from(i) + 0.01);
             let radius = barrel.floor() + barrel.depth * f64::from(i % 5) / 4.0;
-            for side in [FlankSide::Upper, FlankSide::Lower] {
+            for side in FlankSide::BOTH {
                 let found = barrel.edge(side, radius, (piece, angle)).expect("a point");
                 let (sin, cos) = libm::sincos(angle + found.ahead);
                 let (tilt, lean) = found.line.slope;

@@ -7,15 +7,17 @@
 mod motion;
 mod report;
 
-use super::disc::{Disc, Hold};
-use super::{Kind, ProgramCams};
+use super::disc::{Disc, DiscRole, Hold};
+use super::{Body, Kind, ProgramCams, broken_limit, passing};
 use crate::document::cams;
 use crate::follower::{Follower, FollowerPlacement, SwingingRoller, TranslatingRoller};
 use crate::geometry::MILLIMETRES;
 use crate::machine::{CounterData, FollowerData, Machine};
 use crate::motion::{Motion, Quantity};
 use crate::profile::lifts;
+use crate::profile::size::{first_that_keeps, rounded_up};
 use crate::refusal::Refusal;
+use crate::report::shown;
 pub(in crate::body) use motion::CounterMotion;
 pub(crate) use report::{section, spacing};
 use std::f64::consts::PI;
@@ -28,22 +30,28 @@ pub const COUNTER: Kind = Kind { command: "counter", noun: "counter cam", keys: 
 /// What the names of the files of the main disc have after the stem.
 pub const MAIN_NAME: &str = "main";
 
-/// The main disc of a motion, at a speed of the cam (rpm) where it is known.
+/// The main disc of a motion, at a speed of the cam (rpm) if it is known, of the size that both discs require.
 ///
 /// # Errors
 /// [`Refusal`] when motion and follower do not fit each other, or no radius keeps the limits.
-pub fn main(machine: &Machine, motion: Arc<dyn Motion>, rpm: Option<f64>) -> Result<Disc, Refusal> {
+pub(in crate::body) fn main(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<Disc, Refusal> {
     let hold = Hold::Pair { preload: machine.cam.track.counter.preload, counter: None };
-    Disc::held(machine, motion, rpm, (&MAIN, hold))
+    Disc::held(machine, Arc::clone(motion), rpm, DiscRole { kind: &MAIN, hold, rest: Some(broken_by_counter) })
+}
+
+/// The first limit that the counter disc of a main one breaks.
+fn broken_by_counter(main: &Disc) -> Option<&'static str> {
+    counter(main, &main.machine().cam.track.counter).map_or(Some("reach"), |counter| broken_limit(&counter))
 }
 
 /// Both discs of a motion.
 ///
 /// # Errors
-/// As [`main`] and [`counter`].
+/// As [`main`], or [`Refusal`] when the counter roller would not reach its disc.
 pub(super) fn pair(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<ProgramCams, Refusal> {
-    let first = main(machine, Arc::clone(motion), rpm)?;
-    let counter = Arc::new(counter(&first, machine, motion, rpm)?);
+    let first = main(machine, motion, rpm)?;
+    let counter = counter(&first, &machine.cam.track.counter).map_err(|refusal| refusal.remedy(reached(&first)))?;
+    let counter = Arc::new(counter);
     // The roller of a straight path lies on the other side of the shaft.
     let later = if motion.quantity() == Quantity::Length { PI } else { 0.0 };
     let first = first.beside(Arc::clone(&counter), later);
@@ -54,27 +62,71 @@ pub(super) fn pair(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>
 ///
 /// # Errors
 /// [`Refusal`] when its roller would not reach it.
-pub fn counter(main: &Disc, machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<Disc, Refusal> {
-    let data = machine.cam.track.counter;
-    let top = lifts(&**motion).1;
-    let (shape, prime_radius, turn) = follower(main, &data, top)?;
+fn counter(main: &Disc, data: &CounterData) -> Result<Disc, Refusal> {
+    let machine = main.machine();
+    let top = lifts(&**main.motion()).1;
+    let (shape, prime_radius, turn) = follower(main, data, top)?;
     let base = prime_radius - shape.element().offset();
     if !(base > 0.0) || shape.sized(prime_radius).is_none() {
         let what = format!("the counter disc would have a base radius of {:.3} mm", MILLIMETRES * base);
-        return Err(Refusal::new(what).remedy("give a larger cam.counter.distance or cam.counter.included_angle"));
+        return Err(Refusal::new(what));
     }
     let place: Option<FollowerPlacement> = None;
     let own = FollowerData { shape, place, ..machine.follower.clone() };
     let own = machine.with_follower(own).with_base_radius(base);
-    let counter = Arc::new(CounterMotion::new(Arc::clone(motion), top, turn));
-    Disc::held(&own, counter, rpm, (&COUNTER, Hold::Pair { preload: data.preload, counter: Some(top) }))
+    let motion = Arc::new(CounterMotion::new(Arc::clone(main.motion()), top, turn));
+    let hold = Hold::Pair { preload: data.preload, counter: Some(top) };
+    let found = Disc::held(&own, motion, main.rpm(), DiscRole { kind: &COUNTER, hold, rest: None })?;
+    Ok(found.sized_by(main))
+}
+
+/// A spacing of the two rollers is tried up to this multiple of the least one.
+const LARGEST_SPACING: f64 = 8.0;
+
+/// The least spacing of the two rollers with which the counter disc of a main one keeps every limit, as a key of the machine file.
+fn passing_spacing(main: &Disc) -> Option<String> {
+    let top = lifts(&**main.motion()).1;
+    let data = main.machine().cam.track.counter;
+    let keeps = |data: &CounterData| counter(main, data).is_ok_and(|counter| broken_limit(&counter).is_none());
+    let least = lowest(&**main.follower())? + top;
+    let largest = LARGEST_SPACING * least;
+    if main.motion().quantity() == Quantity::Length {
+        let with = |distance: f64| CounterData { distance: Some(distance), ..data };
+        let found = first_that_keeps(least, largest, |distance| keeps(&with(distance)))?;
+        let distance = rounded_up(found);
+        let passing = keeps(&with(distance)).then_some(MILLIMETRES * distance)?;
+        return Some(format!("cam.counter.distance = \"{} mm\"", shown(passing)));
+    }
+    let with = |angle: f64| CounterData { included_angle: Some(angle), ..data };
+    let found = first_that_keeps(least, largest.min(PI), |angle| keeps(&with(angle)))?;
+    let degrees = (TENTHS * found.to_degrees()).ceil() / TENTHS;
+    keeps(&with(degrees.to_radians())).then(|| format!("cam.counter.included_angle = \"{degrees} deg\""))
+}
+
+/// Angles are named in tenths of a degree.
+const TENTHS: f64 = 10.0;
+
+/// A change with which the counter roller reaches its disc.
+fn reached(main: &Disc) -> String {
+    let spacing = passing_spacing(main).map(|spacing| format!("{spacing} would pass"));
+    spacing.unwrap_or_else(|| match (main.follower().place(), main.motion().quantity()) {
+        (None, _) => "give [follower.roller] or [follower.swinging-roller]".into(),
+        (_, Quantity::Length) => "give a larger cam.counter.distance".into(),
+        (_, Quantity::Angle) => "give a larger cam.counter.included_angle, or another arm".into(),
+    })
+}
+
+/// A base radius of the main disc, or a spacing of the rollers, with which the counter disc keeps every limit.
+pub(in crate::body) fn remedy_of_counter(main: &Disc) -> Option<String> {
+    let spacing = passing_spacing(main).map(|spacing| format!("{spacing} would pass"));
+    let base = main.passing_base_radius().map(passing);
+    base.or(spacing)
 }
 
 /// The roller of the counter disc, its prime radius, m, and by how much its motion is later, rad.
 fn follower(main: &Disc, data: &CounterData, top: f64) -> Result<(Arc<dyn Follower>, f64, f64), Refusal> {
     let shape = main.follower();
-    let unknown =
-        || Refusal::new("conjugate discs need rollers").remedy("give [follower.roller] or [follower.swinging-roller]");
+    let unknown = || Refusal::new("conjugate discs need rollers");
     let (place, prime) = shape.place().zip(shape.prime_radius()).ok_or_else(unknown)?;
     match place {
         FollowerPlacement::Offset { radius } => {
@@ -84,8 +136,7 @@ fn follower(main: &Disc, data: &CounterData, top: f64) -> Result<(Arc<dyn Follow
             let own = distance - height - top;
             if !(own > 0.0) {
                 let what = "the two rollers are nearer to each other than the shaft permits";
-                let least = format!("cam.counter.distance must exceed {:.3} mm", MILLIMETRES * (height + top));
-                return Err(Refusal::new(what).remedy(least));
+                return Err(Refusal::new(what));
             }
             let own_prime = libm::hypot(own, offset);
             let roller = TranslatingRoller::new(own_prime, -offset, data.radius.unwrap_or(radius));
@@ -98,8 +149,7 @@ fn follower(main: &Disc, data: &CounterData, top: f64) -> Result<(Arc<dyn Follow
             let (own, own_arm) = (included - start - top, data.arm.unwrap_or(arm));
             if !(own > 0.0 && own < PI) {
                 let what = "the arm of the counter roller would lie on the line of shaft and pivot";
-                let range = format!("{:.3} deg", (start + top).to_degrees());
-                return Err(Refusal::new(what).remedy(format!("cam.counter.included_angle must exceed {range}")));
+                return Err(Refusal::new(what));
             }
             let own_prime = (pivot * pivot + own_arm * own_arm - 2.0 * pivot * own_arm * libm::cos(own)).sqrt();
             let roller = SwingingRoller::new(own_arm, pivot, data.radius.unwrap_or(radius), -side);

@@ -13,7 +13,7 @@
 //! An error of the angle on the shaft is a lift that comes earlier.
 
 use super::Disc;
-use crate::body::stress;
+use crate::body::stress::RollerContact;
 use crate::follower::Element;
 use crate::geometry::MILLIMETRES;
 use crate::machine::AsMadeData;
@@ -240,10 +240,8 @@ impl Place<'_> {
         let material = machine.cam.material?.class;
         let roller = self.curves().roller_radius().map_or(0.0, |radius| 1.0 / (radius + larger_by));
         let curvature = (roller + curvature).max(0.0);
-        match machine.follower.crown_radius {
-            Some(crown) => Some(stress::under_crown(force, (curvature, crown), material)),
-            None => Some(stress::along_line(force, (curvature, machine.cam.thickness?), material)),
-        }
+        let (crown, length) = (machine.follower.crown_radius, machine.cam.contact_length());
+        RollerContact { curvature, crown, length }.pressure(force, material)
     }
 }
 

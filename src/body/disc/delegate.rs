@@ -37,9 +37,9 @@ macro_rules! body_of_its_disc {
     };
 }
 
-/// The methods of [`Figures`](crate::body::Figures) that are those of the disc in a field.
+/// The methods of [`Figures`](crate::body::Figures) that are those of the disc in a field, and those of the disc that `cam.base_radius` sizes.
 macro_rules! figures_of_its_disc {
-    ($disc:ident) => {
+    ($disc:ident, sized: $sized:ident) => {
         fn roller_radius(&self) -> Option<f64> {
             self.$disc.roller_radius()
         }
@@ -49,7 +49,7 @@ macro_rules! figures_of_its_disc {
         }
 
         fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<String> {
-            self.$disc.stress_remedies(largest, limit)
+            self.$sized.stress_remedies(largest, limit)
         }
 
         fn largest_lifting_force(&self) -> crate::profile::Worst {
@@ -65,7 +65,7 @@ macro_rules! figures_of_its_disc {
         }
 
         fn remedy(&self) -> Option<String> {
-            self.$disc.remedy()
+            self.$sized.remedy()
         }
     };
 }

@@ -2,13 +2,14 @@
 
 use super::{Disc, Hold, LARGEST_BASE, keyway_wall, residual_vibration};
 use crate::body::load_as_cut::LoadAsCut;
-use crate::body::{Figures, broken_limit, no_radius, passing, stress};
+use crate::body::{Figures, conjugate, no_radius, passing, stress};
 use crate::check::contact_stress::ContactKind;
 use crate::check::{Measures, Subject, guide, jump_speed};
 use crate::geometry::MILLIMETRES;
 use crate::motion::Jet;
 use crate::profile::outline;
 use crate::profile::{Contact, Worst};
+use crate::report::shown;
 use nalgebra::Vector2;
 
 impl Figures for Disc {
@@ -87,14 +88,25 @@ impl Figures for Disc {
     }
 
     fn remedy(&self) -> Option<String> {
+        if let Some(main) = &self.main {
+            return conjugate::remedy_of_counter(main);
+        }
         let Some(base) = self.passing_base_radius() else {
             let largest = (self.follower.prime_radii().1 - self.curves().offset()).min(LARGEST_BASE);
-            let of_size = || self.on(largest).and_then(|disc| broken_limit(&disc));
+            let of_size = || self.on(largest).and_then(|disc| disc.broken());
             let limit = if self.has_corner() { Some("undercut") } else { of_size() };
             return Some(no_radius(limit, self.motion.program().is_some()));
         };
         // A cam that no drawing holds is no remedy.
-        (MILLIMETRES * base < outline::LARGEST_COORDINATE).then(|| passing(base))
+        let passes = match self.machine.cam.track.breadth {
+            // That of a yoke grows by twice as much.
+            Some(breadth) => {
+                let passing = MILLIMETRES * (breadth + 2.0 * (base - self.base_radius()));
+                format!("cam.breadth = \"{} mm\" would pass", shown(passing))
+            }
+            None => passing(base),
+        };
+        (MILLIMETRES * base < outline::LARGEST_COORDINATE).then_some(passes)
     }
 }
 

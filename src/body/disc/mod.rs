@@ -79,6 +79,18 @@ pub(in crate::body) enum Hold {
     },
 }
 
+/// What a disc is in its body.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::body) struct DiscRole {
+    pub(in crate::body) kind: &'static Kind,
+    pub(in crate::body) hold: Hold,
+    /// What else is cut with the disc and sized by it, if anything.
+    pub(in crate::body) rest: Option<RestOfBody>,
+}
+
+/// The first limit that the rest of a body breaks with a disc of this size.
+pub(in crate::body) type RestOfBody = fn(&Disc) -> Option<&'static str>;
+
 /// A disc cam.
 #[derive(Debug, Clone)]
 pub struct Disc {
@@ -94,6 +106,9 @@ pub struct Disc {
     duty: Option<Arc<dyn Duty>>,
     /// What holds its follower on it.
     hold: Hold,
+    rest: Option<RestOfBody>,
+    /// The disc by which this one is sized: the main one of a counter disc.
+    main: Option<Arc<Self>>,
     /// The disc next to it in a pair, with the cam angle by which its motion is later, rad.
     other: Option<(Arc<Self>, f64)>,
     /// Spring, guide, crown and vibration of the follower of a motion program.
@@ -113,15 +128,15 @@ impl Disc {
     /// # Errors
     /// [`Refusal`] when motion and follower do not fit each other or no radius keeps the limits.
     pub fn of_motion(machine: &Machine, motion: Arc<dyn Motion>, rpm: Option<f64>) -> Result<Self, Refusal> {
-        Self::held(machine, motion, rpm, (&GENERAL, Hold::Force))
+        Self::held(machine, motion, rpm, DiscRole { kind: &GENERAL, hold: Hold::Force, rest: None })
     }
 
-    /// As [`Disc::of_motion`], of another kind and with something else that holds its follower than a force.
+    /// As [`Disc::of_motion`], as a part of a body.
     pub(in crate::body) fn held(
         machine: &Machine,
         motion: Arc<dyn Motion>,
         rpm: Option<f64>,
-        (kind, hold): (&'static Kind, Hold),
+        role: DiscRole,
     ) -> Result<Self, Refusal> {
         if motion.period().is_none() {
             let what = "the motion is by the travel of a plate, and this cam turns";
@@ -129,7 +144,24 @@ impl Disc {
         }
         let speed = rpm.map(|rpm| rpm * TAU / 60.0);
         let program_follower = forces::ProgramFollower::of(machine, &*motion);
-        Self { kind, rpm, speed, hold, program_follower, ..Self::unsized_of(machine, motion) }.sized()
+        let DiscRole { kind, hold, rest } = role;
+        Self { kind, rpm, speed, hold, rest, program_follower, ..Self::unsized_of(machine, motion) }.sized()
+    }
+
+    /// Its speed, rpm, if it is known.
+    pub(in crate::body) fn rpm(&self) -> Option<f64> {
+        self.rpm
+    }
+
+    /// Its motion.
+    pub(in crate::body) fn motion(&self) -> &Arc<dyn Motion> {
+        &self.motion
+    }
+
+    /// Sized by another disc.
+    #[must_use]
+    pub(in crate::body) fn sized_by(self, main: &Self) -> Self {
+        Self { main: Some(Arc::new(main.clone())), ..self }
     }
 
     /// Whether its motion is that of a program or of anybody's own, and not that of a machine of a domain.
@@ -142,9 +174,10 @@ impl Disc {
         self.hold != Hold::Force
     }
 
-    /// What the sheet shows of the disc under the same roller, for a drawing of the flanks next to that roller.
-    pub(in crate::body) fn view_within(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
-        sheet::view(self, drawn)
+    /// What the sheet shows of the disc under the same roller, for a drawing of the flanks next to that roller; of two discs of a body the
+    /// `steepest` has the worst pressure angle.
+    pub(in crate::body) fn view_within(&self, steepest: &Self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
+        sheet::view(self, steepest, drawn)
     }
 
     /// Its cut as one of several of a part.
@@ -179,6 +212,8 @@ impl Disc {
             load: None,
             duty: None,
             hold: Hold::Force,
+            rest: None,
+            main: None,
             other: None,
             program_follower: forces::ProgramFollower::default(),
             smallest: OnceLock::new(),
@@ -273,6 +308,31 @@ impl Disc {
             load: state,
             face: curves.follower.on_face(&contact.lift).map(|face| MILLIMETRES * face.place),
             ..Row::default()
+        }
+    }
+}
+
+impl Disc {
+    /// The measures of its section `cam`.
+    pub(in crate::body) fn cam_measures(&self, found: &DrawingEvidence<'_>) -> CamMeasures {
+        let part = found.drawn.and_then(|drawn| drawn.parts.first());
+        let on_face = extremes::places_on_face(self.curves()).map(|places| places.map(|at| MILLIMETRES * at.value));
+        let wants_lift = found.wants("cam.max_lift_mm") || found.wants("cam.max_lift_deg");
+        let lift =
+            |quantity, unit: f64| (wants_lift && self.motion.quantity() == quantity).then(|| unit * self.max_lift());
+        let spin = if self.is_of_program() && found.wants("cam.roller_turns") { self.spin() } else { None };
+        let smallest = found.wants("cam.smallest_prime_radius_mm").then(|| self.smallest_prime_radius()).flatten();
+        CamMeasures {
+            prime_radius_mm: Some(MILLIMETRES * self.prime_radius()),
+            base_radius_mm: Some(MILLIMETRES * self.base_radius()),
+            roller_radius_mm: self.roller_radius().map(|radius| MILLIMETRES * radius),
+            max_lift_mm: lift(Quantity::Length, MILLIMETRES),
+            max_lift_deg: lift(Quantity::Angle, 1.0_f64.to_degrees()),
+            smallest_prime_radius_mm: smallest.map(|radius| MILLIMETRES * radius),
+            face_mm: on_face,
+            roller_turns: spin.map(|spin| [spin.mean, spin.largest.value]),
+            lobes: self.load.as_ref().map(|_| self.motion.lobes()),
+            weight: part.map(|part| part.weight(&self.machine)).unwrap_or_default(),
         }
     }
 }
@@ -382,24 +442,7 @@ impl Body for Disc {
 
     fn sections(&self, found: &DrawingEvidence<'_>) -> Vec<Section> {
         let part = found.drawn.and_then(|drawn| drawn.parts.first());
-        let on_face = extremes::places_on_face(self.curves()).map(|places| places.map(|at| MILLIMETRES * at.value));
-        let wants_lift = found.wants("cam.max_lift_mm") || found.wants("cam.max_lift_deg");
-        let lift =
-            |quantity, unit: f64| (wants_lift && self.motion.quantity() == quantity).then(|| unit * self.max_lift());
-        let spin = if self.is_of_program() && found.wants("cam.roller_turns") { self.spin() } else { None };
-        let smallest = found.wants("cam.smallest_prime_radius_mm").then(|| self.smallest_prime_radius()).flatten();
-        let cam = CamMeasures {
-            prime_radius_mm: Some(MILLIMETRES * self.prime_radius()),
-            base_radius_mm: Some(MILLIMETRES * self.base_radius()),
-            roller_radius_mm: self.roller_radius().map(|radius| MILLIMETRES * radius),
-            max_lift_mm: lift(Quantity::Length, MILLIMETRES),
-            max_lift_deg: lift(Quantity::Angle, 1.0_f64.to_degrees()),
-            smallest_prime_radius_mm: smallest.map(|radius| MILLIMETRES * radius),
-            face_mm: on_face,
-            roller_turns: spin.map(|spin| [spin.mean, spin.largest.value]),
-            lobes: self.load.as_ref().map(|_| self.motion.lobes()),
-            weight: part.map(|part| part.weight(&self.machine)).unwrap_or_default(),
-        };
+        let cam = self.cam_measures(found);
         let outline = part.map(|part| part.measures(found.tolerance_mm, |_| false));
         let duty = self.duty.as_ref();
         let mut sections = vec![cam.section()];
@@ -430,6 +473,6 @@ impl Body for Disc {
     }
 
     fn view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
-        sheet::view(self, drawn)
+        sheet::view(self, self, drawn)
     }
 }

@@ -26,11 +26,11 @@ const LOST_POINTS: u32 = 48;
 
 const NOWHERE: Extents = Extents { least: Vector2::new(0.0, 0.0), largest: Vector2::new(0.0, 0.0) };
 
-/// What the review sheet of a disc cam shows.
+/// What the review sheet of a disc cam shows, with the roller of the disc that has the worst pressure angle of the body.
 ///
 /// # Errors
 /// [`OutlineError`] when the pitch curve cannot be drawn.
-pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<SheetView, OutlineError> {
+pub(super) fn view(disc: &Disc, steepest: &Disc, drawn: &Drawn) -> Result<SheetView, OutlineError> {
     // A flat face and a knife edge have no pitch curve: their curve is the profile, which may be undercut.
     let part = drawn.parts.first();
     let pitch_curve = match disc.roller_radius() {
@@ -57,7 +57,7 @@ pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<SheetView, OutlineError
     }
     groups.extend(part.and_then(shop_views::lead_in));
     groups.extend(lost_motion(lost(disc)));
-    let (shapes, angle) = worst_place(disc);
+    let (shapes, angle) = worst_place(steepest);
     groups.push(group("roller", "follower at its worst pressure angle", shapes).with_legend());
     let (arms, arm_marks) = shop_views::arm(disc);
     let (side, side_marks) = shop_views::side_view(disc, part, &extents_of(&groups).with(&outline));

@@ -124,6 +124,17 @@ impl Disc {
         limits.cutter_radius.is_some()
             || cam.keyway.is_some()
             || contact_stress::largest_allowed(&self.machine, self.touching()).is_some()
+            || self.rest.is_some()
+    }
+
+    /// The limit that the rest of its body breaks with a disc of this size.
+    pub(super) fn broken_by_rest(&self) -> Option<&'static str> {
+        self.rest.and_then(|rest| rest(self))
+    }
+
+    /// The first limit that it breaks, or the rest of its body with it.
+    pub(super) fn broken(&self) -> Option<&'static str> {
+        broken_limit(self).or_else(|| self.broken_by_rest())
     }
 
     /// The same cam on another base radius (m), if the follower reaches it.
@@ -166,7 +177,7 @@ impl Disc {
         let offset = self.follower.element().offset();
         let cornered = Cell::new(false);
         let kept = |disc: &Self| {
-            let broken = broken_limit(disc);
+            let broken = disc.broken();
             cornered.set(cornered.get() || broken.is_some_and(|limit| disc.has_corner_that_breaks(limit)));
             broken.is_none()
         };
@@ -191,7 +202,7 @@ impl Disc {
 
     /// A size that keeps every limit when it is rounded: as small as it does, where more than pressure angle and curvature matters.
     pub(super) fn before_rounding(&self, smallest: SmallestSize) -> SmallestSize {
-        let keeps = |base: f64| self.on(base).is_some_and(|disc| broken_limit(&disc).is_none());
+        let keeps = |base: f64| self.on(base).is_some_and(|disc| disc.broken().is_none());
         let offset = self.follower.element().offset();
         if !self.is_limited_by_more() || keeps(smallest.prime_radius - offset) {
             return smallest;
@@ -321,7 +332,7 @@ impl Disc {
         disc.is_some_and(|disc| {
             prime_radius >= disc.required().least
                 && disc.least_rolled_radius().value >= disc.required().convex_radius
-                && broken_limit(&disc).is_none_or(|limit| !of_more && limit.starts_with("pressure_angle"))
+                && disc.broken().is_none_or(|limit| !of_more && limit.starts_with("pressure_angle"))
         })
     }
 
@@ -349,7 +360,11 @@ impl Disc {
         let Some(smaller) = self.on(below) else { return Some(Binding { limit: "reach", at: None }) };
         // The radius that is kept under a face without a given limit is not the limit of a check.
         let sharp = || smaller.least_rolled_radius().value < self.required().convex_radius * (1.0 - LARGER);
-        let limit = broken_limit(&smaller).unwrap_or_else(|| if sharp() { "min_convex_radius" } else { "bore" });
+        let own = broken_limit(&smaller);
+        if let (None, Some(limit)) = (own, smaller.broken_by_rest()) {
+            return Some(Binding { limit, at: None });
+        }
+        let limit = own.unwrap_or_else(|| if sharp() { "min_convex_radius" } else { "bore" });
         let at = match limit {
             "pressure_angle" | "pressure_angle_return" => Some(smaller.most_inclined()),
             "undercut" | "min_convex_pitch_radius_over_roller" | "min_convex_radius" => {

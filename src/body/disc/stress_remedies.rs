@@ -12,17 +12,22 @@ impl Disc {
     pub(super) fn keeping_stress(&self, largest: f64, limit: f64) -> Vec<String> {
         // Under a crown the thickness does not matter.
         let straight = self.program_follower.crown_radius.is_none();
-        let thickness = straight.then(|| crate::body::stress::thickness_for(&self.machine, largest, limit)).flatten();
-        let base = self.base_for_stress(limit).map(|base| format!("cam.base_radius = \"{base} mm\""));
+        let thickness = straight.then(|| crate::body::stress::length_for(&self.machine, largest, limit)).flatten();
+        // A counter disc has no base radius of its own, and the breadth of a yoke decides it.
+        let free = self.main.is_none() && self.machine.cam.track.breadth.is_none();
+        let sized = free.then(|| self.base_for_stress(limit)).flatten();
+        let base = sized.map(|base| format!("cam.base_radius = \"{base} mm\""));
         thickness.into_iter().chain(base).collect()
     }
 
-    /// The smallest base radius above this one, in whole millimetres, that keeps a limit of the contact stress, mm.
+    /// The smallest base radius above this one, in whole millimetres, with which it keeps a limit of the contact stress, and the rest of its body
+    /// every limit, mm.
     fn base_for_stress(&self, limit: f64) -> Option<f64> {
         let keeps = |base_mm: f64| {
             let follower = self.follower.sized(base_mm / MILLIMETRES + self.curves().offset())?;
             let grown = Self { follower: follower.into(), worst: crate::body::WorstPlaces::default(), ..self.clone() };
-            grown.contact_stress().map(|worst| worst.value <= limit)
+            let kept = grown.contact_stress()?.value <= limit;
+            Some(kept && grown.broken_by_rest().is_none())
         };
         let mut failing = (MILLIMETRES * self.base_radius()).floor();
         let mut passing = (LARGEST_GROWTH * MILLIMETRES * self.base_radius()).ceil();

@@ -42,6 +42,8 @@ pub(super) struct LinePoint {
 pub(super) struct FlankPoint {
     pub(super) place: Vector3<f64>,
     pub(super) by_angle: Vector3<f64>,
+    /// The point of the roller's centre line that touches there.
+    pub(super) line: LinePoint,
 }
 
 impl FlankPoint {
@@ -176,7 +178,7 @@ impl TurretLine {
         if !(v > 0.0 && line.run > 0.0 && rate > 0.0 && away(&place).abs() <= 1e-12 * from_turret * from_turret) {
             return None;
         }
-        Some(FlankPoint { place, by_angle: by_angle - by_v * (outwards.dot(&by_angle) / rate) })
+        Some(FlankPoint { place, by_angle: by_angle - by_v * (outwards.dot(&by_angle) / rate), line })
     }
 }
 

@@ -3,6 +3,7 @@
 //! cones, each place at its own cam angle.
 
 use super::{End, Flank, Globoid};
+use crate::body::flank::refuse_too_many;
 use crate::body::part;
 use crate::geometry::contour::Contour;
 use crate::geometry::patch_fit::{FlankStretch, fitted};
@@ -96,6 +97,7 @@ impl Globoid {
                 ))
                 .remedy("give a coarser --tolerance, a larger cam.turret_distance or a smoother motion")
             })?;
+        refuse_too_many(&patches)?;
         let mut grooves = Vec::new();
         for pair in courses.chunks(2) {
             let [upper, lower] = pair else { continue };

@@ -6,7 +6,7 @@ use crate::body::in_groove::{GrooveContact, InGroove};
 use crate::motion::Motion;
 
 impl Globoid {
-    fn contact(&self, roller: i32, line: &TurretLine) -> GrooveContact {
+    fn contact(&self, roller: i32, line: &TurretLine, length: f64) -> GrooveContact {
         let middle = self.turret.arm;
         let point = line.point(middle);
         let (tilt, lean) = point.slope;
@@ -20,7 +20,7 @@ impl Globoid {
         let (sin, cos) = libm::sincos(line.angle[0]);
         GrooveContact {
             roller,
-            length: self.reached - self.outside,
+            length,
             pressure_angle: libm::atan2(tilt, lean),
             leverage: middle,
             curvatures,
@@ -43,19 +43,23 @@ impl InGroove for Globoid {
         self.roller
     }
 
-    /// Those that touch over their whole reach, else those whose centre lines lie between the ends.
+    /// Those that touch over their whole reach, else those whose centre lines lie between the ends and that touch at all.
     fn contacts(&self, (piece, angle): (usize, f64), lifting: bool) -> Vec<GrooveContact> {
         let flank = if lifting { Flank::Lower } else { Flank::Upper };
         let lines = || self.rollers().map(|roller| (roller, self.line((piece, angle, 0.0), f64::from(roller))));
         let whole: Vec<GrooveContact> = lines()
             .filter(|(_, line)| self.touches_wholly(line, flank))
-            .map(|(roller, line)| self.contact(roller, &line))
+            .map(|(roller, line)| self.contact(roller, &line, self.length_of_contact(&line, flank)))
             .collect();
         if !whole.is_empty() {
             return whole;
         }
         let between = lines().filter(|(_, line)| line.angle[0].abs() <= self.end_angle);
-        between.map(|(roller, line)| self.contact(roller, &line)).collect()
+        let touching = between.map(|(roller, line)| (roller, line, self.length_of_contact(&line, flank)));
+        touching
+            .filter(|(_, _, length)| *length > 0.0)
+            .map(|(roller, line, length)| self.contact(roller, &line, length))
+            .collect()
     }
 
     fn share_of_turns(&self) -> f64 {

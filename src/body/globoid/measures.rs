@@ -15,6 +15,8 @@ use crate::report::{Bound, Place, shown};
 
 /// Rounding of an angle at an end.
 const AT_END: f64 = 1e-9;
+/// Halvings to the end of a line of contact.
+const HALVINGS: u32 = 40;
 /// Places between two joints at which the rollers are counted.
 const PLACES: u32 = 64;
 
@@ -64,6 +66,29 @@ impl Globoid {
             let about = libm::atan2(place.z, self.turret.distance - place.xy().norm());
             about.abs() <= self.end_angle + AT_END
         })
+    }
+
+    /// Length of the line along which a roller touches a flank within its reach, m: between the ends and inside of the outside.
+    pub(super) fn length_of_contact(&self, line: &TurretLine, flank: Flank) -> f64 {
+        let touches = |v: f64| {
+            let place = line.flank(&line.point(v), self.signed(flank));
+            let off = self.turret.distance - place.xy().norm();
+            let between = libm::atan2(place.z, off).abs() <= self.end_angle + AT_END;
+            between && libm::hypot(off, place.z) >= self.outside * (1.0 - AT_END)
+        };
+        let [outside, reached] = self.touched();
+        let (mut touching, mut beyond) = match [outside, reached].map(touches) {
+            [true, true] => return reached - outside,
+            [false, false] => return 0.0,
+            [true, false] => (outside, reached),
+            [false, true] => (reached, outside),
+        };
+        let whole = touching;
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (touching + beyond);
+            *(if touches(middle) { &mut touching } else { &mut beyond }) = middle;
+        }
+        (touching - whole).abs()
     }
 
     /// Least metal, m: about the bore, and of the ribs on the outside, with the cam angle of the latter.

@@ -162,10 +162,6 @@ impl Globoid {
     /// The refusal of measures that leave no room.
     fn refuse_size(&self, depth: f64, reach: f64) -> Result<(), Refusal> {
         let [deep, reached] = [depth, reach].map(|length| MILLIMETRES * length);
-        if reach > depth {
-            let what = format!("the rollers reach {reached:.3} mm into grooves of {deep:.3} mm");
-            return Err(Refusal::new(what).remedy("cam.roller_height must not exceed cam.groove_depth"));
-        }
         if !(self.outside > 0.0) {
             let what =
                 format!("rollers that reach {reached:.3} mm into the grooves would begin behind the turret's axis");
@@ -385,13 +381,16 @@ impl Globoid {
         })
     }
 
-    /// The smallest distance from the centre line at which a flank would fold over itself, m, anywhere along the rollers.
+    /// The smallest distance from the centre line at which a flank would fold over itself, m, anywhere along the grooves' depth: where the flank
+    /// itself meets the outside and the floor, beyond the ends of the cam where the centre line would.
     fn least_fold(&self) -> Worst {
         let sharpest = self.largest(|line| {
-            let folds = [self.outside, self.floor].map(|v| {
-                let point = line.point(v);
-                line.folds_at(&point, 1.0).min(line.folds_at(&point, -1.0))
-            });
+            let of = |flank: Flank, from_turret: f64| {
+                let distance = self.signed(flank);
+                let found = line.at_distance(distance, from_turret);
+                line.folds_at(&found.map_or_else(|| line.point(from_turret), |found| found.line), distance.signum())
+            };
+            let folds = Flank::BOTH.map(|flank| of(flank, self.outside).min(of(flank, self.floor)));
             folds.into_iter().map(f64::recip).fold(0.0, f64::max)
         });
         Worst { value: sharpest.value.recip(), ..sharpest }

@@ -8,7 +8,7 @@ use crate::geometry::MILLIMETRES;
 use crate::profile::{Contact, Worst};
 
 impl Figures for Groove {
-    figures_of_its_disc!(disc);
+    figures_of_its_disc!(disc, sized: disc);
 
     fn pressure_angles(&self) -> [Worst; 2] {
         self.disc.pressure_angles()

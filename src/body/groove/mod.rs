@@ -10,11 +10,11 @@ mod sheet;
 mod switches;
 
 use super::disc::delegate::body_of_its_disc;
-use super::disc::{self, Disc, Hold};
+use super::disc::{self, Disc, DiscRole, Hold};
 use super::figures::with_subject;
 use super::part::{PartFlank, Track, as_turned};
 use super::{Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Layer, Part, Request, WorstPlaces, largest};
-use crate::check::Measures;
+use crate::check::{Measures, contact_stress};
 use crate::document::cams;
 use crate::follower::Follower;
 use crate::geometry::contour::Contour;
@@ -39,9 +39,6 @@ pub const RING: Kind = Kind { command: cams::MAKE, noun: "ring cam", keys: cams:
 /// The place of the outer flank of a groove.
 const OUTER_X: AddedColumn = AddedColumn { name: "outer_x_mm", after: "profile_y_mm" };
 const OUTER_Y: AddedColumn = AddedColumn { name: "outer_y_mm", after: "profile_y_mm" };
-
-/// A base radius so many times as large is tried where the outer flank is undercut.
-const LARGEST_GROWTH: f64 = 4.0;
 
 /// One flank.
 #[derive(Debug, Clone)]
@@ -73,16 +70,25 @@ impl Groove {
     /// # Errors
     /// [`Refusal`] when motion and follower do not fit each other, the velocity jumps, or no radius keeps the limits.
     pub fn between_flanks(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<Self, Refusal> {
-        let disc = Disc::held(machine, Arc::clone(motion), rpm, (&disc::GENERAL, Hold::Flanks))?;
-        let found = Self::about(&GROOVE, disc, Arc::clone(motion))?;
-        let base = found.disc.base_radius();
-        if machine.cam.base_radius.is_some() || !found.is_undercut_outside() {
-            return Ok(found);
-        }
-        let on = |base: f64| Self::about(&GROOVE, found.disc.on(base)?, Arc::clone(motion)).ok();
-        let keeps = |base: f64| on(base).is_some_and(|groove| !groove.is_undercut_outside());
-        let larger = size::first_that_keeps(base, LARGEST_GROWTH * base, keeps).map(size::rounded_up);
-        Ok(larger.and_then(on).unwrap_or(found))
+        Self::about(&GROOVE, Self::sized_disc(machine, motion, rpm)?)
+    }
+
+    /// The disc under the inner flank, of the size that both flanks require.
+    ///
+    /// # Errors
+    /// As [`Groove::between_flanks`].
+    pub(in crate::body) fn sized_disc(
+        machine: &Machine,
+        motion: &Arc<dyn Motion>,
+        rpm: Option<f64>,
+    ) -> Result<Disc, Refusal> {
+        let role = DiscRole { kind: &disc::GENERAL, hold: Hold::Flanks, rest: Some(Self::broken_around) };
+        Disc::held(machine, Arc::clone(motion), rpm, role)
+    }
+
+    /// The first limit that the groove over a disc breaks in addition to those of the disc.
+    fn broken_around(disc: &Disc) -> Option<&'static str> {
+        Self::about(&GROOVE, disc.clone()).map_or(Some("undercut"), |groove| groove.broken_outside())
     }
 
     /// The ring around the roller of a motion, at a speed of the cam (rpm) where it is known.
@@ -92,10 +98,10 @@ impl Groove {
     pub fn ring(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<Self, Refusal> {
         let follower = machine.follower.inside().ok_or_else(|| needs_a_roller(&RING))?;
         let disc = Disc::of_motion(&machine.with_follower(follower), Arc::clone(motion), rpm)?;
-        Self::about(&RING, disc, Arc::clone(motion))
+        Self::about(&RING, disc)
     }
 
-    fn about(kind: &'static Kind, disc: Disc, motion: Arc<dyn Motion>) -> Result<Self, Refusal> {
+    fn about(kind: &'static Kind, disc: Disc) -> Result<Self, Refusal> {
         if let Some(corner) = extremes::corners(disc.curves()).first() {
             let what = format!("the velocity of the follower jumps, and a {} has no corners", kind.noun);
             let remedy = "give other states or laws of the segments that meet there, or cam.body = \"disc\"";
@@ -118,6 +124,7 @@ impl Groove {
             ]
         };
         let blank_radius = track.edge_radius().unwrap_or(f64::NAN);
+        let motion = Arc::clone(disc.motion());
         let found = Self { kind, disc, motion, flanks, blank_radius };
         let machine = found.disc.machine();
         let wall = machine.limits.least_wall(machine.cam.bore_radius);
@@ -138,9 +145,13 @@ impl Groove {
         self.flanks.last().map(|flank| (self.curves_of(flank), &flank.worst))
     }
 
-    /// Whether the outer flank folds over itself.
-    fn is_undercut_outside(&self) -> bool {
-        self.cuts().last().is_some_and(Cut::is_undercut)
+    /// The limit that the groove breaks beyond those of its disc: an outer flank that folds over itself, or is pressed too hard.
+    fn broken_outside(&self) -> Option<&'static str> {
+        if self.cuts().last().is_some_and(Cut::is_undercut) {
+            return Some("undercut");
+        }
+        let allowed = contact_stress::largest_allowed(self.machine(), self.touching());
+        allowed.filter(|allowed| self.exceeds_stress(*allowed)).map(|_| "contact_stress")
     }
 
     /// How far the outer flank reaches from the shaft, m.

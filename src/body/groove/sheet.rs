@@ -13,7 +13,7 @@ const GAP: f64 = 0.12;
 
 /// What the review sheet shows.
 pub(super) fn view(groove: &Groove, drawn: &Drawn) -> Result<SheetView, OutlineError> {
-    let mut view = groove.disc.view_within(drawn)?;
+    let mut view = groove.disc.view_within(&groove.disc, drawn)?;
     let Some(part) = drawn.parts.first() else { return Ok(view) };
     let rims = part.rims();
     let of = |layer: Layer| -> Vec<SheetShape> {

@@ -2,6 +2,7 @@
 
 use super::Groove;
 use crate::body::flank_switch::{FlankSwitch, ForceOverTurn, SwitchingRoller};
+use crate::body::flight::Flight;
 use crate::body::{Body, Figures};
 
 impl Groove {
@@ -17,14 +18,23 @@ impl Groove {
     fn switch(&self, (piece, at): (usize, f64), to_lifting: bool) -> FlankSwitch {
         let curves = self.disc.curves();
         let contact = curves.contact(piece, at);
-        let leverage = curves.follower.leverage(&contact.lift);
+        let lift = |angle: f64| {
+            let (piece, inside) = curves.motion.locate(angle);
+            curves.motion.jet(piece, inside)
+        };
+        let play = |angle: f64| {
+            let (piece, inside) = curves.motion.locate(angle);
+            let contact = curves.contact(piece, inside);
+            let leverage = curves.follower.leverage(&contact.lift);
+            self.machine().cam.track.clearance / (libm::cos(contact.pressure_angle) * leverage)
+        };
+        let flight = self.disc.pressing().map(|pressing| Flight { pressing, lift: &lift, play: &play });
         let roller = SwitchingRoller {
-            lift: contact.lift,
             by_path: contact.curve.speed / self.roller_radius().unwrap_or(f64::NAN),
             carrier_turn: curves.touch(piece, at).drive_turn,
-            leverage,
-            play: self.machine().cam.track.clearance / (libm::cos(contact.pressure_angle) * leverage),
+            leverage: curves.follower.leverage(&contact.lift),
+            flight,
         };
-        roller.switch(at, to_lifting, self.disc.pressing())
+        roller.switch(at, to_lifting)
     }
 }

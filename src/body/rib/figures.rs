@@ -7,7 +7,7 @@ use crate::check::{Measures, Subject, curvature};
 use crate::profile::Worst;
 
 impl Figures for Rib {
-    figures_of_its_disc!(outer);
+    figures_of_its_disc!(outer, sized: middle);
 
     fn pressure_angles(&self) -> [Worst; 2] {
         let ([a, b], [c, d]) = (self.outer.pressure_angles(), self.inner.pressure_angles());

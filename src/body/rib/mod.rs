@@ -9,7 +9,7 @@ mod report;
 
 use super::closure::{self, Closure, Pairing};
 use super::disc::delegate::body_of_its_disc;
-use super::disc::{self, Disc, Hold};
+use super::disc::{self, Disc, DiscRole, Hold};
 use super::figures::with_subject;
 use super::part::{PartFlank, Track, as_turned, point_as_turned};
 use super::{Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Layer, Part, Request, broken_limit};
@@ -20,11 +20,11 @@ use crate::geometry::MILLIMETRES;
 use crate::machine::{FollowerData, Machine, Rotation};
 use crate::motion::Motion;
 use crate::profile::outline::{self, Outline, OutlineError};
-use crate::profile::{Curves, extremes, size};
+use crate::profile::{Curves, extremes};
 use crate::refusal::Refusal;
-use crate::report::Section;
 use crate::report::mechanism::MovingMechanism;
 use crate::report::sheet::SheetView;
+use crate::report::{CamMeasures, Section};
 use crate::table::{AddedColumn, Row};
 use std::sync::Arc;
 
@@ -35,9 +35,6 @@ pub const RIB: Kind = Kind { command: cams::MAKE, noun: "rib cam", keys: cams::R
 const INNER_X: AddedColumn = AddedColumn { name: "inner_x_mm", after: "profile_y_mm" };
 const INNER_Y: AddedColumn = AddedColumn { name: "inner_y_mm", after: "profile_y_mm" };
 
-/// A base radius so many times as large is tried where a flank breaks a limit.
-const LARGEST_GROWTH: f64 = 8.0;
-
 /// A wall between two rollers.
 #[derive(Debug, Clone)]
 pub struct Rib {
@@ -45,8 +42,8 @@ pub struct Rib {
     outer: Disc,
     /// Around the inner roller.
     inner: Disc,
-    /// Radius of the path of the middle between the rollers, less that of a roller, m.
-    base_radius: f64,
+    /// The disc of the middle between the rollers, which is not cut: its base radius is that of the file.
+    middle: Disc,
     /// Between the centres of the rollers, m.
     distance: f64,
 }
@@ -58,26 +55,37 @@ impl Rib {
     /// [`Refusal`] when motion and follower do not fit each other, the velocity jumps, a roller does not reach its flank, or no radius keeps
     /// the limits.
     pub fn of(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<Self, Refusal> {
-        let middle = Disc::held(machine, Arc::clone(motion), rpm, (&disc::GENERAL, Hold::Flanks))?;
+        let middle = Self::sized_middle(machine, motion, rpm)?;
         if let Some(corner) = extremes::corners(middle.curves()).first() {
             let remedy = "give other states or laws of the segments that meet there, or cam.body = \"disc\"";
             return Err(Refusal::new("the velocity of the follower jumps, and a rib has no corners")
                 .at(format!("{:.3} deg", corner.at.to_degrees()))
                 .remedy(remedy));
         }
-        let base = middle.base_radius();
-        let first = Self::about(&middle, machine, motion, rpm);
-        if machine.cam.base_radius.is_some() || first.as_ref().is_ok_and(Self::keeps_its_limits) {
-            return first;
-        }
-        let on = |base: f64| Self::about(&middle.on(base)?, machine, motion, rpm).ok();
-        let keeps = |base: f64| on(base).is_some_and(|rib| rib.keeps_its_limits());
-        let larger = size::first_that_keeps(base, LARGEST_GROWTH * base, keeps).map(size::rounded_up);
-        larger.and_then(on).map_or(first, Ok)
+        Self::about(middle)
+    }
+
+    /// The disc of the middle between the rollers, of the size that both flanks require.
+    ///
+    /// # Errors
+    /// As [`Rib::of`].
+    pub(in crate::body) fn sized_middle(
+        machine: &Machine,
+        motion: &Arc<dyn Motion>,
+        rpm: Option<f64>,
+    ) -> Result<Disc, Refusal> {
+        let role = DiscRole { kind: &disc::GENERAL, hold: Hold::Flanks, rest: Some(Self::broken_beside) };
+        Disc::held(machine, Arc::clone(motion), rpm, role)
+    }
+
+    /// The first limit that a flank beside the path of a disc breaks.
+    fn broken_beside(middle: &Disc) -> Option<&'static str> {
+        Self::about(middle.clone()).map_or(Some("reach"), |rib| rib.broken_limit())
     }
 
     /// On either side of the path of a disc.
-    fn about(middle: &Disc, machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<Self, Refusal> {
+    fn about(middle: Disc) -> Result<Self, Refusal> {
+        let machine = middle.machine();
         let distance = machine.cam.track.roller_distance.unwrap_or(f64::NAN);
         let flank = |way: f64, counter: Option<f64>| {
             let (shape, prime) = beside(&**middle.follower(), 0.5 * way * distance)?;
@@ -85,16 +93,19 @@ impl Rib {
             let own = if way > 0.0 { own } else { own.inside().ok_or_else(needs_a_roller)? };
             let base = prime - own.shape.element().offset();
             let own = machine.with_follower(own).with_base_radius(base);
-            Disc::held(&own, Arc::clone(motion), rpm, (&disc::GENERAL, Hold::Pair { preload: 0.0, counter }))
+            let hold = Hold::Pair { preload: 0.0, counter };
+            let role = DiscRole { kind: &disc::GENERAL, hold, rest: None };
+            Disc::held(&own, Arc::clone(middle.motion()), middle.rpm(), role)
         };
         // The inner roller carries the force that would lift the outer one off.
         let (outer, inner) = (flank(1.0, None)?, flank(-1.0, Some(0.0))?);
-        Ok(Self { outer, inner, base_radius: middle.base_radius(), distance })
+        Ok(Self { outer, inner, middle, distance })
     }
 
-    fn keeps_its_limits(&self) -> bool {
-        let folds = self.cuts().iter().any(Cut::is_undercut);
-        !folds && [&self.outer, &self.inner].into_iter().all(|disc| broken_limit(disc).is_none())
+    /// The first limit that a flank breaks.
+    fn broken_limit(&self) -> Option<&'static str> {
+        let folds = self.cuts().iter().any(Cut::is_undercut).then_some("undercut");
+        folds.or_else(|| [&self.outer, &self.inner].into_iter().find_map(broken_limit))
     }
 
     /// Either disc, with the name and the layer of its flank: the outer one first.
@@ -197,6 +208,9 @@ impl Body for Rib {
 
     fn sections(&self, found: &DrawingEvidence<'_>) -> Vec<Section> {
         let mut sections = self.outer.sections(found);
+        if let Some(cam) = sections.iter_mut().find(|section| section.key == "cam") {
+            *cam = self.cam_measures(found).section();
+        }
         let place = sections.iter().position(|section| section.key == "outline").unwrap_or(sections.len());
         sections.insert(place, report::section(self, found));
         sections
@@ -212,6 +226,17 @@ impl Body for Rib {
 }
 
 impl Rib {
+    /// The measures of the section `cam`: the radii are those of the middle between the rollers, which the file gives.
+    fn cam_measures(&self, found: &DrawingEvidence<'_>) -> CamMeasures {
+        let middle = self.middle.cam_measures(found);
+        CamMeasures {
+            prime_radius_mm: middle.prime_radius_mm,
+            base_radius_mm: middle.base_radius_mm,
+            smallest_prime_radius_mm: middle.smallest_prime_radius_mm,
+            ..self.outer.cam_measures(found)
+        }
+    }
+
     fn with_inner_flank(&self, row: Row) -> Row {
         let Some((piece, angle)) = row.at else { return row };
         let inner = self.inner.curves().profile(piece, angle).point * MILLIMETRES;

@@ -43,7 +43,7 @@ pub(super) fn section(rib: &Rib, found: &DrawingEvidence<'_>) -> Section {
         rolling: found.rolled.get(index).cloned(),
     };
     let value = RibSection {
-        base_radius_mm: MILLIMETRES * rib.base_radius,
+        base_radius_mm: MILLIMETRES * rib.middle.base_radius(),
         roller_distance_mm: MILLIMETRES * rib.distance,
         wall_mm: rib.wall().map(|(wall, _)| MILLIMETRES * wall),
         flanks: rib.flanks().into_iter().enumerate().map(flank).collect(),
@@ -59,7 +59,8 @@ pub(super) fn section(rib: &Rib, found: &DrawingEvidence<'_>) -> Section {
 
 /// What the review sheet shows: the disc under the outer roller, with the hole around the inner one and both rollers at θ = 0.
 pub(super) fn view(rib: &Rib, drawn: &Drawn) -> Result<SheetView, OutlineError> {
-    let mut view = rib.outer.view_within(drawn)?;
+    let steeper = rib.inner.pressure_angle().value > rib.outer.pressure_angle().value;
+    let mut view = rib.outer.view_within(if steeper { &rib.inner } else { &rib.outer }, drawn)?;
     let Some(part) = drawn.parts.first() else { return Ok(view) };
     let rims = part.rims();
     let hole = rims.iter().filter(|rim| rim.layer == Layer::RibInner).map(|rim| SheetShape::Entity(rim.curve.clone()));

@@ -47,7 +47,7 @@ impl Figures for Wedge {
 
     fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<String> {
         let along_a_line = self.machine.follower.crown_radius.is_none();
-        along_a_line.then(|| stress::thickness_for(&self.machine, largest, limit)).flatten().into_iter().collect()
+        along_a_line.then(|| stress::length_for(&self.machine, largest, limit)).flatten().into_iter().collect()
     }
 
     fn largest_lifting_force(&self) -> Worst {

@@ -8,9 +8,9 @@ mod report;
 use super::closure::{self, Closure, Pairing};
 use super::conjugate::CounterMotion;
 use super::disc::delegate::{body_of_its_disc, figures_of_its_disc};
-use super::disc::{Disc, Hold};
+use super::disc::{Disc, DiscRole, Hold};
 use super::figures::with_subject;
-use super::{Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Request};
+use super::{Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Request, broken_limit};
 use crate::check::{AsWritten, Measure, Measures};
 use crate::document::cams;
 use crate::follower::{Carrier, Element};
@@ -59,17 +59,41 @@ impl Yoke {
     /// [`Refusal`] when the second half turn of the motion is not the first one upside down, when the breadth and the base radius contradict
     /// each other, or no radius keeps the limits.
     pub fn of(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<Self, Refusal> {
+        Self::around(Self::sized_disc(machine, motion, rpm)?)
+    }
+
+    /// The disc under the first face or roller, of the size that both sides require.
+    ///
+    /// # Errors
+    /// As [`Yoke::of`].
+    pub(in crate::body) fn sized_disc(
+        machine: &Machine,
+        motion: &Arc<dyn Motion>,
+        rpm: Option<f64>,
+    ) -> Result<Disc, Refusal> {
         let top = lifts(&**motion).1;
         upside_down(&**motion, top)?;
-        let lift = top * along_normal(machine);
-        let machine = &sized_by_breadth(machine, lift)?;
-        let hold = |counter| Hold::Pair { preload: 0.0, counter };
-        let disc = Disc::held(machine, Arc::clone(motion), rpm, (&YOKE, hold(None)))?;
+        let machine = sized_by_breadth(machine, top * along_normal(machine))?;
+        let hold = Hold::Pair { preload: 0.0, counter: None };
+        let role = DiscRole { kind: &YOKE, hold, rest: Some(Self::broken_opposite) };
+        Disc::held(&machine, Arc::clone(motion), rpm, role)
+    }
+
+    /// The first limit that a disc breaks under the opposite face or roller.
+    fn broken_opposite(disc: &Disc) -> Option<&'static str> {
+        Self::around(disc.clone()).map_or(Some("reach"), |yoke| broken_limit(&yoke.opposite))
+    }
+
+    /// With the opposite face or roller of a disc.
+    fn around(disc: Disc) -> Result<Self, Refusal> {
+        let (machine, motion) = (disc.machine(), disc.motion());
+        let top = lifts(&**motion).1;
         let own = FollowerData { shape: Arc::clone(disc.follower()), place: None, ..machine.follower.clone() };
         let own = machine.with_follower(own).with_base_radius(disc.base_radius());
         let counter = Arc::new(CounterMotion::new(Arc::clone(motion), top, PI));
-        let opposite = Disc::held(&own, counter, rpm, (&YOKE, hold(Some(top))))?;
-        let breadth = 2.0 * disc.base_radius() + lift;
+        let hold = Hold::Pair { preload: 0.0, counter: Some(top) };
+        let opposite = Disc::held(&own, counter, disc.rpm(), DiscRole { kind: &YOKE, hold, rest: None })?;
+        let breadth = 2.0 * disc.base_radius() + top * along_normal(machine);
         Ok(Self { disc, opposite, breadth })
     }
 
@@ -132,7 +156,7 @@ fn sized_by_breadth(machine: &Machine, lift: f64) -> Result<Machine, Refusal> {
 }
 
 impl Figures for Yoke {
-    figures_of_its_disc!(disc);
+    figures_of_its_disc!(disc, sized: disc);
 
     fn pressure_angles(&self) -> [Worst; 2] {
         let ([a, b], [c, d]) = (self.disc.pressure_angles(), self.opposite.pressure_angles());

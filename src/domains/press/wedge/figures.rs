@@ -34,7 +34,7 @@ impl Figures for Wedge {
     }
 
     fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<String> {
-        stress::thickness_for(&self.machine, largest, limit).into_iter().collect()
+        stress::length_for(&self.machine, largest, limit).into_iter().collect()
     }
 
     fn largest_lifting_force(&self) -> Worst {
