@@ -1,9 +1,10 @@
 //! Pairs of conjugate discs as `camgen make` cuts them: the values of a reference with forty digits, how the pair closes, and what is refused.
 
-use crate::common::program::{camgen_in, files, report};
+use crate::common::program::{camgen_in, files, make, report};
 use camgen::machine::Machine;
 use camgen::pipeline::{Assembly, Spec, Writing};
 use camgen::report::Verdict;
+use serde_json::Value;
 
 const TOLERANCE: f64 = 5e-6;
 
@@ -187,15 +188,51 @@ fn what_makes_no_pair_is_refused_with_the_reason() {
     let arm = error(TRANSLATING, &["cam.counter.arm=100mm"]);
     assert!(arm.contains("straight path") && arm.contains("arm"), "{arm}");
     assert!(error(SWINGING, &["cam.counter.distance=100mm"]).contains("swings on an arm"));
-    for (text, set, wanted) in [
-        (TRANSLATING, "cam.counter.distance=98mm", "cam.counter.distance must exceed 98.964 mm"),
-        (TRANSLATING, "cam.counter.distance=101mm", "give a larger cam.counter.distance"),
-        (SWINGING, "cam.counter.included_angle=50deg", "cam.counter.included_angle must exceed"),
+    for (text, set, key) in [
+        (TRANSLATING, "cam.counter.distance=98mm", "cam.counter.distance"),
+        (TRANSLATING, "cam.counter.distance=101mm", "cam.counter.distance"),
+        (SWINGING, "cam.counter.included_angle=50deg", "cam.counter.included_angle"),
     ] {
         let machine = machine(text, &[set]).expect("in range");
         let refused =
             Spec::of_program(machine, None).expect("a motion").assemble().expect_err("no counter").to_string();
-        assert!(refused.contains(wanted), "{set}: {refused}");
+        // The change that it names is tried.
+        let (_, rest) = refused.split_once(&format!("{key} = \"")).unwrap_or_else(|| panic!("{set}: {refused}"));
+        let (value, _) = rest.split_once('"').expect("a value");
+        pair(text, &[&format!("{key}={value}")]);
+    }
+}
+
+/// A pair whose counter disc folds on the smallest main disc.
+const FOLDS: &str = include_str!("conjugate/folds.toml");
+
+/// The size is that of both discs, in `make` as in `size`; every change that a counter disc names passes.
+#[test]
+fn auto_and_size_consider_both_discs() {
+    let base = |report: &Value, section: &str| report[section]["base_radius_mm"].as_f64();
+    let made = report(&make(FOLDS, &["--dry-run", "--json"]));
+    assert_eq!((base(&made, "cam"), &made["passed"]), (Some(15.0), &Value::Bool(true)), "{made}");
+    let directory = tempfile::tempdir().expect("a directory");
+    std::fs::write(directory.path().join("cam.toml"), FOLDS).expect("written");
+    let sized = report(&camgen_in(directory, &["size", "cam.toml", "--json", "--dry-run"]));
+    assert_eq!(base(&sized, "size"), Some(15.0), "{sized}");
+    for sets in [vec!["cam.base_radius=9mm"], vec!["cam.base_radius=9mm", "cam.counter.distance=40mm"]] {
+        let with = |more: &[String]| {
+            let all = sets.iter().map(|set| (*set).to_owned()).chain(more.iter().cloned());
+            let words: Vec<String> = all.flat_map(|set| ["--set".to_owned(), set]).collect();
+            let words: Vec<&str> = ["--dry-run"].into_iter().chain(words.iter().map(String::as_str)).collect();
+            make(FOLDS, &words)
+        };
+        let failed = with(&[]);
+        let said = failed.out.clone() + &failed.err;
+        let changes: Vec<String> = if let Some((_, rest)) = said.split_once("a base radius of ") {
+            vec![format!("cam.base_radius={}", rest.split_once(" would").expect("a size").0)]
+        } else {
+            let (_, rest) = said.split_once("cam.counter.distance = \"").unwrap_or_else(|| panic!("{said}"));
+            vec![format!("cam.counter.distance={}", rest.split_once('"').expect("a value").0)]
+        };
+        let done = with(&changes);
+        assert_eq!((failed.code, done.code), (1, 0), "{sets:?} {changes:?}: {}{}", done.out, done.err);
     }
 }
 

@@ -172,13 +172,26 @@ fn the_force_changes_flank_where_the_acceleration_changes_sign() {
         let jump = 2.0 * curves.contact(piece, angle).curve.speed / 0.015;
         near((switch.spin[1] - switch.spin[0]).abs(), jump);
     }
-    // The play k/cos α under a force that grows with the jerk: t³ = 6 k/(j cos α), v = j t²/2.
+    // Without a spring the free follower keeps its velocity until its distance from the motion is the play k/cos α.
     let curves = camgen::body::curves(&groove).expect("plane");
-    let (piece, angle) = curves.motion.locate(found[0].at);
-    let (contact, speed) = (curves.contact(piece, angle), 200.0 * std::f64::consts::TAU / 60.0);
-    let jerk = (contact.lift.ddds * speed.powi(3)).abs();
-    let time = (6.0 * 0.04e-3 / (jerk * contact.pressure_angle.cos())).cbrt();
-    assert!((found[0].impact.expect("known") / (0.5 * jerk * time * time) - 1.0).abs() < 1e-6);
+    let at = |angle: f64| {
+        let (piece, inside) = curves.motion.locate(angle);
+        curves.contact(piece, inside)
+    };
+    let (start, left) = (found[0].at, at(found[0].at).lift);
+    let room = |angle: f64| {
+        let contact = at(angle);
+        let apart = contact.lift.s - left.s - (angle - start) * left.ds;
+        0.04e-3 / contact.pressure_angle.cos() - apart.abs()
+    };
+    let (mut low, mut high) = (start, start + 0.5);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        *(if room(middle) > 0.0 { &mut low } else { &mut high }) = middle;
+    }
+    let speed = 200.0 * std::f64::consts::TAU / 60.0;
+    let hit = speed * (room(low - 1e-5) - room(low + 1e-5)) / 2e-5;
+    assert!((found[0].impact.expect("known") / hit - 1.0).abs() < 1e-4, "{:?} {hit}", found[0].impact);
     // A spring that outweighs the inertia holds the roller on one flank.
     let held = cam(&translating(), &["spring.preload=200N"]);
     let proven = held.draw(TOLERANCE).expect("drawn").prove().expect("proved");
@@ -244,5 +257,46 @@ fn the_size_of_a_groove_is_that_of_its_blank() {
         let checks = report["checks"].as_array().expect("checks");
         let size = checks.iter().find(|check| check["check"] == "size").expect("a size");
         assert!((size["value"].as_f64().expect("a number") - blank).abs() < 1e-9, "{body}: {size} {blank}");
+    }
+}
+
+/// The line of contact is as long as the roller reaches into the groove, whatever the thickness of the disc; what is named as a remedy passes.
+#[test]
+fn the_contact_is_as_long_as_the_roller_reaches() {
+    let stress = |sets: &[&str]| {
+        let words: Vec<&str> = sets.iter().flat_map(|set| ["--set", *set]).collect();
+        let run = camgen_in(
+            tempfile::tempdir().expect("a directory"),
+            &[&["make", "groove", "--json", "--dry-run"], &*words].concat(),
+        );
+        let report = report(&run);
+        let found = report["checks"]
+            .as_array()
+            .expect("checks")
+            .iter()
+            .find(|found| found["check"] == "contact_stress")
+            .cloned();
+        let found = found.expect("checked");
+        (found["value"].as_f64().expect("a number"), found["verdict"] == "pass", found["note"].to_string())
+    };
+    for (depth, expected) in [("14 mm", 98.3), ("7 mm", 139.1), ("1 mm", 368.0)] {
+        for thickness in ["24 mm", "60 mm"] {
+            let (found, ..) = stress(&[&format!("cam.groove_depth={depth}"), &format!("cam.thickness={thickness}")]);
+            assert!((found - expected).abs() < 0.05, "{depth} {thickness}: {found}");
+        }
+    }
+    let (found, ..) = stress(&["cam.roller_height=7 mm"]);
+    assert!((found - 139.1).abs() < 0.05, "{found}");
+    for (speed, keys) in [("1800", 1), ("2600", 2)] {
+        let speed = format!("motion.rpm={speed}");
+        let (_, passed, note) = stress(&[&speed]);
+        let note = note.replace('\\', "");
+        let (_, rest) = note.split_once("cam.groove_depth = \"").unwrap_or_else(|| panic!("{note}"));
+        let mut sets = vec![format!("cam.groove_depth={}", rest.split_once('"').expect("a value").0)];
+        let thicker = rest.split_once(" with cam.thickness = \"").filter(|_| keys == 2);
+        sets.extend(thicker.map(|(_, rest)| format!("cam.thickness={}", rest.split_once('"').expect("a value").0)));
+        assert!(!passed && sets.len() == keys, "{speed}: {note}");
+        let all: Vec<&str> = [speed.as_str()].into_iter().chain(sets.iter().map(String::as_str)).collect();
+        assert!(stress(&all).1, "{all:?}");
     }
 }
