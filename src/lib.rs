@@ -52,12 +52,12 @@
 //! use std::f64::consts::PI;
 //!
 //! // Up 20 mm in 90°, rest for 30°, down in 120°, rest.
-//! let (up, down) = (law("cycloidal"), law("3-4-5"));
+//! let (up, down) = (Some(law("cycloidal")?), Some(law("3-4-5")?));
 //! let motion = Program::new(
 //!     Quantity::Length,
 //!     0.0,
-//!     &[(up, PI / 2.0, 0.02), (None, PI / 6.0, 0.0), (down, 2.0 * PI / 3.0, 0.0), (None, 2.0 * PI / 3.0, 0.0)],
-//! );
+//!     &[(up, PI / 2.0, 0.02), (None, PI / 6.0, 0.02), (down, 2.0 * PI / 3.0, 0.0), (None, 2.0 * PI / 3.0, 0.0)],
+//! )?;
 //! let cam = Spec::builder("lifter").roller(0.012).bore_radius(0.010).motion(motion)?.solve()?;
 //! assert!(cam.draw(5e-6)?.prove()?.passed());
 //! # Ok::<(), camgen::Error>(())
@@ -234,9 +234,10 @@ pub use geometry::contour::{Contour, Vertex};
 #[doc(inline)]
 pub use machine::{GuideData, Keyway, Machine, MachineError, Material, SpringData, Title, VibrationData};
 #[doc(inline)]
-pub use motion::laws::{Law, named as law};
+pub use motion::laws::{Law, law};
 #[doc(inline)]
 pub use motion::program::Program;
+pub use motion::program::rows::samples::{SampleCurve, Smooth};
 #[doc(inline)]
 pub use motion::{Jet, Motion, Piece, Quantity};
 #[doc(no_inline)]

@@ -347,7 +347,7 @@ class Motion:
     ) -> Motion:
         """Segments of law (None or "dwell" rests), cam angle and position at the end, from ``start`` on; together they take one turn.
 
-        Each law leads from rest to rest. What else segments can be (velocities at their ends, points, tables, formulas) has a machine
+        Each law leads from rest to rest, and a dwell ends where it begins. What else segments can be (velocities at their ends, points, tables, formulas) has a machine
         file: ``Machine.from_dict({"motion": {"segment": [...]}, ...})``.
         """
 
@@ -368,9 +368,20 @@ class Motion:
 
     @staticmethod
     def from_samples(
-        theta: npt.ArrayLike, lift: npt.ArrayLike, *, quantity: Literal["length", "angle"] = "length"
+        theta: npt.ArrayLike,
+        lift: npt.ArrayLike,
+        *,
+        quantity: Literal["length", "angle"] = "length",
+        shape: Literal["natural", "monotonic"] = "natural",
+        smooth: Optional[_Quantity] = None,
+        degree: Literal[3, 5] = 5,
     ) -> Motion:
-        """The periodic spline of least jerk through samples: growing angles (n,) within one turn, rad, and lifts (n,)."""
+        """The closed curve of least jerk through samples, as through the rows of a table: growing angles (n,), rad, that cover a turn, and
+        lifts (n,).
+
+        ``shape``, ``smooth`` ("auto", or the largest deviation from a sample) and ``degree`` are the keys of the same names in [motion]. A cam
+        of it has the checks ``outlier``, ``overshoot`` and ``noise``.
+        """
 
     @property
     def quantity(self) -> Literal["length", "angle"]:

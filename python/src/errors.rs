@@ -88,7 +88,7 @@ pub(crate) fn told(class: &str, text: impl std::fmt::Display) -> PyErr {
 pub(crate) fn of(error: &Error) -> PyErr {
     match error {
         Error::Machine(error) => of_machine(error),
-        Error::Solve(refusal) => refused("SolveError", refusal),
+        Error::Motion(refusal) | Error::Solve(refusal) => refused("SolveError", refusal),
         Error::Draw(refusal) | Error::Section(refusal) | Error::Cutter(refusal) => refused("DrawError", refusal),
         Error::Proof(refusal) => refused("ProofError", refusal),
         Error::Read(refusal) => refused("ReadError", refusal),

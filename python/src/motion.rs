@@ -9,11 +9,12 @@ use crate::cli::args::parse;
 use crate::errors::{option, refused};
 use crate::options::quantity;
 use crate::table;
-use camgen::motion::laws::spline::{self, SplineEnds};
+use camgen::motion::laws::spline;
 use camgen::motion::laws::{LAWS, LawCurve, LawTask};
+use camgen::motion::program::rows::RowShape;
 use camgen::numeric::extremum;
 use camgen::units::{self, Dimension};
-use camgen::{Jet, Piece, Program, Quantity};
+use camgen::{Jet, Piece, Program, Quantity, SampleCurve, Smooth};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
@@ -306,6 +307,23 @@ fn position(given: &Bound<'_, PyAny>, quantity_of: Quantity) -> PyResult<f64> {
     Ok(quantity("position", Some(given), unit, parse)?.unwrap_or(0.0))
 }
 
+/// How a curve goes from sample to sample.
+fn shape_of(name: &str) -> PyResult<RowShape> {
+    match name {
+        "natural" => Ok(RowShape::Natural),
+        "monotonic" => Ok(RowShape::Monotonic),
+        other => Err(option("shape", format!("no such word {other:?}; one of natural, monotonic"), None)),
+    }
+}
+
+/// By how much a curve may leave samples.
+fn smooth_of(given: &Bound<'_, PyAny>, of: Quantity) -> PyResult<Smooth> {
+    if given.extract::<String>().is_ok_and(|word| word.trim().eq_ignore_ascii_case("auto")) {
+        return Ok(Smooth::Auto);
+    }
+    Ok(Smooth::By(position(given, of)?))
+}
+
 #[pymethods]
 impl Motion {
     /// Segments of law, cam angle and end position; the last takes what is left of the turn.
@@ -328,21 +346,13 @@ impl Motion {
             turned += over;
             all.push((law_of(law)?, over, position(&to, of)?));
         }
-        let last = all.last().map_or(0.0, |segment| segment.1);
-        if all.is_empty() || turned - last >= TAU {
-            return Err(option("segments", format!("they begin over {:.3} deg of a turn", turned.to_degrees()), None));
-        }
         if (turned - TAU).abs() > CLOSED * TAU {
             let why = format!("they take {:.6} deg, and a turn has 360", turned.to_degrees());
             return Err(option("segments", why, Some("give the last what is left of the turn".into())));
         }
         let start = start.map(|start| position(start, of)).transpose()?.unwrap_or(0.0);
-        let end = all.iter().rev().find(|segment| segment.0.is_some()).map_or(start, |segment| segment.2);
-        if end != start {
-            let why = format!("the motion ends at {end} and starts at {start}");
-            return Err(option("segments", why, Some("end where it starts".into())));
-        }
-        Ok(Self(Arc::new(Program::new(of, start, &all))))
+        let program = Program::new(of, start, &all).map_err(|why| option("segments", why.what, why.remedy))?;
+        Ok(Self(Arc::new(program)))
     }
 
     /// A function of the angle with its derivatives.
@@ -366,40 +376,24 @@ impl Motion {
         Ok(Self(Arc::new(CurveMotion::new(quantity, stretches))))
     }
 
-    /// The periodic spline of least jerk through samples.
+    /// The closed curve of least jerk through samples, or near them.
     #[staticmethod]
-    #[pyo3(signature = (theta, lift, *, quantity="length"))]
-    fn from_samples(theta: &Bound<'_, PyAny>, lift: &Bound<'_, PyAny>, quantity: &str) -> PyResult<Self> {
+    #[pyo3(signature = (theta, lift, *, quantity="length", shape="natural", smooth=None, degree=5))]
+    fn from_samples(
+        theta: &Bound<'_, PyAny>,
+        lift: &Bound<'_, PyAny>,
+        quantity: &str,
+        shape: &str,
+        smooth: Option<&Bound<'_, PyAny>>,
+        degree: u8,
+    ) -> PyResult<Self> {
         let of = of_word(quantity)?;
-        let (mut theta, mut lift) = (table::numbers(theta)?, table::numbers(lift)?);
-        if theta.len() != lift.len() || theta.len() < 3 {
-            let why = format!("{} angles and {} lifts: give as many of both, at least three", theta.len(), lift.len());
-            return Err(option("lift", why, None));
-        }
-        if theta.iter().chain(&lift).any(|value| !value.is_finite()) {
-            return Err(option("lift", "angles and lifts must be finite", None));
-        }
-        if theta.iter().zip(theta.iter().skip(1)).any(|(a, b)| a >= b) {
-            return Err(option("theta", "must grow", None));
-        }
-        let (first, last) = (theta[0], theta[theta.len() - 1]);
-        if !(-TAU < first && first < TAU) || last - first > TAU * (1.0 + CLOSED) {
-            return Err(option("theta", "must lie within one turn (rad)", None));
-        }
-        let range =
-            lift.iter().copied().fold(f64::NEG_INFINITY, f64::max) - lift.iter().copied().fold(f64::INFINITY, f64::min);
-        if last - first >= TAU * (1.0 - CLOSED) {
-            if (lift[lift.len() - 1] - lift[0]).abs() > CLOSED * range {
-                let why = format!("the lift ends at {} and starts at {}", lift[lift.len() - 1], lift[0]);
-                return Err(option("lift", why, Some("end where it starts, or leave the last sample out".into())));
-            }
-            theta.pop();
-            lift.pop();
-        }
-        let knots: Vec<f64> = theta.iter().map(|at| (at - first) / TAU).chain([1.0]).collect();
-        let values: Vec<f64> = lift.iter().copied().chain([lift[0]]).collect();
-        let curve = spline::quintic(&knots, &values, SplineEnds::Periodic);
-        Ok(Self(Arc::new(CurveMotion::new(of, vec![Stretch { curve, start: first, width: TAU }]))))
+        let (theta, lift) = (table::numbers(theta)?, table::numbers(lift)?);
+        let curve =
+            SampleCurve { shape: shape_of(shape)?, degree, smooth: smooth.map(|by| smooth_of(by, of)).transpose()? };
+        let program =
+            Program::through(of, (&theta, &lift), curve).map_err(|why| option("lift", why.what, why.remedy))?;
+        Ok(Self(Arc::new(program)))
     }
 
     #[getter]

@@ -11,6 +11,7 @@ import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -334,6 +335,49 @@ def test_a_program_in_code_is_that_of_a_file():
     x = np.linspace(0, 1, 50)
     np.testing.assert_allclose(law(x)[0], x - np.sin(2 * math.pi * x) / (2 * math.pi), atol=1e-15)
     assert len(camgen.laws()) > 10 and "3-4-5" in {law.name for law in camgen.laws()}
+
+
+CASES = Path(__file__).resolve().parents[2] / "tests" / "cases" / "motions.json"
+
+
+def motion_of(case):
+    """A motion of the cases of the file tests, in the way of code."""
+    if "segments" in case:
+        return camgen.Motion.program([(law, f"{over}deg", f"{to}mm") for law, over, to in case["segments"]])
+    rows = case.get("rows")
+    if "wrong" in case:
+        at, off = case["wrong"]
+        rows = [[i, round(8 * (1 - math.cos(math.radians(i))), 4) + (off if i == at else 0)] for i in range(360)]
+    theta, lift = np.array(rows, dtype=float).T
+    options = {key: case[key] for key in ("shape", "smooth", "degree") if key in case}
+    return camgen.Motion.from_samples(np.radians(theta), lift / 1e3, **options)
+
+
+@pytest.mark.parametrize("case", json.loads(CASES.read_text()), ids=lambda case: case["name"])
+def test_a_motion_from_code_is_refused_as_that_of_a_file(case):
+    if "check" not in case:
+        with pytest.raises(camgen.OptionError) as raised:
+            motion_of(case)
+        said = str(raised.value).replace("samples", "rows").replace("sample", "row")
+        assert case["part"] in said, said
+        return
+    machine = camgen.Machine.from_toml(
+        'name = "case"\n[follower.roller]\nradius = "10 mm"\n[cam]\nbase_radius = "100 mm"\n'
+        "[limits]\nmin_convex_pitch_radius_over_roller = 0\n"
+    )
+    proven = machine.cam(motion=motion_of(case), rpm=100).draw().prove()
+    assert not proven.passed
+    failed = {finding.check for finding in proven.findings if finding.verdict == "fail"}
+    assert case["check"] in failed, failed
+
+
+def test_correct_samples_have_the_checks_of_rows():
+    theta = np.linspace(0, 2 * math.pi, 360, endpoint=False)
+    for smooth in (None, "auto", "3um", 3e-6):
+        motion = camgen.Motion.from_samples(theta, np.round(harmonic(theta)[0], 6), smooth=smooth)
+        proven = camgen.Machine.from_toml(TOML).cam(motion=motion).draw().prove()
+        checks = {finding.check: finding.verdict for finding in proven.findings}
+        assert checks["outlier"] == "pass" and checks["overshoot"] == "pass", checks
 
 
 def test_notebooks_show_the_page_and_the_sheet():

@@ -3,6 +3,7 @@
 use super::{Analysis, Picture};
 use crate::body::disc::{BestPlace, Disc, SizeFigures};
 use crate::body::{Body, Figures, Kind, needs_base_circle, sized_disc};
+use crate::check::outlier;
 use crate::document::{Input, NamedChoice, cams};
 use crate::follower::FollowerPlacement;
 use crate::geometry::MILLIMETRES;
@@ -151,6 +152,7 @@ pub fn analysis(machine: &Machine, free: &[FreeDimension], rpm: Option<f64>) -> 
         return Err(Refusal::new(what).remedy("`camgen make` reports the shortest stroke and lengths of its segments"));
     }
     let rpm = rpm.or(of_file);
+    let outlier = outlier::of_motion(&*motion);
     needs_base_circle(machine, "the smallest cam of `camgen size`")?;
     let disc = sized_disc(&opened(machine, free)?, &motion, rpm)?;
     let place = disc.follower().place();
@@ -187,7 +189,7 @@ pub fn analysis(machine: &Machine, free: &[FreeDimension], rpm: Option<f64>) -> 
         speeds: rpm.map_or(Speeds::Any(()), Speeds::One),
         inputs,
         sections: vec![Section::new(KIND.command, &size).with_words(words(&disc, &size, place))],
-        measures: Vec::new(),
+        measures: outlier.into_iter().collect(),
         notes: machine.idle_key_notes(KIND.keys, KIND.noun),
         picture: Picture::Curves(plot(&disc, by_place.as_ref(), &by_size)),
         mechanism: None,

@@ -4,7 +4,7 @@ use super::{Body, milling};
 use crate::check::contact_stress::{self, ContactKind};
 use crate::check::continuity::RunMotion;
 use crate::check::{
-    Measures, Subject, continuity, curvature, cutter_radius, face_width, force_closure, noise, overshoot,
+    Measures, Subject, continuity, curvature, cutter_radius, face_width, force_closure, noise, outlier, overshoot,
     pivot_clearance, pressure_angle, size, wall,
 };
 use crate::geometry::MILLIMETRES;
@@ -108,6 +108,7 @@ pub trait Figures: Body {
         let lost = || super::curves_of(self).map_or_else(Vec::new, |curves| lost_motion(curves, &|at| self.place(at)));
         let roller = || self.roller_radius();
         of.add(&continuity::CHECK, |_| continuity::measure(&self.run_motions(), || self.smoother(), subject));
+        of.add(&outlier::CHECK, |_| outlier::measure(subject));
         of.add(&overshoot::CHECK, |written| overshoot::measure(written.tolerance_mm, subject));
         of.add(&noise::CHECK, |_| noise::measure(subject));
         of.add(&face_width::CHECK, |_| face_width::measure(subject));

@@ -5,7 +5,7 @@ use super::groove::{self, Groove};
 use super::{Kind, ProgramCams, barrel, conjugate, globoid, rib, wedge, yoke};
 use crate::document::cams;
 use crate::machine::Machine;
-use crate::motion::Motion;
+use crate::motion::{Motion, given};
 use crate::refusal::Refusal;
 use std::sync::Arc;
 
@@ -99,9 +99,13 @@ pub const MADE_WITH: &[&Kind] = &[&conjugate::COUNTER];
 /// Solves the body of a motion that a machine names.
 ///
 /// # Errors
-/// [`Refusal`] when there is no such cam.
+/// [`Refusal`] when there is no such cam, or a motion that code gives contradicts itself.
 pub fn of_motion(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<ProgramCams, Refusal> {
     let named = BODIES.iter().find(|body| body.kind.keys == machine.body());
     let body = named.ok_or_else(|| Refusal::new(format!("no body is called {}", machine.body())))?;
+    // What a file gives was checked where it was read.
+    if motion.program().is_none() {
+        given::check(&**motion)?;
+    }
     (body.solve)(machine, motion, rpm)
 }

@@ -13,6 +13,7 @@ pub mod guide;
 pub mod jump_speed;
 pub mod measure;
 pub mod noise;
+pub mod outlier;
 pub mod overshoot;
 pub mod pivot_clearance;
 pub mod pressure_angle;

@@ -1,10 +1,11 @@
 //! `camgen import`: an old cam as a design.
 
 use super::analyses::write_with;
-use super::args::{ImportArgs, ImportForm, LawOrSpline};
+use super::args::{ImportArgs, ImportAs, ImportForm, LawOrSpline};
 use super::cams::source_date;
 use super::{Failure, Outcome};
-use camgen::analysis::compare::measured;
+use camgen::Vector2;
+use camgen::analysis::compare::measured::{self, PointsOf, PointsStated};
 use camgen::analysis::import::{self, ImportOptions, ImportSource};
 use camgen::document::file::{bytes_of, table_text_of};
 use camgen::motion::program::rows::TableRows;
@@ -21,8 +22,8 @@ const LARGEST_TABLE: u64 = 16 << 20;
 pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
     let file = args.file.display().to_string();
     let name = args.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let options = options(args, name.clone())?;
-    let form = match args.from {
+    let mut options = options(args, name.clone())?;
+    let form = match form_said(args)? {
         Some(form) => form,
         // What says how a table is read is said of a table.
         None if of_table(args).iter().any(|(_, given)| *given) => ImportForm::Table,
@@ -39,8 +40,12 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
         }
         ImportForm::Points => {
             let text = table_text_of(&args.file, LARGEST_TABLE).map_err(|why| unread(&file, &why))?;
-            let points = measured::read(&text).map_err(|why| Failure(format!("`{file}`: {why}")))?;
-            ImportSource::Points(points, 1e3 * args.ball.radius().unwrap_or(0.0))
+            let mut stated = measured::stated(&text);
+            // Radii without headings are those that --as names.
+            stated.is_polar |= args.taken_as.is_some() && !stated.has_names;
+            let read = if stated.is_polar { measured::read_radii } else { measured::read };
+            let points = read(&text).map_err(|why| Failure(format!("`{file}`: {why}")))?;
+            ImportSource::Points(as_stated(points, args, &mut options, stated)?, 1e3 * args.ball.radius().unwrap_or(0.0))
         }
     };
     let analysis = import::analysis(&source, &options).map_err(|why| Failure(format!("`{file}`: {why}")))?;
@@ -56,6 +61,57 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
         ..Writing::to(&args.to.out, stem)
     };
     write_with(&judged, &args.report, &writing)
+}
+
+/// The form that flags say.
+fn form_said(args: &ImportArgs) -> Result<Option<ImportForm>, Failure> {
+    let by_as = args.taken_as.map(|taken| if taken == ImportAs::Lift { ImportForm::Table } else { ImportForm::Points });
+    let by_points = args.points_of.map(|_| ImportForm::Points);
+    let said: Vec<ImportForm> = [args.from, by_as, by_points].into_iter().flatten().collect();
+    if said.windows(2).any(|pair| pair.first() != pair.last()) {
+        return Err(Failure(
+            "--from, --as and --points-of contradict each other; --as lift is for a table, --as profile, --as pitch and --points-of for points".into(),
+        ));
+    }
+    Ok(said.first().copied())
+}
+
+/// Points as flags and their file state them: their curve, and angles of their own.
+fn as_stated(
+    points: Vec<Vector2<f64>>,
+    args: &ImportArgs,
+    options: &mut ImportOptions,
+    stated: PointsStated,
+) -> Result<Vec<Vector2<f64>>, Failure> {
+    let by_as = match args.taken_as {
+        Some(ImportAs::Profile) => Some(PointsOf::Profile),
+        Some(ImportAs::Pitch) => Some(PointsOf::Centre),
+        Some(ImportAs::Lift) | None => None,
+    };
+    if by_as.is_some() && args.points_of.is_some() && by_as != args.points_of {
+        return Err(Failure("--as and --points-of contradict each other; give one of them".into()));
+    }
+    options.points_of = by_as.or(args.points_of).or(stated.of);
+    if args.ball.is_some() && options.points_of == Some(PointsOf::Centre) {
+        return Err(Failure(
+            "--ball is the radius of a measuring ball, but the points are centres of the roller; leave one of them out"
+                .into(),
+        ));
+    }
+    if stated.is_polar && options.points_of.is_none() && args.ball.is_none() {
+        return Err(Failure(format!(
+            "`{}` has radii: whether of the profile or of the roller's centre is not stated; give --as profile or --as pitch",
+            args.file.display()
+        )));
+    }
+    options.has_angles = stated.is_polar;
+    if !stated.turns_back {
+        return Ok(points);
+    }
+    if !options.settings.iter().any(|key| key.trim_start().starts_with("cam.rotation")) {
+        options.settings.push("cam.rotation=ccw".into());
+    }
+    Ok(points.into_iter().map(|point| Vector2::new(point.x, -point.y)).collect())
 }
 
 fn unread(file: &str, why: &camgen::Refusal) -> Failure {
@@ -93,6 +149,8 @@ fn options(args: &ImportArgs, name: String) -> Result<ImportOptions, Failure> {
         deviation: args.deviation,
         rpm: args.rpm,
         fit: args.fit,
+        points_of: None,
+        has_angles: false,
     })
 }
 
@@ -183,7 +241,11 @@ fn table(args: &ImportArgs, options: &ImportOptions) -> Result<ImportSource, Fai
     let file = args.file.display().to_string();
     let of = |key: &str, value: &Option<String>| value.as_ref().map(|value| format!("motion.{key}={value}"));
     let table = &args.table;
-    let columns: Vec<String> = table.columns.iter().map(|name| format!("{:?}", name.trim())).collect();
+    let mut columns: Vec<String> = table.columns.iter().map(|name| format!("{:?}", name.trim())).collect();
+    // What is headed as radii is read as positions.
+    if columns.is_empty() && args.taken_as == Some(ImportAs::Lift) && table.step.is_none() {
+        columns = vec!["1".into(), "2".into()];
+    }
     let mut overrides = vec![format!("motion.table={file}")];
     overrides.extend((!columns.is_empty()).then(|| format!("motion.columns=[{}]", columns.join(", "))));
     let keys = [

@@ -37,6 +37,12 @@ impl FileRow {
         self.cells.len()
     }
 
+    /// Its line in the file, from 1 on.
+    #[must_use]
+    pub fn line(&self) -> usize {
+        self.line
+    }
+
     /// A cell as it was written, counted from 0; empty where the row ends before it.
     #[must_use]
     pub fn cell(&self, column: usize) -> &str {
@@ -65,6 +71,19 @@ impl FileRow {
     /// The two numbers of a row that has no other cells.
     fn pair(&self) -> Option<[f64; 2]> {
         if self.width() == 2 { self.number(0).zip(self.number(1)).map(|(a, b)| [a, b]) } else { None }
+    }
+
+    /// A heading between commas with a decimal comma, as `deg,lift 0,01 mm`: with its number in one cell where the rows have so many.
+    fn with_decimals_joined(&self, width: usize) -> Self {
+        let mut cells: Vec<String> = Vec::new();
+        for cell in &self.cells {
+            let digit = |letter: Option<char>| letter.is_some_and(|letter| letter.is_ascii_digit());
+            match cells.last_mut().filter(|before| digit(before.chars().last()) && digit(cell.chars().next())) {
+                Some(before) if self.width() > width => *before = format!("{before},{cell}"),
+                _ => cells.push(cell.clone()),
+            }
+        }
+        Self { cells, ..self.clone() }
     }
 
     fn canonical(&self) -> String {
@@ -234,6 +253,7 @@ fn headings(above: &[FileRow], rows: &[FileRow]) -> Vec<String> {
     let width = rows.iter().map(FileRow::width).max().unwrap_or(0);
     let mut headings = vec![String::new(); width];
     for row in above {
+        let row = &row.with_decimals_joined(width);
         if row.width() == width {
             for (heading, at) in headings.iter_mut().zip(0..) {
                 let joined = format!("{heading} {}", row.cell(at));

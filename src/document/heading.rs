@@ -1,5 +1,7 @@
 //! The unit that a heading of a column names: `angle (rad)`, `lift, mm`, `cam_deg`, `Crank angle [°]`.
 
+mod factor;
+
 use crate::units::{self, Dimension};
 
 /// What a heading says of the numbers below it.
@@ -27,8 +29,11 @@ pub enum UnclearHeading {
     #[error("names \"{0}\", which is no unit that is known")]
     Unknown(String),
     /// It names a multiple or a part of a unit.
-    #[error("has a factor beside the unit, \"{0}\"")]
+    #[error("has a factor, \"{0}\"")]
     Factor(String),
+    /// It names what an instrument counts, whose size is not known.
+    #[error("says \"{0}\", whose size is not known")]
+    Counts(String),
 }
 
 /// Words of headings and the unit that each means, where that is not a symbol of `units`.
@@ -87,7 +92,8 @@ const WORDS: &[(&str, &str)] = &[
 ];
 
 /// Units that are known but not read, so that a column in them is refused instead of taken for another one.
-const OTHERS: &[&str] = &["gon", "s", "ms", "sec", "dm", "ft", "µin", "rev", "rpm", "mm/deg", "mm/rad"];
+const OTHERS: &[&str] =
+    &["gon", "s", "ms", "sec", "dm", "ft", "µin", "rev", "rpm", "mm/deg", "mm/rad", "nm", "km", "‰"];
 
 /// What a bracket in a heading may say besides a unit.
 const DESCRIPTIONS: &[&str] = &[
@@ -116,17 +122,32 @@ const DESCRIPTIONS: &[&str] = &[
     "valve",
 ];
 
-/// Parts of a unit in words.
-const PARTS: &[&str] = &[
-    "tenth",
-    "tenths",
-    "hundredth",
-    "hundredths",
-    "thousandth",
-    "thousandths",
-    "zehntel",
-    "hundertstel",
-    "tausendstel",
+/// What instruments count: a position only with the size of one of them.
+const COUNTS: &[&str] = &[
+    "adc",
+    "bit",
+    "bits",
+    "count",
+    "counts",
+    "digit",
+    "digits",
+    "encoder",
+    "impulse",
+    "increment",
+    "increments",
+    "inkremente",
+    "lsb",
+    "mv",
+    "pulse",
+    "pulses",
+    "raw",
+    "step",
+    "steps",
+    "tick",
+    "ticks",
+    "v",
+    "volt",
+    "volts",
 ];
 
 /// Quantities that are not the position of a follower, as headings name them.
@@ -160,12 +181,15 @@ impl HeadingUnit {
     /// # Errors
     /// [`UnclearHeading`] where a bracket, or the word after `in`, is no unit that is known, or a factor stands beside the unit.
     pub fn read(heading: &str) -> Result<Option<Self>, UnclearHeading> {
-        if let Some(factor) = factor_in(heading) {
+        if let Some(factor) = factor::factor_in(heading) {
             return Err(UnclearHeading::Factor(factor));
         }
         let bracket = inside(heading);
         if let Some(unit) = bracket.and_then(Self::last_in).or_else(|| Self::last_in(heading)) {
             return Ok(Some(unit));
+        }
+        if let Some(counts) = words(heading).find(|word| COUNTS.contains(&word.to_lowercase().as_str())) {
+            return Err(UnclearHeading::Counts(counts.to_owned()));
         }
         let words: Vec<&str> = words(heading).collect();
         let after_in = words.iter().position(|word| word.eq_ignore_ascii_case("in")).and_then(|at| words.get(at + 1));
@@ -187,9 +211,14 @@ impl HeadingUnit {
             "m" | "in" | "In" => at == last,
             _ => word.chars().count() > 1 || words.len() == 1 || !word.chars().all(char::is_alphabetic),
         };
-        let found =
-            words.iter().enumerate().rev().find(|(at, word)| is_unit(*at, word) && Self::of_word(word).is_some());
-        found.and_then(|(_, word)| Self::of_word(word))
+        let mut found = words.iter().enumerate().rev().filter(|(at, word)| is_unit(*at, word));
+        found.find_map(|(_, word)| Self::of_word(word).or_else(|| Self::of_quotient(word)))
+    }
+
+    /// The unit behind the stroke of a quantity: `Hub/mm`.
+    fn of_quotient(word: &str) -> Option<Self> {
+        let (quantity, unit) = word.rsplit_once('/')?;
+        if Self::of_word(quantity).is_some() { None } else { Self::of_word(unit) }
     }
 
     /// The unit that a word is.
@@ -227,46 +256,8 @@ fn inside(heading: &str) -> Option<&str> {
 
 /// The words of a heading, and its numbers.
 fn words(text: &str) -> impl Iterator<Item = &str> {
-    let apart = |c: char| !(c.is_alphanumeric() || matches!(c, '°' | '%' | '"' | '\'' | '″' | '”' | '/'));
+    let apart = |c: char| !(c.is_alphanumeric() || matches!(c, '°' | '%' | '‰' | '"' | '\'' | '″' | '”' | '/'));
     text.split(apart).filter(|word| !word.is_empty())
-}
-
-/// A factor beside the unit of a heading: `1/100 mm`, `(0.01 mm)`, `mm x 100`, `mm/100`, hundredths.
-fn factor_in(heading: &str) -> Option<String> {
-    let parts: Vec<&str> =
-        heading.split(|c: char| c.is_whitespace() || "()[],;".contains(c)).filter(|part| !part.is_empty()).collect();
-    let is_unit = |part: &str| HeadingUnit::of_word(part).is_some_and(|_| part.chars().count() > 1 || part == "\"");
-    let is_number = |part: &str| {
-        part.chars().any(|c| c.is_ascii_digit()) && part.chars().all(|c| c.is_ascii_digit() || "+-./^*x×eE".contains(c))
-    };
-    // A whole number before a unit may be the number of a cam.
-    let is_factor =
-        |part: &str| is_number(part) && (part.contains(['/', '.', '^']) || matches!(part, "10" | "100" | "1000"));
-    for (at, part) in parts.iter().enumerate() {
-        let (before, after) = (at.checked_sub(1).and_then(|at| parts.get(at)), parts.get(at + 1));
-        let lower = part.to_lowercase();
-        if PARTS.contains(&lower.as_str()) {
-            return Some((*part).to_owned());
-        }
-        if let Some((unit, rest)) = part.split_once(['/', '*', '×'])
-            && is_unit(unit)
-            && is_number(rest)
-        {
-            return Some((*part).to_owned());
-        }
-        if let Some(before) = before.filter(|before| is_unit(part) && is_factor(before)) {
-            return Some(format!("{before} {part}"));
-        }
-        if let Some((after, number)) = after.zip(parts.get(at + 2))
-            && is_unit(part)
-            && matches!(*after, "x" | "X" | "*" | "×" | "/")
-            && is_number(number)
-        {
-            return Some(format!("{part} {after} {number}"));
-        }
-    }
-    let bracket = inside(heading).map(str::trim).filter(|text| is_factor(text));
-    bracket.map(str::to_owned)
 }
 
 /// The word of a heading that says that the column has no positions: a velocity, an acceleration or a force.
@@ -275,6 +266,16 @@ pub fn derivative_in(heading: &str) -> Option<&'static str> {
     let lower = heading.to_lowercase();
     let found = words(&lower).find_map(|word| DERIVATIVES.iter().find(|name| **name == word));
     found.copied()
+}
+
+/// Whether a heading names radii, which are no lift: they are that of the profile, or of the path of a roller's centre.
+#[must_use]
+pub fn is_radius(heading: &str) -> bool {
+    const RADII: &[&str] = &["radius", "radii", "radial", "radien", "r", "rho", "halbmesser", "rayon", "raggio"];
+    const LIFTS: &[&str] = &["lift", "position", "travel", "stroke", "rise", "displacement", "hub", "weg"];
+    let lower = heading.to_lowercase();
+    let has = |names: &[&str]| words(&lower).any(|word| names.contains(&word));
+    has(RADII) && !has(LIFTS)
 }
 
 /// Whether a heading speaks of the angle of a crank: `crank deg`, `Crank Angle`, `°CA`.
@@ -288,6 +289,61 @@ pub fn is_of_crank(heading: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Headings whose numbers are multiples or parts of a unit.
+    const FACTORS: &[&str] = &[
+        "lift 1/100 mm",
+        "lift mm x 100",
+        "lift (0.01 mm)",
+        "lift (10^-2 mm)",
+        "lift mm/100",
+        "lift (hundredths)",
+        "lift (in x 10)",
+        "lift 1/1000 in",
+        "lift mm (1/100)",
+        "lift, thousandths of an inch",
+        "angle (0.1 deg)",
+        "lift .001in",
+        "lift (0.001in)",
+        "lift 0,01mm",
+        "lift 1/100mm",
+        "lift 10µm",
+        "lift mm x 0,01",
+        "lift x 0,01",
+        "lift mm *1000",
+        "lift*1000",
+        "lift e-3 in",
+        "lift (E-3 in)",
+        "lift 10⁻³ mm",
+        "lift 1e-3 in",
+        "lift mm·10",
+        "lift 10-2 mm",
+        "lift (mm) x10",
+        "lift ÷ 100",
+        "lift 1:100 mm",
+        "lift in/1000",
+        "lift mm (factor 2)",
+        "lift mm scaled",
+        "lift 0.001\"",
+        "lift .01 mm",
+        "lift (1/1000\")",
+        "lift 1000ths",
+        "lift in 1/1000 inch",
+        "lift 5 µm",
+        "lift 1mm",
+        "lift 64ths in",
+        "lift 10 thou",
+        "lift mm e-2",
+        "lift (x100) mm",
+        "lift inch*1e3",
+        "lift_mm_x10",
+        "angle 10°",
+        "angle deg*10",
+        "Hub 0,001 Zoll",
+        "lift (8 mm)",
+    ];
+    const COUNTED: &[&str] =
+        &["counts", "lift (pulses)", "encoder", "raw", "ADC", "lift raw", "lift [counts]", "lift in counts"];
 
     #[test]
     fn the_unit_of_a_heading_is_found() {
@@ -322,6 +378,10 @@ mod tests {
             ("valve 2 mm", "mm"),
             ("x (intake) mm", "mm"),
             ("angle (cam) deg", "deg"),
+            ("Hub/mm", "mm"),
+            ("s / mm", "mm"),
+            ("lift ‰", "‰"),
+            ("lift nm", "nm"),
         ] {
             assert_eq!(
                 HeadingUnit::read(heading).map(|unit| unit.map(HeadingUnit::symbol)),
@@ -329,31 +389,41 @@ mod tests {
                 "{heading}"
             );
         }
+    }
+
+    #[test]
+    fn headings_that_cannot_be_read_are_refused() {
         for (heading, unknown) in
             [("lift (furlong)", "furlong"), ("lift in furlongs", "furlongs"), ("Hub [Elle]", "Elle")]
         {
             assert_eq!(HeadingUnit::read(heading), Err(UnclearHeading::Unknown(unknown.to_owned())), "{heading}");
         }
-        for heading in [
-            "lift 1/100 mm",
-            "lift mm x 100",
-            "lift (0.01 mm)",
-            "lift (10^-2 mm)",
-            "lift mm/100",
-            "lift (hundredths)",
-            "lift (in x 10)",
-            "lift 1/1000 in",
-            "lift mm (1/100)",
-            "lift, thousandths of an inch",
-            "angle (0.1 deg)",
-        ] {
+        for heading in FACTORS {
             assert!(matches!(HeadingUnit::read(heading), Err(UnclearHeading::Factor(_))), "{heading}");
+        }
+        for heading in COUNTED {
+            assert!(matches!(HeadingUnit::read(heading), Err(UnclearHeading::Counts(_))), "{heading}");
+        }
+        for (heading, symbol) in
+            [("lift raw (mm)", "mm"), ("raw lift mm", "mm"), ("lift 2 mm", "mm"), ("lift of 1998, mm", "mm")]
+        {
+            assert_eq!(
+                HeadingUnit::read(heading).map(|unit| unit.map(HeadingUnit::symbol)),
+                Ok(Some(symbol)),
+                "{heading}"
+            );
         }
         assert_eq!(derivative_in("Velocity"), Some("velocity"));
         assert_eq!(derivative_in("lift"), None);
         for heading in ["angle", "lift", "s", "x (intake)", "Opens at", "lift L1", "lift (cam 3)"] {
             assert!(HeadingUnit::of(heading).is_none_or(|unit| heading == "s" && unit.symbol() == "s"), "{heading}");
         }
+        assert!(
+            is_radius("radius_mm")
+                && is_radius("R [mm]")
+                && is_radius("pitch radius")
+                && !is_radius("lift (roller radius 20)")
+        );
         assert!(is_of_crank("crank deg") && is_of_crank("°CA") && !is_of_crank("cam deg"));
     }
 }

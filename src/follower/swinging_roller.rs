@@ -210,8 +210,8 @@ mod tests {
         let swing = 20.0_f64.to_radians();
         let deg = |degrees: f64| degrees.to_radians();
         let segments =
-            [(rise, deg(120.0), swing), (None, deg(30.0), 0.0), (rise, deg(150.0), 0.0), (None, deg(60.0), 0.0)];
-        let program = Program::new(Quantity::Angle, 0.0, &segments);
+            [(rise, deg(120.0), swing), (None, deg(30.0), swing), (rise, deg(150.0), 0.0), (None, deg(60.0), 0.0)];
+        let program = Program::new(Quantity::Angle, 0.0, &segments).expect("a program");
         let leading = SwingingRoller {
             arm: 0.11,
             pivot_distance: 0.14,

@@ -104,6 +104,7 @@ fn up_and_down(quantity: Quantity, top: f64) -> Program {
     let segments =
         [(named("modified-sine"), 120.0, top), (None, 30.0, top), (named("3-4-5"), 150.0, 0.0), (None, 60.0, 0.0)];
     Program::new(quantity, 0.0, &segments.map(|(law, over, to): (_, f64, f64)| (law, over.to_radians(), to)))
+        .expect("a program")
 }
 
 fn lifting() -> Program {

@@ -119,8 +119,9 @@ fn the_motions_of_the_core_keep_the_contract() {
     // Laws that are analytic on each of their pieces, as the differences ask.
     for name in ["cycloidal", "s-curve", "parabola-line"] {
         let law = laws::named(name);
-        let segments = [(law, 2.0, 1e-4), (None, 1.0, 0.0), (law, 3.0, 0.0), (None, 0.0, 0.0)];
-        motions.push((name.into(), Box::new(program::Program::new(Quantity::Length, 0.0, &segments))));
+        let segments = [(law, 2.0, 1e-4), (None, 1.0, 1e-4), (law, 3.0, 0.0), (None, 0.0, 0.0)];
+        motions
+            .push((name.into(), Box::new(program::Program::new(Quantity::Length, 0.0, &segments).expect("a program"))));
     }
     kept_by(&motions);
 }

@@ -6,6 +6,7 @@
 pub mod counter_torque;
 mod eccentric;
 pub mod formula;
+pub mod given;
 pub mod jump;
 pub mod laws;
 mod named_stretch;

@@ -56,11 +56,11 @@ mod tests {
     fn stretches_cover_the_range_and_are_named() {
         let segments = [
             (laws::named("parabola"), 1.5, 0.02),
-            (None, 1.0, 0.0),
+            (None, 1.0, 0.02),
             (laws::named("3-4-5"), 2.0, 0.0),
             (None, 0.0, 0.0),
         ];
-        let program = Program::new(Quantity::Length, 0.0, &segments);
+        let program = Program::new(Quantity::Length, 0.0, &segments).expect("a program");
         let named =
             |stretches: Vec<NamedStretch>| stretches.into_iter().map(|stretch| stretch.name).collect::<Vec<_>>();
         assert_eq!(named(by_lift(&program)), ["rise", "dwell", "return", "dwell"]);

@@ -16,6 +16,7 @@ pub mod least_jerk;
 pub mod least_peak;
 pub mod legendre;
 pub mod linear;
+pub mod outlier;
 pub mod parallel;
 pub mod quadrature;
 pub mod root;

@@ -87,7 +87,8 @@ impl Spec {
     /// use camgen::{Program, Quantity, Spec, law};
     /// use std::f64::consts::PI;
     ///
-    /// let motion = Program::new(Quantity::Length, 0.0, &[(law("cycloidal"), PI, 0.010), (law("3-4-5"), PI, 0.0)]);
+    /// let (up, down) = (Some(law("cycloidal")?), Some(law("3-4-5")?));
+    /// let motion = Program::new(Quantity::Length, 0.0, &[(up, PI, 0.010), (down, PI, 0.0)])?;
     /// let spec = Spec::builder("pusher").roller(0.010).bore_radius(0.008).motion(motion)?;
     /// assert_eq!(spec.machine().name(), "pusher");
     /// # Ok::<(), camgen::Error>(())

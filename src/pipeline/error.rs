@@ -11,6 +11,9 @@ pub enum Error {
     /// The machine file has faults; all of them are reported.
     #[error(transparent)]
     Machine(#[from] MachineError),
+    /// A motion that code gives cannot be made, or is none.
+    #[error(transparent)]
+    Motion(#[from] Refusal),
     /// No cam can be solved.
     #[error(transparent)]
     Solve(Refusal),

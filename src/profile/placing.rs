@@ -178,11 +178,11 @@ mod tests {
         let deg = |degrees: f64| degrees.to_radians();
         let segments = [
             (named("modified-sine"), deg(120.0), lift),
-            (None, deg(30.0), 0.0),
+            (None, deg(30.0), lift),
             (named("3-4-5"), deg(150.0), 0.0),
             (None, deg(60.0), 0.0),
         ];
-        Program::new(quantity, 0.0, &segments)
+        Program::new(quantity, 0.0, &segments).expect("a program")
     }
 
     fn near(found: f64, exact: f64) {

@@ -11,7 +11,7 @@ use crate::body::disc::residual_vibration;
 use crate::body::globoid::measures as globoid;
 use crate::body::{flank_switch, roller_bearing};
 use crate::check::{
-    contact_stress, continuity, curvature, cutter_radius, face_width, force_closure, guide, jump_speed, noise,
+    contact_stress, continuity, curvature, cutter_radius, face_width, force_closure, guide, jump_speed, noise, outlier,
     overshoot, pivot_clearance, pressure_angle, size, wall,
 };
 
@@ -30,6 +30,7 @@ pub const CHECKS: &[CheckEntry] = &[
     File(&solid::VOLUME),
     File(&solid::HOLES),
     Figure(&continuity::CHECK),
+    Figure(&outlier::CHECK),
     Figure(&overshoot::CHECK),
     Figure(&noise::CHECK),
     Figure(&pressure_angle::CHECK),

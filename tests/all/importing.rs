@@ -299,3 +299,112 @@ fn no_law_is_looked_for_in_noise() {
     let run = import(rows.as_bytes(), &words(&["--law", "cycloidal"]));
     assert!(run.code == 2 && run.err.contains("rises and returns: laws are looked for in at most 100"), "{}", run.err);
 }
+
+/// A harmonic cam by angle and radius, degrees and mm, whose first rise begins at 30 degrees: of its profile under a knife, or of the pitch curve of a
+/// roller of 20 mm.
+fn polar(head: &str, base: f64) -> String {
+    let row = |degree: u32| {
+        let angle = f64::from(degree);
+        let up = |share: f64| share - (std::f64::consts::TAU * share).sin() / std::f64::consts::TAU;
+        let lift = 20.0
+            * if angle < 150.0 {
+                up(((angle - 30.0) / 120.0).clamp(0.0, 1.0))
+            } else {
+                up(((330.0 - angle) / 120.0).clamp(0.0, 1.0))
+            };
+        format!("{angle},{:.5}\n", base + lift)
+    };
+    std::iter::once(head.to_owned()).chain((0..360).map(row)).collect()
+}
+
+fn base_radius(run: &Run) -> f64 {
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    number(&report(run)["import"]["base_radius_mm"])
+}
+
+#[test]
+fn radii_are_asked_for_and_give_the_base_radius() {
+    let roller = ["--follower", "roller,diameter=40mm", "--json", "--dry-run"];
+    let of = |text: &str, more: &[&str]| import(text.as_bytes(), &[&roller[..], more].concat());
+    let pitch = polar("angle,radius\n", 80.0);
+    let asked = of(&pitch, &[]);
+    assert!(asked.code == 2 && asked.err.contains("--as profile or --as pitch"), "{}", asked.err);
+    let table = of(&pitch, &["--from", "table"]);
+    assert!(table.code == 2 && table.err.contains("has radii"), "{}", table.err);
+    for more in [&["--as", "pitch"][..], &["--points-of", "centre"]] {
+        let run = of(&pitch, more);
+        assert!((base_radius(&run) - 60.0).abs() < 1e-3, "{}", run.out);
+        assert_eq!(number(&report(&run)["import"]["turn_deg"]), 0.0);
+    }
+    assert!((base_radius(&of(&polar("angle,pitch radius\n", 80.0), &[])) - 60.0).abs() < 1e-3);
+    assert!((base_radius(&of(&polar("", 80.0), &["--as", "pitch"])) - 60.0).abs() < 1e-3);
+    let head = "# given: path of the centre of the roller, radius 20 mm\ncam_deg,radius_mm\n";
+    assert!((base_radius(&of(&polar(head, 80.0), &[])) - 60.0).abs() < 1e-3);
+    let knife = ["--follower", "knife", "--json", "--dry-run", "--as", "profile"];
+    assert!((base_radius(&import(pitch.as_bytes(), &knife)) - 80.0).abs() < 1e-3);
+    let lift = of(&pitch, &["--as", "lift"]);
+    assert!(lift.code == 0 && lift.out.contains("80"), "{}{}", lift.out, lift.err);
+    for more in [
+        &["--as", "lift", "--points-of", "centre"][..],
+        &["--as", "pitch", "--from", "table"],
+        &["--as", "pitch", "--ball", "1mm"],
+    ] {
+        assert_eq!(of(&pitch, more).code, 2, "{more:?}");
+    }
+}
+
+/// What lies at an angle of its own stays there; of other points the design states by how much they were turned.
+#[test]
+fn the_design_states_by_how_much_it_was_turned() {
+    let plane = points("x,y", plain);
+    let knife = ["--follower", "knife", "--json", "--dry-run"];
+    let turned = report(&import(plane.as_bytes(), &knife));
+    let turn = number(&turned["import"]["turn_deg"]);
+    let design = turned["import"]["design"].as_str().expect("a design").to_owned();
+    assert_eq!(turn.abs() > 1e-4, design.contains("# turned by"), "{design}");
+    let late = points("x,y", |_, x, y| format!("{:.5},{:.5}", 0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y));
+    let design = report(&import(late.as_bytes(), &knife))["import"]["design"].as_str().expect("a design").to_owned();
+    assert!(design.contains("# turned by -36.8"), "{design}");
+    let keyed = [
+        &knife[..],
+        &["--set", "cam.bore_diameter=20mm", "--set", "cam.keyway.width=6mm", "--set", "cam.keyway.depth=2.8mm"],
+    ]
+    .concat();
+    assert_eq!(number(&report(&import(plane.as_bytes(), &keyed))["import"]["turn_deg"]), 0.0);
+}
+
+/// Points of the mirror image and in another unit are no measurement of this cam.
+#[test]
+fn compare_refuses_points_in_another_frame() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let place = |head: &str, of: &dyn Fn(f64, f64) -> (f64, f64)| {
+        let row = |degree: u32| {
+            let angle = f64::from(degree).to_radians();
+            let radius = 45.0 + lift(degree);
+            let (x, y) = of(radius * angle.cos(), radius * angle.sin());
+            format!("{x},{y}\n")
+        };
+        std::iter::once(head.to_owned()).chain((0..360).map(row)).collect::<String>()
+    };
+    let design = import(
+        place("x,y\n", &|x, y| (x, y)).as_bytes(),
+        &["--follower", "knife", "--fit", "none", "--json", "--dry-run"],
+    );
+    let design = report(&design)["import"]["design"].as_str().expect("a design").to_owned();
+    std::fs::write(directory.path().join("cam.toml"), design).expect("written");
+    let compared = |text: String| {
+        let own = tempfile::tempdir().expect("a directory");
+        std::fs::write(own.path().join("points.csv"), text).expect("written");
+        std::fs::copy(directory.path().join("cam.toml"), own.path().join("cam.toml")).expect("copied");
+        camgen_in(own, &["compare", "points.csv", "cam.toml", "--dry-run"])
+    };
+    assert_eq!(compared(place("x,y\n", &|x, y| (x, y))).code, 0);
+    for (text, part) in [
+        (place("x,y\n", &|x, y| (x, -y)), "the mirror image of this cam"),
+        (place("x,y\n", &|x, y| (x / 25.4, y / 25.4)), "this cam in inches"),
+        (place("x_in,y_in\n", &|x, y| (x, y)), "in millimetres, read as inches"),
+    ] {
+        let run = compared(text);
+        assert!(run.code == 2 && run.err.contains(part), "{part}: {}{}", run.out, run.err);
+    }
+}

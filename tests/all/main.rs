@@ -26,6 +26,7 @@ mod cli_kinds;
 mod conjugate;
 mod diagnosis;
 mod diagram;
+mod entry_points;
 mod examples;
 mod faults;
 mod felt;

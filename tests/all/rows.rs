@@ -499,3 +499,80 @@ fn points_of_a_lobe_only_are_refused_or_rest() {
     let (low, high) = range(&rested);
     assert!(low > -0.08 && high < 8.1, "{low} {high}");
 }
+
+/// Rows of a lobe by 3-4-5 with a dwell, at so many places of a turn, in mm with four decimals; one of them off.
+fn lobe(count: u32, wrong: Option<(u32, f64)>) -> String {
+    let row = |index: u32| {
+        let degree = 360.0 * f64::from(index) / f64::from(count);
+        let rise =
+            if degree < 100.0 { of_345(degree / 100.0) } else { of_345(((260.0 - degree) / 100.0).clamp(0.0, 1.0)) };
+        let off = wrong.filter(|(at, _)| *at == index).map_or(0.0, |(_, off)| off);
+        format!("{degree},{:.4}\n", 8.0 * rise + off)
+    };
+    (0..count).map(row).collect()
+}
+
+/// One row off its neighbours fails with its number and its line, however the rows are smoothed; correct rows pass.
+#[test]
+fn a_wrong_row_fails_with_its_number_and_line() {
+    for (count, keys) in [(360, ""), (360, "smooth = \"auto\""), (180, ""), (120, ""), (90, "shape = \"monotonic\"")] {
+        let correct = made(&of_table(keys, &lobe(count, None)));
+        assert_eq!(finding(&correct, "outlier")["verdict"], "pass", "{count}");
+        for (row, off) in [(count / 12, 0.05), (count / 3, -0.05), (count - 3, 0.05)] {
+            let run = of_table(keys, &lobe(count, Some((row, off))));
+            assert_eq!(run.code, 1, "{count} {row}: {}{}", run.out, run.err);
+            let report = report(&run);
+            let found = finding(&report, "outlier");
+            assert_eq!(found["verdict"], "fail", "{count} {row}");
+            let note = found["note"].as_str().expect("a note");
+            assert!(note.contains(&format!("row {} (line {} of the file)", row + 1, row + 1)), "{count} {row}: {note}");
+        }
+    }
+    let directory = tempfile::tempdir().expect("a directory");
+    fs::write(directory.path().join("lift.csv"), lobe(360, Some((31, 0.1)))).expect("written");
+    fs::write(directory.path().join("cam.toml"), design("table = \"lift.csv\"")).expect("written");
+    let run = camgen_in(directory, &["size", "cam.toml", "--dry-run"]);
+    assert!(run.code == 1 && run.out.contains("row 32"), "{}{}", run.out, run.err);
+}
+
+#[test]
+fn at_moves_rows_and_points() {
+    let position = |keys: &str, rows: &str| {
+        let report = made(&run(&design(keys), ("lift.csv", rows)));
+        number(&report["motion"]["segments"][0]["from_deg"])
+    };
+    let rows = "30,0\n90,5\n180,8\n270,5\n";
+    let points =
+        "points = [[\"30 deg\", \"0 mm\"], [\"90 deg\", \"5 mm\"], [\"180 deg\", \"8 mm\"], [\"270 deg\", \"5 mm\"]]";
+    for (keys, rows) in [("table = \"lift.csv\"", rows), (points, "")] {
+        assert_eq!(position(keys, rows), 30.0);
+        assert_eq!(position(&format!("{keys}\nat = \"50 deg\""), rows), 80.0);
+        assert_eq!(position(&format!("{keys}\nat = \"-20 deg\""), rows), 10.0);
+    }
+}
+
+#[test]
+fn headings_with_factors_counts_or_radii_are_refused() {
+    let rows = "0;0\n90;5\n180;8\n270;5\n";
+    let with = |heading: &str| format!("deg;{heading}\n{rows}");
+    for heading in
+        ["lift .001in", "lift (0,01mm)", "lift 1/100mm", "lift 10µm", "lift x 0,01", "lift*1000", "lift e-3 in"]
+    {
+        refused(&of_table("", &with(heading)), &["has a factor", "scale"]);
+        let scaled = made(&of_table("scale = 0.01\nunit = \"mm\"", &with(heading)));
+        assert!((range(&scaled).1 - 0.08).abs() < 1e-9, "{heading}");
+    }
+    for heading in ["counts", "pulses", "raw", "ADC"] {
+        refused(&of_table("", &with(heading)), &["whose size is not known", "scale"]);
+    }
+    refused(&of_table("", &with("radius mm")), &["has radii", "--as pitch"]);
+    // Between commas a decimal comma cuts a heading in two.
+    refused(&of_table("", "deg,lift 0,01mm\n0,0\n90,5\n180,8\n270,5\n"), &["has a factor"]);
+}
+
+#[test]
+fn columns_that_are_not_read_are_named() {
+    let report = made(&of_table("", "deg,opening mm,closing mm\n0,0,0\n90,5,4\n180,8,8\n270,5,4\n"));
+    let read = report["motion"]["rows"]["read"].to_string();
+    assert!(read.contains("column 3 (\\\"closing mm\\\")") && read.contains("not read"), "{read}");
+}

@@ -72,9 +72,10 @@ fn the_first_page_has_the_whole_pipeline() {
 
 /// Up and down with rests.
 fn motion(quantity: Quantity, travel: f64) -> Program {
-    let up = law("modified-sine");
+    let up = law("modified-sine").ok();
     let (third, sixth) = (2.0 * PI / 3.0, PI / 3.0);
     Program::new(quantity, 0.0, &[(up, third, travel), (None, sixth, travel), (up, third, 0.0), (None, sixth, 0.0)])
+        .expect("a program")
 }
 
 fn proved(builder: Builder, motion: Program) {

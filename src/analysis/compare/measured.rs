@@ -1,6 +1,6 @@
 //! Points measured on a cam, from a table: x and y, or angle and radius.
 
-use crate::document::parts;
+use crate::document::{NamedChoice, is_radius, parts};
 use crate::refusal::Refusal;
 use nalgebra::Vector2;
 
@@ -23,6 +23,64 @@ enum PointColumns {
     Polar([(usize, f64); 2]),
 }
 
+/// On which curve points lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PointsOf {
+    /// The profile.
+    Profile,
+    /// The path of the roller's centre.
+    Centre,
+}
+
+impl NamedChoice for PointsOf {
+    const ALL: &'static [(&'static str, Self)] =
+        &[("profile", Self::Profile), ("centre", Self::Centre), ("center", Self::Centre)];
+}
+
+/// What a table of points says of itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct PointsStated {
+    /// It has headings.
+    pub has_names: bool,
+    /// It has angles and radii.
+    pub is_polar: bool,
+    /// On which curve they lie, by the heading of the radius or by the head of a file of camgen.
+    pub of: Option<PointsOf>,
+    /// The cam turns counter-clockwise, by that head, and angles are against its rotation.
+    pub turns_back: bool,
+}
+
+/// What a table of points says of itself in its headings, and in its head where camgen wrote it.
+#[must_use]
+pub fn stated(text: &str) -> PointsStated {
+    let text = text.trim_start_matches('\u{feff}');
+    let head = |key: &str| text.lines().find_map(|line| line.strip_prefix('#')?.trim().strip_prefix(key));
+    let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let first: Vec<(usize, &str)> = lines().take(1).map(|line| (1, line)).collect();
+    let names: Vec<String> = first
+        .first()
+        .map_or_else(Vec::new, |(_, line)| split(line, separator_of(&first)).into_iter().map(str::to_owned).collect());
+    let is_polar = matches!(named(&names), Ok(PointColumns::Polar(_)));
+    let has_names = names.iter().any(|name| number(name).is_none());
+    let by_heading = names.iter().filter(|name| is_radius(name)).find_map(|name| of_words(name));
+    let of = head("given:").and_then(of_words).or(by_heading);
+    let turns_back = is_polar && head("rotation:").is_some_and(|rotation| rotation.contains("counter-clockwise"));
+    PointsStated { has_names, is_polar, of, turns_back }
+}
+
+/// The curve that words name.
+fn of_words(text: &str) -> Option<PointsOf> {
+    let lower = text.to_lowercase();
+    let has = |words: &[&str]| words.iter().any(|word| lower.contains(word));
+    if has(&["cutter", "wheel"]) {
+        None
+    } else if has(&["centre", "center", "pitch", "roller", "mittelpunkt"]) {
+        Some(PointsOf::Centre)
+    } else {
+        has(&["profile", "profil", "contour", "kontur", "surface"]).then_some(PointsOf::Profile)
+    }
+}
+
 /// The points of a table, mm, with the line of each.
 ///
 /// Columns are separated by semicolons, tabs, commas or blanks; with semicolons or tabs a number may have a decimal comma. A line of names says which
@@ -33,6 +91,18 @@ enum PointColumns {
 /// # Errors
 /// [`Refusal`] with the line of the first cell that is no number, or when there are too few points or too many.
 pub fn read(text: &str) -> Result<Vec<Vector2<f64>>, Refusal> {
+    read_rows(text, false)
+}
+
+/// The points of a table whose first two columns are angles in degrees and radii in millimetres, or as its headings say.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_radii(text: &str) -> Result<Vec<Vector2<f64>>, Refusal> {
+    read_rows(text, true)
+}
+
+fn read_rows(text: &str, radii: bool) -> Result<Vec<Vector2<f64>>, Refusal> {
     // The mark that some programs put before UTF-8.
     let text = text.trim_start_matches('\u{feff}');
     let lines = text.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
@@ -50,6 +120,7 @@ pub fn read(text: &str) -> Result<Vec<Vector2<f64>>, Refusal> {
     }
     let columns = match &names {
         Some(names) => named(names)?,
+        None if radii => PointColumns::Polar([(0, 1.0_f64.to_radians()), (1, 1.0)]),
         None => PointColumns::Plane(if counts(rows, separator) { [(1, 1.0), (2, 1.0)] } else { [(0, 1.0), (1, 1.0)] }),
     };
     let points = rows.iter().map(|(line, text)| point(&cells(text), columns, *line));
@@ -132,8 +203,14 @@ fn named(names: &[String]) -> Result<PointColumns, Refusal> {
     if let (Some(x), Some(y)) = (find(&["x"], length)?, find(&["y"], length)?) {
         return Ok(PointColumns::Plane([x, y]));
     }
-    let at = find(&["angle", "polar", "phi", "psi"], angle)?;
-    if let (Some(at), Some(radius)) = (at, find(&["radius", "r"], length)?) {
+    let at = find(&["angle", "polar", "phi", "psi", "theta", "winkel", "cam", "deg"], angle)?;
+    let radius = match find(&["radius", "r"], length)? {
+        None => {
+            find(&["pitch", "profile", "profil", "roller", "centre", "center", "contour", "radial", "rho"], length)?
+        }
+        found => found,
+    };
+    if let (Some(at), Some(radius)) = (at, radius) {
         return Ok(PointColumns::Polar([at, radius]));
     }
     let shown: Vec<&str> = names.iter().map(String::as_str).take(8).collect();
@@ -153,7 +230,9 @@ fn column(plain: &[String], words: &[&str], units: &[(&str, f64)]) -> Result<Opt
         if !parts.next().is_some_and(|first| words.contains(&first)) {
             continue;
         }
-        let rest: Vec<&str> = parts.filter(|part| !MEASURED_WORDS.contains(part)).collect();
+        let rest: Vec<&str> = parts
+            .filter(|part| !MEASURED_WORDS.contains(part) && !["radius", "angle", "polar"].contains(part))
+            .collect();
         let unit = match rest.as_slice() {
             [] => units.first().map(|(_, size)| *size),
             [unit] => units.iter().find(|(word, _)| word == unit).map(|(_, size)| *size),

@@ -110,6 +110,7 @@ pub fn analysis(
     };
     let exact = ExactProfile::new(cut, MILLIMETRES * options.ball).map_err(Refusal::of)?.ok_or_else(no_profile)?;
     let moved = exact.fitted(points, options.fit);
+    refuse_other_frame(&exact, points, &moved)?;
     let rows = rows(&exact, points, &moved);
     if rows.is_empty() {
         return Err(
@@ -144,6 +145,83 @@ pub fn analysis(
         not_modelled: Vec::new(),
         sections: vec![section],
     })
+}
+
+/// Root mean square above which points may be in another frame, mm, and by how much it must then be smaller.
+const OFF: f64 = 0.02;
+const BETTER: f64 = 0.2;
+/// Points that are looked at.
+const LOOKED: usize = 720;
+/// Millimetres in an inch.
+const INCH: f64 = 25.4;
+
+/// A frame in which points may be by mistake.
+struct OtherFrame {
+    /// Factors of x and y.
+    by: Vector2<f64>,
+    what: &'static str,
+    remedy: &'static str,
+}
+
+const OTHER_FRAMES: [OtherFrame; 5] = [
+    OtherFrame {
+        by: Vector2::new(1.0, -1.0),
+        what: "the mirror image of this cam",
+        remedy: "negate y of the points, or set cam.rotation to the other direction in the file",
+    },
+    OtherFrame {
+        by: Vector2::new(INCH, INCH),
+        what: "this cam in inches",
+        remedy: "name the columns x_in and y_in, or angle_deg and radius_in",
+    },
+    OtherFrame {
+        by: Vector2::new(INCH, -INCH),
+        what: "the mirror image of this cam in inches",
+        remedy: "name the columns x_in and y_in, and negate y of the points",
+    },
+    OtherFrame {
+        by: Vector2::new(1.0 / INCH, 1.0 / INCH),
+        what: "this cam in millimetres, read as inches",
+        remedy: "name the columns x_mm and y_mm, or angle_deg and radius_mm",
+    },
+    OtherFrame {
+        by: Vector2::new(1.0 / INCH, -1.0 / INCH),
+        what: "the mirror image of this cam in millimetres, read as inches",
+        remedy: "name the columns x_mm and y_mm, and negate y of the points",
+    },
+];
+
+/// Refuses points that are those of the cam in another unit, or of its mirror image.
+fn refuse_other_frame(exact: &ExactProfile<'_>, points: &[Vector2<f64>], moved: &MeasuredMove) -> Result<(), Refusal> {
+    let every = points.len().div_ceil(LOOKED).max(1);
+    let looked: Vec<Vector2<f64>> = points.iter().step_by(every).copied().collect();
+    let found = rms(exact, &looked, moved);
+    if found <= OFF {
+        return Ok(());
+    }
+    for frame in &OTHER_FRAMES {
+        let other: Vec<Vector2<f64>> = looked.iter().map(|point| point.component_mul(&frame.by)).collect();
+        let best = rms(exact, &other, &exact.fitted(&other, ComparisonFit::Angle));
+        if best < BETTER * found {
+            let what = format!(
+                "the points are {}: they are {} mm rms off it, and {} mm as they are read",
+                frame.what,
+                shown(best),
+                shown(found)
+            );
+            return Err(Refusal::new(what).remedy(frame.remedy));
+        }
+    }
+    Ok(())
+}
+
+/// Root mean square of the deviations of moved points, mm; of a point that has no foot on the profile its radius.
+fn rms(exact: &ExactProfile<'_>, points: &[Vector2<f64>], moved: &MeasuredMove) -> f64 {
+    let off = |point: &Vector2<f64>| exact.place(moved.of(*point)).map_or(point.norm(), |place| place.deviation);
+    let squares: f64 = points.iter().map(|point| off(point).powi(2)).sum();
+    #[expect(clippy::cast_precision_loss, reason = "few points")]
+    let count = points.len().max(1) as f64;
+    (squares / count).sqrt()
 }
 
 /// The note on points that leave a part of the turn out.

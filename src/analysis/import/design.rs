@@ -12,6 +12,8 @@ use std::fmt::Write;
 
 /// Digits behind the point of angles in degrees and of positions in mm or degrees.
 const DIGITS: usize = 6;
+/// A turn below this is none, rad.
+const NOT_TURNED: f64 = 1e-6;
 /// Positions in a comment are that precise: four digits.
 const LISTED: usize = 3;
 
@@ -26,6 +28,8 @@ pub(super) struct Design<'a> {
     pub(super) settings: &'a [(String, String)],
     /// m or rad.
     pub(super) deviation: f64,
+    /// By how much the cam was turned, rad.
+    pub(super) turn: f64,
 }
 
 /// A number without trailing zeros.
@@ -69,6 +73,16 @@ impl Design<'_> {
         let position = |value: f64| format!("{} {unit}", number(value / size));
         let source: String = self.source.chars().filter(|c| !c.is_control()).collect();
         let _ = writeln!(text, "# imported from {source}");
+        let turn = libm::remainder(self.turn, TAU);
+        if turn.abs() > NOT_TURNED {
+            let back = degrees(-turn);
+            let _ = writeln!(
+                text,
+                "# turned by {} against its file, so that the first rise begins at 0 deg: what is at an angle there, as a keyway, is turned \
+                 with it; at = \"{back}\" turns it back, and so does --fit none",
+                degrees(turn)
+            );
+        }
         let _ = writeln!(text, "name = {}", quoted(self.name));
         let lines = tables(self.settings);
         text.push_str(lines.first().map_or("", |(_, lines)| lines));

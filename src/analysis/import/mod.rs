@@ -14,17 +14,19 @@ mod round;
 mod sought;
 mod spline;
 
+use super::compare::measured::PointsOf;
 use super::{Analysis, Picture};
 use crate::body::Kind;
 use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::document::{Input, LengthOrAngle, cams};
-use crate::follower::{FOLLOWERS, Follower};
+use crate::follower::{Element, FOLLOWERS, Follower};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Contour;
 use crate::machine::{Machine, Rotation};
 use crate::motion::laws::{LAWS, Law};
 use crate::motion::program::rows::TableRows;
 use crate::motion::{Jet, Motion, Quantity};
+use crate::numeric::outlier::Sensitivity;
 use crate::refusal::Refusal;
 use crate::report::{Bound, Speeds, sha256};
 use design::Design;
@@ -120,8 +122,12 @@ pub struct ImportOptions {
     pub deviation: Option<LengthOrAngle>,
     /// Speed of the cam, rpm.
     pub rpm: Option<f64>,
-    /// What may be moved; the angle of points where it is not given.
+    /// What may be moved; the angle of points where it is not given, and where they have no angles of their own.
     pub fit: Option<ImportFit>,
+    /// On which curve points lie: of the path of the centre the radius of the ball is that of the roller.
+    pub points_of: Option<PointsOf>,
+    /// Points have angles of their own, from which the cam is not turned.
+    pub has_angles: bool,
 }
 
 impl ImportOptions {
@@ -180,6 +186,7 @@ pub fn analysis(source: &ImportSource, options: &ImportOptions) -> Result<Analys
         return Err(Refusal::new(what).remedy("give it, e.g. --follower roller,diameter=24mm, or with a pivot --follower swinging-roller,diameter=32mm,arm=110mm,pivot_distance=140mm"));
     }
     let machine = machine(options)?;
+    let (source, options) = (&on_curve(source, &machine, options)?, &placed(options));
     let mut imported = best(source, &machine, options)?;
     // Points about another centre than that of the dwells follow no law.
     let is_centred = options.fit == Some(ImportFit::Centre);
@@ -228,6 +235,25 @@ pub fn analysis(source: &ImportSource, options: &ImportOptions) -> Result<Analys
         not_modelled: Vec::new(),
         sections: vec![imported.section()],
     })
+}
+
+/// Points of the path of a roller's centre are centres of a ball of its radius.
+fn on_curve(source: &ImportSource, machine: &Machine, options: &ImportOptions) -> Result<ImportSource, Refusal> {
+    let (ImportSource::Points(points, _), Some(PointsOf::Centre)) = (source, options.points_of) else {
+        return Ok(source.clone());
+    };
+    let Element::Roller { radius } = machine.follower.shape.element() else {
+        let what = format!("[{}] has no roller on whose path points could lie", machine.follower.path);
+        return Err(Refusal::new(what).remedy("give the follower that ran on the cam, or --as profile"));
+    };
+    Ok(ImportSource::Points(points.clone(), MILLIMETRES * radius))
+}
+
+/// Options by which what has angles of its own, points or a keyway, stays at these.
+fn placed(options: &ImportOptions) -> ImportOptions {
+    let keyed = options.settings.iter().any(|key| key.trim_start().starts_with("cam.keyway"));
+    let stays = options.fit.is_none() && (options.has_angles || keyed);
+    ImportOptions { fit: if stays { Some(ImportFit::Nothing) } else { options.fit }, ..options.clone() }
 }
 
 /// The design by these options, through all positions as one spline where splines between rests leave too much.
@@ -282,7 +308,7 @@ fn asked(options: &ImportOptions, quantity: Quantity, leverage: f64) -> Result<O
 }
 
 /// Too few positions, a motion that never moves, or a position that is wrong.
-fn checked(rows: &Positions, deviation: f64, what: &str) -> Result<(), Refusal> {
+fn checked(rows: &Positions, deviation: f64, rounding: Option<f64>, what: &str) -> Result<(), Refusal> {
     if rows.len() < FEWEST {
         return Err(Refusal::new(format!("there are {} {what}s", rows.len())).remedy(format!("give at least {FEWEST}")));
     }
@@ -300,7 +326,9 @@ fn checked(rows: &Positions, deviation: f64, what: &str) -> Result<(), Refusal> 
         let refusal = Refusal::new(format!("the follower does not move: its positions differ by {found} only"));
         return Err(refusal.remedy("give rows of a lift, or a smaller --deviation"));
     }
-    if let Some((at, off)) = rows.outlier(deviation) {
+    // Laws of motion are seen in rows; a profile may have any corners.
+    let sensitivity = if rounding.is_some() { Sensitivity::Fine } else { Sensitivity::Coarse };
+    if let Some((at, off)) = rows.outlier(deviation, (rounding.unwrap_or(0.0), sensitivity)) {
         let row = rows.rows.get(at % rows.len()).map_or(at, |row| *row) + 1;
         let (unit, size) = design::unit(rows.quantity);
         let angle = rows.angle(at).to_degrees();
@@ -337,7 +365,7 @@ fn of_table(
     let of_rounding = OF_ROUNDING * table.rounding;
     let usual = if noise > BEYOND_ROUNDING * table.rounding { OF_NOISE * noise } else { of_rounding };
     let deviation = asked(options, rows.quantity, leverage)?.unwrap_or_else(|| usual.max(LEAST_OF_TABLE / leverage));
-    checked(&rows, deviation, "row")?;
+    checked(&rows, deviation, Some(table.rounding), "row")?;
     let any_turn = matches!(options.fit, Some(ImportFit::Angle | ImportFit::Centre));
     if options.fit == Some(ImportFit::Centre) {
         return Err(Refusal::new("a table of lifts has no centre").remedy("leave --fit centre out"));
@@ -373,7 +401,7 @@ fn of_outline(
     let rows = rolled::on_outline(&contour, &*follower)?;
     let leverage = leverage(&*follower);
     let deviation = asked(options, rows.quantity, leverage)?.unwrap_or(OF_OUTLINE / leverage);
-    checked(&rows, deviation, "place")?;
+    checked(&rows, deviation, None, "place")?;
     if options.fit == Some(ImportFit::Centre) {
         let what = "the centre of an outline is the origin of its drawing";
         return Err(Refusal::new(what).remedy("move the drawing, or import points of it"));
@@ -404,7 +432,7 @@ fn of_points(
         let least = placed.iter().map(Vector2::norm).fold(f64::INFINITY, f64::min) - ball;
         let normals = measured_points::normals(&placed)?;
         let radii = measured_points::radii(&placed);
-        checked(&radii, (OF_NOISE * radii.noise()).max(LEAST_OF_POINTS), "point")?;
+        checked(&radii, (OF_NOISE * radii.noise()).max(LEAST_OF_POINTS), None, "point")?;
         let follower = rolled::sized(&*machine.follower.shape, least / MILLIMETRES)?;
         let mut rows = measured_points::positions(&normals, &*follower, ball)?;
         let centred = fit == ImportFit::Centre && pass < CENTRED;
@@ -414,7 +442,7 @@ fn of_points(
         let (leverage, noise) = (leverage(&*follower), rows.noise());
         let usual = (OF_NOISE * noise).max(LEAST_OF_POINTS / leverage);
         let deviation = asked(options, rows.quantity, leverage)?.unwrap_or(usual);
-        checked(&rows, deviation, "point")?;
+        checked(&rows, deviation, None, "point")?;
         let (from, to) = rows.widest_gap();
         let found = sought(&rows, (options, whole), deviation, (fit != ImportFit::Nothing, true))?;
         if centred {
@@ -460,8 +488,8 @@ fn designed(mut imported: Imported, machine: &Machine, options: &ImportOptions) 
         settings.push(("cam.base_radius".into(), design::quoted(&format!("{radius} mm"))));
     }
     let deviation = imported.deviation;
-    let mut design =
-        Design { name: &options.name, source: &options.source, rpm: options.rpm, settings: &settings, deviation };
+    let (name, source, rpm, turn) = (&options.name, &options.source, options.rpm, imported.turn);
+    let mut design = Design { name, source, rpm, settings: &settings, deviation, turn };
     let mut text = design.text(&imported.rows, &imported.found);
     let read = |text: &str| {
         Machine::from_toml("the design", text, &[])

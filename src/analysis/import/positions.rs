@@ -1,15 +1,16 @@
 //! Positions of a follower over a turn or lobe, as they were imported: from a table, rolled on an outline, or from measured points.
 
 use crate::motion::Quantity;
+use crate::numeric::outlier::{self, Sensitivity};
 use crate::numeric::scatter::{self, OF_MEDIAN, median};
 use std::collections::VecDeque;
 
 /// Fewest positions in which a motion is looked for.
 pub(super) const FEWEST: usize = 8;
-/// A position is an outlier where it is farther from its neighbours than this many times what they are from each other, and the deviation that is
-/// asked for.
-const OUTLIER: f64 = 12.0;
+/// A position is an outlier only if it is farther from its neighbours than this many times the deviation that is asked for.
 const OF_DEVIATION: f64 = 3.0;
+/// Equal positions more than this many usual spacings apart are a dwell.
+const OF_DWELL: f64 = 1.5;
 /// What nineteen of twenty stay below, over the standard deviation; and by how much the noise may differ.
 const OF_MOST: f64 = 1.96;
 const MOST_UNEVEN: f64 = 2.0;
@@ -87,22 +88,17 @@ impl Positions {
         scatter::off_neighbours(place(own), &others.map(place))
     }
 
-    /// A position that is far off its neighbours, which agree among themselves: its index and by how much.
-    pub(super) fn outlier(&self, deviation: f64) -> Option<(usize, f64)> {
-        let count = self.len();
-        let noise = self.noise();
-        (0..count).find_map(|at| {
-            let first = at + count - 3;
-            let own = self.off_neighbours(first, &[1, 2, 4, 5], 3)?.abs();
-            // The neighbours without it.
-            let among = [([0, 1, 4, 5], 2), ([1, 2, 5, 6], 4), ([0, 1, 2, 5], 4), ([1, 4, 5, 6], 2)];
-            let rest = among
-                .iter()
-                .filter_map(|(others, own)| self.off_neighbours(first, others, *own))
-                .map(f64::abs)
-                .fold(noise, f64::max);
-            (own > OUTLIER * rest && own > OF_DEVIATION * deviation).then_some((at, own))
-        })
+    /// A position that is far off its neighbours, compared with them and with the deviation: its index and by how much.
+    pub(super) fn outlier(&self, deviation: f64, (rounding, sensitivity): (f64, Sensitivity)) -> Option<(usize, f64)> {
+        let first = self.angles.iter().copied().zip(self.values.iter().copied());
+        let closing = self.angles.first().zip(self.values.first()).map(|(at, value)| (at + self.fill, *value));
+        let rows: Vec<(f64, f64)> = first.chain(closing).collect();
+        // Dwells of which only the ends are given.
+        let wide = OF_DWELL * self.spacing();
+        let rests: Vec<bool> =
+            rows.iter().zip(rows.iter().skip(1)).map(|(a, b)| a.1 == b.1 && b.0 - a.0 > wide).collect();
+        let worst = outlier::worst(&outlier::ring(&rows, &rests, self.fill), rounding, sensitivity)?;
+        (worst.is_wrong() && worst.off.abs() > OF_DEVIATION * deviation).then_some((worst.row, worst.off.abs()))
     }
 
     /// The longest run from each position on that stays within a band, as its last index; a run is left out where the one before it ends there too.

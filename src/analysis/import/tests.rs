@@ -68,9 +68,9 @@ fn noise_and_outliers_are_seen() {
     };
     let noise = positions.noise();
     assert!((0.5e-6..2.5e-6).contains(&noise), "{noise}");
-    assert_eq!(positions.outlier(5e-6), None);
+    assert_eq!(positions.outlier(5e-6, (0.0, Sensitivity::Coarse)), None);
     positions.values[100] += 2e-4;
-    assert_eq!(positions.outlier(5e-6).map(|(at, _)| at % 360), Some(100));
+    assert_eq!(positions.outlier(5e-6, (0.0, Sensitivity::Coarse)).map(|(at, _)| at % 360), Some(100));
 }
 
 /// The centre of the dwells, whatever the rise between them.

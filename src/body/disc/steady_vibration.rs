@@ -176,8 +176,8 @@ mod tests {
     /// With jumps of velocity and acceleration the series of waves comes near, the more waves are summed up.
     #[test]
     fn jumps_are_counted_in_full() {
-        let segments = [(named("parabola"), 1.5, 0.02), (None, 1.0, 0.0), (named("line"), 2.0, 0.0), (None, 0.0, 0.0)];
-        let program = Program::new(Quantity::Length, 0.0, &segments);
+        let segments = [(named("parabola"), 1.5, 0.02), (None, 1.0, 0.02), (named("line"), 2.0, 0.0), (None, 0.0, 0.0)];
+        let program = Program::new(Quantity::Length, 0.0, &segments).expect("a program");
         let (frequency, damping) = (7.3, 0.05);
         let found = ElasticTrain { frequency, damping, against: DampingAgainst::Frame }.largest_deviation(&program);
         let waves = program.harmonics(20_000).waves;

@@ -85,7 +85,8 @@ fn a_motion_of_ones_own_is_a_plate() {
         Quantity::Length,
         0.0,
         &[(laws::named("cycloidal"), 1.0, 0.01), (laws::named("cycloidal"), 1.0, 0.0)],
-    );
+    )
+    .expect("a program");
     let why = Wedge::of(&machine, &(Arc::new(turn) as Arc<dyn Motion>)).expect_err("a turn").to_string();
     assert!(why.contains("does not turn"), "{why}");
     let disc = Spec::builder("hill").roller(0.01).motion(Hill).expect("a machine").solve().expect_err("no disc");

@@ -11,6 +11,7 @@ use super::parse::{
 #[cfg(feature = "shaft")]
 use super::parse::{Order, order, stiffnesses};
 use camgen::analysis::compare::ComparisonFit;
+use camgen::analysis::compare::measured::PointsOf;
 use camgen::analysis::import::ImportFit;
 use camgen::analysis::size::FreeDimension;
 use camgen::document::LengthOrAngle;
@@ -349,6 +350,15 @@ pub(crate) struct ImportArgs {
     #[arg(long, value_name = "WHAT", ignore_case = true)]
     pub(in crate::cli) from: Option<ImportForm>,
 
+    /// What the second numbers of FILE are: lift, or radii of the profile, or of the pitch curve, on which the centre of the roller runs
+    /// [default: as its headings say]
+    #[arg(long = "as", value_name = "WHAT", ignore_case = true)]
+    pub(in crate::cli) taken_as: Option<ImportAs>,
+
+    /// On which curve points lie: profile or centre (of the roller) [default: as their headings say; profile for x and y]
+    #[arg(long, value_name = "CURVE", ignore_case = true, value_parser = word::<PointsOf>())]
+    pub(in crate::cli) points_of: Option<PointsOf>,
+
     /// The follower that ran on the cam, or that of the design, with the keys of its table: roller,diameter=24mm,offset=3mm; knife; flat;
     /// swinging-roller,diameter=32mm,arm=110mm,pivot_distance=140mm,side=trailing; swinging-flat,pivot_distance=150mm,face_offset=8mm
     /// [default: a roller of 30 mm for a table; needed for an outline and points]
@@ -405,6 +415,14 @@ pub(crate) enum ImportForm {
     Table,
     Outline,
     Points,
+}
+
+/// What the numbers of a file to import are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum ImportAs {
+    Lift,
+    Profile,
+    Pitch,
 }
 
 /// How a lift table is read, as the keys of the same names in [motion] say.

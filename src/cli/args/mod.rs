@@ -13,8 +13,8 @@ mod side_by_side;
 mod study;
 
 pub(crate) use analyses::{
-    AnalysisArgs, CompareArgs, DriveArgs, ImportArgs, ImportForm, LawsArgs, RegimesArgs, ScatterArgs, SizeArgs,
-    SpringArgs,
+    AnalysisArgs, CompareArgs, DriveArgs, ImportArgs, ImportAs, ImportForm, LawsArgs, RegimesArgs, ScatterArgs,
+    SizeArgs, SpringArgs,
 };
 #[cfg(feature = "linkage")]
 pub(crate) use analyses::{LinkageArgs, LinkageGoal};

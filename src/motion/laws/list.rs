@@ -3,6 +3,8 @@
 use super::law::{Law, LawFamily};
 use super::task::between;
 use super::{Inflection, LawCurve, LawError, LawTask, halves, polynomial, ramps, sines};
+use crate::document::similar;
+use crate::refusal::Refusal;
 
 /// Every law.
 pub const LAWS: &[Law] = &[
@@ -36,22 +38,35 @@ pub const LAWS: &[Law] = &[
 /// The straight line.
 pub const LINE: &str = polynomial::CONSTANT_VELOCITY.name;
 
+/// The law with this name or alias, in any case; `None` of no law.
+#[must_use]
+pub fn named(name: &str) -> Option<&'static Law> {
+    LAWS.iter().find(|law| std::iter::once(&law.name).chain(law.aliases).any(|own| own.eq_ignore_ascii_case(name)))
+}
+
 /// The law with this name or alias, in any case.
 ///
 /// ```
 /// use camgen::law;
 /// use camgen::motion::laws::{LAWS, LawTask};
 ///
-/// let cycloidal = law("cycloidal").ok_or("no such law")?;
-/// assert!(law("sloppy").is_none() && LAWS.len() > 20);
+/// let cycloidal = law("cycloidal")?;
+/// assert!(law("cycloidel").is_err_and(|why| why.to_string().contains("cycloidal")) && LAWS.len() > 20);
 /// // From rest to rest, over a unit of travel and of angle: the largest acceleration is 2π.
 /// let curve = cycloidal.solve(&LawTask::default())?;
 /// assert!((curve.peaks().acceleration.value - std::f64::consts::TAU).abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[must_use]
-pub fn named(name: &str) -> Option<&'static Law> {
-    LAWS.iter().find(|law| std::iter::once(&law.name).chain(law.aliases).any(|own| own.eq_ignore_ascii_case(name)))
+///
+/// # Errors
+/// [`Refusal`] with the names that there are.
+pub fn law(name: &str) -> Result<&'static Law, Refusal> {
+    named(name).ok_or_else(|| {
+        let known: Vec<&str> = LAWS.iter().map(|law| law.name).collect();
+        let near = similar(name, known.iter().copied());
+        let near = near.map_or(String::new(), |law| format!("did you mean {law}? It is "));
+        Refusal::new(format!("there is no law {name}")).remedy(format!("{near}one of {}", known.join(", ")))
+    })
 }
 
 impl Law {

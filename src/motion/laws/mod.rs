@@ -29,7 +29,7 @@ mod values;
 pub use curve::LawCurve;
 pub use entire::{from_formula, from_harmonics};
 pub use law::Law;
-pub use list::{LAWS, LINE, named};
+pub use list::{LAWS, LINE, law, named};
 pub use peaks::LawPeaks;
 pub use spectrum::AccelerationSpectrum;
 pub(in crate::motion) use spectrum::residual_peak;

@@ -246,7 +246,8 @@ fn points(table: &TableReader<'_>, whole: ProgramContext) -> Option<Rows> {
     let unit = TYPED / whole.typed(table).1;
     let positions: Vec<f64> = points.iter().map(|[_, position]| position / unit).collect();
     let rounding = unit * rows::rounding::step(&positions);
-    let places = (0..).zip(&points).map(|(row, [at, position])| RowPlace { at: *at, position: *position, row });
+    let places =
+        (0..).zip(&points).map(|(row, [at, position])| RowPlace { at: *at, position: *position, row, line: None });
     let (points, told) = (places.collect(), Vec::new());
     Some(Rows { points, rounding, rounding_of_angles: 0.0, origin: Origin::Points, told })
 }
@@ -393,7 +394,8 @@ pub(super) fn table_curve(
     // A segment without travel is refused elsewhere.
     let size = travel.map(f64::abs).filter(|size| *size > 0.0).unwrap_or(1.0);
     let wishes = RowWishes::of_segment(segment, rows::rounding::step(&values), &dimensions(whole, size))?;
-    Some(rows::segment::tabulated(&knots, &values, ends, wishes))
+    let (curve, figures) = rows::segment::tabulated(&knots, &values, ends, wishes);
+    Some((curve, figures.at_lines(&columns)))
 }
 
 /// As what a deviation from rows in a unit of this size (m or rad) may be typed, each with the size of that unit.

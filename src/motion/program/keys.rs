@@ -47,9 +47,14 @@ pub(super) const START: Field<LengthOrAngle> = Field::length_or_angle(
     POSITION.1,
 )
 .also(&["position", "start_position", "initial_position"]);
-pub(super) const AT: Field<f64> =
-    Field::quantity("at", "cam angle of the first segment", Default("0 deg"), Angle, within(-TAU, TAU))
-        .also(&["start_angle", "phase"]);
+pub(super) const AT: Field<f64> = Field::quantity(
+    "at",
+    "cam angle of the first segment; a formula, a series, points and the rows of a table are later by it",
+    Default("0 deg"),
+    Angle,
+    within(-TAU, TAU),
+)
+.also(&["start_angle", "phase"]);
 pub(super) const REPEAT: Field<f64> = Field::number(
     "repeat",
     "number of equal lobes, 1 to 100; the segments fill 360 deg / repeat",

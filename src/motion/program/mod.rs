@@ -28,6 +28,7 @@ use super::laws::optimum::Optimum;
 use super::laws::{Inflection, Law, LawCurve, LawError, LawTask, Parameters, SegmentEnd};
 use super::{CELLS as CELLS_OF_MOVEMENT, Jet, Motion, NamedStretch, Piece, Quantity};
 use crate::numeric::extremum;
+use crate::refusal::Refusal;
 use std::f64::consts::TAU;
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -39,6 +40,9 @@ const LEAST_CELLS: u32 = 8;
 
 /// The lift, the velocity, the acceleration and the jerk are continuous on a piece.
 const SMOOTH: u32 = 3;
+
+/// Positions that differ by less than this share of the largest are equal: rounding of sums.
+const SAME_PLACE: f64 = 1e-9;
 
 /// A rate below this share of its peak is 0 with rounding.
 const ROUNDING: f64 = 1e-9;
@@ -193,6 +197,23 @@ struct PieceSource {
     parts: Range<usize>,
 }
 
+/// Refuses a segment from one position to another that code gives, with the angle or length that it takes.
+fn possible_segment(number: usize, (from, to): (f64, f64), width: f64, rests: bool) -> Result<(), Refusal> {
+    let refused = |what: String, remedy: &str| Err(Refusal::new(format!("segment {number}: {what}")).remedy(remedy));
+    if ![from, to, width].iter().all(|value| value.is_finite()) {
+        return refused("a number is not finite".into(), "give finite numbers");
+    }
+    if width <= 0.0 {
+        let what = "nothing is left for it: the segments before it take the whole turn or stroke".into();
+        return refused(what, "give each segment an angle or length above 0");
+    }
+    if rests && (to - from).abs() > SAME_PLACE * from.abs().max(to.abs()) {
+        let what = format!("a dwell keeps its position, and it is to end at {to} instead of {from}");
+        return refused(what, "give it the position where it begins, or a law that moves");
+    }
+    Ok(())
+}
+
 /// The curve of a law from rest to rest; for a law without one, the curve from rest to a turn or, failing that, the straight line: the
 /// motion then jumps as such a law does.
 fn curve(law: &Law) -> LawCurve {
@@ -233,17 +254,28 @@ impl Program {
     /// use camgen::{Motion, Program, Quantity, law};
     /// use std::f64::consts::PI;
     ///
-    /// let up = law("modified-sine");
-    /// let program = Program::new(Quantity::Length, 0.0, &[(up, PI, 0.030), (up, PI, 0.0)]);
+    /// let up = Some(law("modified-sine")?);
+    /// let program = Program::new(Quantity::Length, 0.0, &[(up, PI, 0.030), (up, PI, 0.0)])?;
     /// // Half of the travel at half of the angle.
     /// let (piece, angle) = program.locate(PI / 2.0);
     /// assert!((program.jet(piece, angle).s - 0.015).abs() < 1e-12);
+    /// // A rest stays where it begins.
+    /// assert!(Program::new(Quantity::Length, 0.0, &[(up, PI, 0.030), (None, 1.0, 0.020), (up, 1.0, 0.0)]).is_err());
+    /// # Ok::<(), camgen::Refusal>(())
     /// ```
-    #[must_use]
-    pub fn new(quantity: Quantity, start: f64, segments: &[(Option<&'static Law>, f64, f64)]) -> Self {
+    ///
+    /// # Errors
+    /// [`Refusal`] where a number is not finite, a segment has no angle, a rest has another position than that where it begins, or the turn does
+    /// not end where it starts.
+    pub fn new(quantity: Quantity, start: f64, segments: &[(Option<&'static Law>, f64, f64)]) -> Result<Self, Refusal> {
         let mut program = Self::empty(quantity, 1);
-        program.add_laws((start, TAU), segments);
-        program.with_lowest()
+        program.add_laws((start, TAU), segments)?;
+        let end = program.segments.last().map_or(start, |last| last.to);
+        if (end - start).abs() > SAME_PLACE * program.largest(start) {
+            let what = format!("the motion does not end where it starts: at {end} instead of {start}");
+            return Err(Refusal::new(what).remedy("end the last segment where the first one starts"));
+        }
+        Ok(program.with_lowest())
     }
 
     /// Segments of law (`None` rests), length (m) and end position (m) along a plate that travels from x = 0 on, from a position on; the stroke is
@@ -253,26 +285,37 @@ impl Program {
     /// use camgen::{Motion, Program, law};
     ///
     /// // 25 mm over 80 mm of the plate, then a rest of 20 mm.
-    /// let program = Program::over_travel(0.0, &[(law("cycloidal"), 0.080, 0.025), (None, 0.020, 0.0)]);
+    /// let program = Program::over_travel(0.0, &[(Some(law("cycloidal")?), 0.080, 0.025), (None, 0.020, 0.025)])?;
     /// assert_eq!((program.range(), program.period()), ((0.0, 0.1), None));
     /// let (piece, x) = program.locate(0.040);
     /// assert!((program.jet(piece, x).s - 0.0125).abs() < 1e-15);
     /// // Twice the mean slope in the middle.
     /// assert!((program.jet(piece, x).ds - 0.625).abs() < 1e-15);
+    /// # Ok::<(), camgen::Refusal>(())
     /// ```
-    #[must_use]
-    pub fn over_travel(start: f64, segments: &[(Option<&'static Law>, f64, f64)]) -> Self {
+    ///
+    /// # Errors
+    /// [`Refusal`] as in [`Program::new`], but that the plate may end at any position.
+    pub fn over_travel(start: f64, segments: &[(Option<&'static Law>, f64, f64)]) -> Result<Self, Refusal> {
         let stroke = segments.iter().map(|(_, over, _)| over).sum();
         let mut program = Self { stroke: Some(stroke), ..Self::empty(Quantity::Length, 1) };
-        program.add_laws((start, stroke), segments);
-        program.with_lowest()
+        program.add_laws((start, stroke), segments)?;
+        Ok(program.with_lowest())
     }
 
     /// Adds segments of law, width and end position, from a position on, up to an end of the last one.
-    fn add_laws(&mut self, (start, last): (f64, f64), segments: &[(Option<&'static Law>, f64, f64)]) {
+    fn add_laws(
+        &mut self,
+        (start, last): (f64, f64),
+        segments: &[(Option<&'static Law>, f64, f64)],
+    ) -> Result<(), Refusal> {
+        if segments.is_empty() {
+            return Err(Refusal::new("a motion needs segments").remedy("give at least two of them"));
+        }
         let (mut place, mut position) = (0.0, start);
         for (index, (law, over, to)) in segments.iter().enumerate() {
             let end = if index + 1 == segments.len() { last } else { place + over };
+            possible_segment(index + 1, (position, *to), end - place, law.is_none())?;
             let to = if law.is_some() { *to } else { position };
             let (width, travel, ends) = (end - place, to - position, [EndState::default(); 2]);
             let (curve, name) = (law.map(curve), law.map_or(keys::DWELL, |law| law.name));
@@ -282,6 +325,12 @@ impl Program {
             self.add(segment, end);
             (place, position) = (end, to);
         }
+        Ok(())
+    }
+
+    /// The largest position of its segments, or that where they start.
+    fn largest(&self, start: f64) -> f64 {
+        self.segments.iter().map(|segment| segment.to.abs()).fold(start.abs(), f64::max)
     }
 
     /// Segments from a position (m) and x = 0 on over the stroke of a plate (m), which the follower enters at rest.
@@ -566,8 +615,8 @@ mod tests {
     /// Up by a law in a radian and down by another in two.
     fn program(up: &str, down: &str) -> Program {
         let segments =
-            [(laws::named(up), 1.0, 0.02), (None, 0.5, 0.0), (laws::named(down), 2.0, 0.0), (None, 0.0, 0.0)];
-        Program::new(Quantity::Length, 0.0, &segments)
+            [(laws::named(up), 1.0, 0.02), (None, 0.5, 0.02), (laws::named(down), 2.0, 0.0), (None, 0.0, 0.0)];
+        Program::new(Quantity::Length, 0.0, &segments).expect("a program")
     }
 
     /// A piece continues where only the fourth derivative jumps; it ends where a lower one does, and each piece has its own side.

@@ -109,8 +109,8 @@ mod tests {
     fn the_cam_of_a_load_is_the_known_one() {
         let third = TAU / 3.0;
         let segments =
-            [(named("4-5-6-7"), third, 0.03), (None, 0.5, 0.0), (named("5-6-7-8-9"), 2.0, 0.0), (None, 0.0, 0.0)];
-        let program = Program::new(Quantity::Length, 0.0, &segments);
+            [(named("4-5-6-7"), third, 0.03), (None, 0.5, 0.03), (named("5-6-7-8-9"), 2.0, 0.0), (None, 0.0, 0.0)];
+        let program = Program::new(Quantity::Length, 0.0, &segments).expect("a program");
         let load = Polydyne { ratio: 0.1, damping: 0.05 };
         let cam = program.polydyne(load).expect("continuous to the jerk");
         let origin = cam.origin().expect("a program");
@@ -132,7 +132,8 @@ mod tests {
         }
         assert_eq!(cam.jump().map(|jump| jump.order), Some(2));
         let cycloidal =
-            Program::new(Quantity::Length, 0.0, &[(named("cycloidal"), 3.0, 0.03), (named("4-5-6-7"), 0.0, 0.0)]);
+            Program::new(Quantity::Length, 0.0, &[(named("cycloidal"), 3.0, 0.03), (named("4-5-6-7"), 0.0, 0.0)])
+                .expect("a program");
         assert_eq!(cycloidal.polydyne(load).expect_err("the jerk jumps").order, 3);
     }
 }

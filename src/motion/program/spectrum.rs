@@ -172,8 +172,8 @@ mod tests {
         let (rise, fall) = (named("modified-sine"), named("3-4-5"));
         let deg = f64::to_radians;
         let segments =
-            [(rise, deg(120.0), 0.03), (None, deg(30.0), 0.0), (fall, deg(150.0), 0.0), (None, deg(60.0), 0.0)];
-        Program::new(Quantity::Length, 0.0, &segments)
+            [(rise, deg(120.0), 0.03), (None, deg(30.0), 0.03), (fall, deg(150.0), 0.0), (None, deg(60.0), 0.0)];
+        Program::new(Quantity::Length, 0.0, &segments).expect("a program")
     }
 
     /// Values of 40-digit arithmetic, mm.
@@ -265,12 +265,12 @@ mod tests {
     #[test]
     fn movements_go_from_rest_to_rest() {
         let law = named("3-4-5");
-        let segments = [(law, 1.0, 0.02), (None, 1.0, 0.0), (law, 2.0, 0.01), (law, 0.0, 0.0)];
-        let movements = Program::new(Quantity::Length, 0.0, &segments).movements();
+        let segments = [(law, 1.0, 0.02), (None, 1.0, 0.02), (law, 2.0, 0.01), (law, 0.0, 0.0)];
+        let movements = Program::new(Quantity::Length, 0.0, &segments).expect("a program").movements();
         assert_eq!(movements.len(), 1);
         assert!((movements[0].angles.0 - 2.0).abs() < 1e-15 && (movements[0].angles.1 - TAU - 1.0).abs() < 1e-14);
         assert!((movements[0].travel - 0.02).abs() < 1e-15);
         let restless = [(law, 3.0, 0.02), (law, 0.0, 0.0)];
-        assert!(Program::new(Quantity::Length, 0.0, &restless).movements().is_empty());
+        assert!(Program::new(Quantity::Length, 0.0, &restless).expect("a program").movements().is_empty());
     }
 }

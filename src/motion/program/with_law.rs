@@ -51,9 +51,9 @@ mod tests {
         let deg = |degrees: f64| degrees.to_radians();
         let segments = |law: &str| {
             let law = named(law);
-            [(law, deg(120.0), 0.03), (None, deg(30.0), 0.0), (law, deg(150.0), 0.0), (None, deg(60.0), 0.0)]
+            [(law, deg(120.0), 0.03), (None, deg(30.0), 0.03), (law, deg(150.0), 0.0), (None, deg(60.0), 0.0)]
         };
-        let of = |law: &str| Program::new(Quantity::Length, 0.0, &segments(law));
+        let of = |law: &str| Program::new(Quantity::Length, 0.0, &segments(law)).expect("a program");
         let changed = of("cycloidal").with_law(named("3-4-5").expect("a law")).expect("a program");
         let wanted = of("3-4-5");
         for index in 0..wanted.pieces().len() {

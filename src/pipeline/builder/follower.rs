@@ -164,8 +164,8 @@ impl Builder {
     /// use camgen::{FlatFaceFollower, Program, Quantity, Spec, law};
     ///
     /// // Up and down over 1.5 rad each; the last segment takes what is left of the turn.
-    /// let polynomial = law("4-5-6-7");
-    /// let motion = Program::new(Quantity::Length, 0.0, &[(polynomial, 1.5, 0.009), (polynomial, 1.5, 0.0), (None, 3.0, 0.0)]);
+    /// let polynomial = Some(law("4-5-6-7")?);
+    /// let motion = Program::new(Quantity::Length, 0.0, &[(polynomial, 1.5, 0.009), (polynomial, 1.5, 0.0), (None, 3.0, 0.0)])?;
     /// let face = FlatFaceFollower { width: Some(0.045), ..Default::default() };
     /// let cam = Spec::builder("valve").flat_face(face).bore_radius(0.008).motion(motion)?.solve()?;
     /// assert!(cam.draw(10e-6)?.prove()?.passed());

@@ -2,7 +2,7 @@
 
 use super::nodes::{Nodes, RowRun};
 use super::turn::Turn;
-use super::{RowFigures, RowShape, RowWishes, Rows};
+use super::{RowFigures, RowOutlier, RowShape, RowWishes, Rows};
 use crate::motion::laws::{LawCurve, spline};
 use crate::motion::program::context::ProgramContext;
 use crate::motion::program::{EndState, Program, ProgramSegment, Span, keys};
@@ -51,7 +51,12 @@ pub(super) fn program(
     let figures = run.figures(&found, wishes, &rows.told).placed((turn.at, whole.fill), 1.0);
     let cubic_overshoot = wishes.cubic.then(|| overshoot_of(&program, turn, base, whole));
     let overshoot = cubic_overshoot.unwrap_or(figures.overshoot);
-    Program { rows: vec![RowFigures { overshoot, ..figures }], ..program }
+    // Rows of a turn begin at the first one behind its start.
+    let outlier = figures.outlier.map(|outlier| {
+        let row = outlier.row.checked_sub(1).and_then(|index| rows.points.get(index));
+        RowOutlier { row: row.map_or(outlier.row, |row| row.row + 1), line: row.and_then(|row| row.line), ..outlier }
+    });
+    Program { rows: vec![RowFigures { overshoot, outlier, ..figures }], ..program }
 }
 
 /// The curve through the rows of a run from one to another, over shares of its angle, from 0 on.

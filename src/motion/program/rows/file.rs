@@ -3,6 +3,7 @@
 use super::{Origin, RowPlace, Rows};
 use crate::document::{
     Columns, Field, FileRow, HeadingUnit, LengthOrAngle, TableReader, UnclearHeading, derivative_in, is_of_crank,
+    is_radius,
 };
 use crate::motion::Quantity;
 use crate::motion::program::context::ProgramContext;
@@ -170,9 +171,30 @@ fn chosen(table: &TableReader<'_>, file: &Columns, quantity: Quantity) -> Option
     has_positions(table, file, position).then_some(Chosen { angle: Some(angle), position })
 }
 
+/// Columns that are not read, though nobody chose among them.
+fn unread(table: &TableReader<'_>, file: &Columns, chosen: &Chosen) -> Option<String> {
+    let is_read = |at: &usize| *at == chosen.position || Some(*at) == chosen.angle;
+    let name = |at: usize| match file.headings().get(at).filter(|heading| !heading.is_empty()) {
+        Some(heading) => format!("{} (\"{heading}\")", at + 1),
+        None => (at + 1).to_string(),
+    };
+    let unread: Vec<String> = (0..width(file)).filter(|at| !is_read(at)).map(name).collect();
+    let (columns, are) = if unread.len() == 1 { ("column", "is") } else { ("columns", "are") };
+    (!unread.is_empty() && !table.has(&COLUMNS))
+        .then(|| format!("{columns} {} of `{}` {are} not read", unread.join(", "), file.name()))
+}
+
 /// Whether the heading of a column that was not chosen says nothing else than positions.
 fn has_positions(table: &TableReader<'_>, file: &Columns, position: usize) -> bool {
-    let Some(name) = file.headings().get(position).and_then(|heading| derivative_in(heading)) else { return true };
+    let heading = file.headings().get(position).map_or("", String::as_str);
+    if is_radius(heading) {
+        let message =
+            format!("column {} of `{}` has radii by its heading \"{heading}\", not lifts", position + 1, file.name());
+        let help = "`camgen import --as profile` or `--as pitch` makes a design of radii; columns = [1, 2] takes them as positions";
+        table.fail(&TABLE, message, Some(help.into()));
+        return false;
+    }
+    let Some(name) = derivative_in(heading) else { return true };
     let message = format!("column {} of `{}` is no position by its heading: {name}", position + 1, file.name());
     let help =
         "choose the columns of angle and position, e.g. columns = [1, 3], or columns = [1, 2] where these are right";
@@ -215,10 +237,14 @@ fn unit_of_heading(
 ) -> Result<Option<HeadingUnit>, ()> {
     match HeadingUnit::read(heading) {
         Err(UnclearHeading::Unknown(_)) if has_unit || has_factor => Ok(None),
-        Err(UnclearHeading::Factor(_)) if has_factor => Ok(None),
+        Err(UnclearHeading::Factor(_) | UnclearHeading::Counts(_)) if has_factor => Ok(None),
         Err(why) => {
             let help = match why {
-                UnclearHeading::Unknown(_) => "unit = \"mm\" says what they are in; or correct the heading",
+                UnclearHeading::Unknown(_) => "set unit = \"mm\", or correct the heading",
+                UnclearHeading::Counts(_) if what == "positions" => {
+                    "set scale, the travel of one of them, with unit = \"mm\": scale = 0.001 of 1000 counts per millimetre"
+                }
+                UnclearHeading::Counts(_) => "write the angles in degrees, and correct the heading",
                 UnclearHeading::Factor(_) if what == "positions" => {
                     "scale says what they are multiplied with, with unit = \"mm\", e.g. scale = 0.01 for hundredths of a millimetre; or correct the heading"
                 }
@@ -472,9 +498,10 @@ pub(in crate::motion::program) fn read(table: &TableReader<'_>, whole: ProgramCo
     let file = table.get(&TABLE)?;
     let (quantity, arc) = whole.typed(table);
     let given = units_given(table, quantity)?;
-    let Chosen { angle, position } = chosen(table, &file, quantity)?;
+    let chosen = chosen(table, &file, quantity)?;
+    let mut told: Vec<String> = unread(table, &file, &chosen).into_iter().collect();
+    let Chosen { angle, position } = chosen;
     let heading = |at: usize| file.headings().get(at).map_or("", String::as_str);
-    let mut told = Vec::new();
     let raw = numbers(table, &file, (angle, position))?;
     let ends = raw.iter().map(|row| row[0]).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
     let angles = if let Some(angle) = angle {
@@ -508,7 +535,12 @@ pub(in crate::motion::program) fn read(table: &TableReader<'_>, whole: ProgramCo
         by.abs() * super::rounding::step(&column)
     };
     let (of_angle, of_position) = (rounding(0, angles.by), rounding(1, by));
-    let points = (0..).zip(&raw).map(|(row, [at, value])| RowPlace { at: angles.by * at, position: by * value, row });
+    let points = raw.iter().zip(&file.rows).zip(0..).map(|(([at, value], read), row)| RowPlace {
+        at: angles.by * at,
+        position: by * value,
+        row,
+        line: Some(read.line()),
+    });
     let bare = angle.is_some() && heading(angle.unwrap_or(0)).is_empty() && given[0].is_none();
     Some(Rows {
         points: points.collect(),

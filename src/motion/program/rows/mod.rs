@@ -5,6 +5,7 @@ mod curve;
 pub(super) mod file;
 mod nodes;
 pub mod rounding;
+pub mod samples;
 pub(super) mod segment;
 mod turn;
 
@@ -12,8 +13,9 @@ use super::Program;
 use super::context::ProgramContext;
 use super::fault_reported::FaultReported;
 use super::keys::{BETWEEN, DEGREE, MIRROR, POINTS, REST, SMOOTH, TABLE};
-use crate::document::{Field, TableReader};
+use crate::document::{Columns, Field, FileRow, TableReader};
 use crate::motion::Quantity;
+use crate::refusal::Refusal;
 use crate::units::{self, Dimension};
 
 pub use super::keys::{RestOfTurn, RowShape};
@@ -27,8 +29,10 @@ const OF_DWELL: f64 = 1.5;
 pub(super) struct RowPlace {
     pub(super) at: f64,
     pub(super) position: f64,
-    /// Its place in the file, or among the points.
+    /// Its index in the file, or among the points.
     pub(super) row: usize,
+    /// Its line in the file.
+    pub(super) line: Option<usize>,
 }
 
 /// Where rows come from.
@@ -38,6 +42,31 @@ pub(super) enum Origin {
     File { in_degrees: bool, span: f64 },
     /// Points of the machine file.
     Points,
+    /// Samples of a program.
+    Samples,
+}
+
+/// What is wrong with rows.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct RowsFault {
+    /// It is that of `mirror`, not of a row.
+    of_mirror: bool,
+    /// The index of the row.
+    row: usize,
+    message: String,
+    help: String,
+}
+
+impl RowsFault {
+    fn new(row: usize, message: String, help: String) -> Self {
+        Self { of_mirror: false, row, message, help }
+    }
+}
+
+impl From<RowsFault> for Refusal {
+    fn from(fault: RowsFault) -> Self {
+        Self::new(fault.message).remedy(fault.help)
+    }
 }
 
 /// Rows as they were read.
@@ -54,21 +83,43 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// Reports a fault at a row.
-    pub(super) fn fail(&self, table: &TableReader<'_>, row: usize, message: String, help: String) {
+    /// Reports a fault at its key, or at its row.
+    fn report(&self, table: &TableReader<'_>, RowsFault { of_mirror, row, message, help }: RowsFault) {
         match self.origin {
+            _ if of_mirror => table.fail(&MIRROR, message, Some(help)),
             Origin::File { .. } => table.fail_in(&TABLE, row, message, Some(help)),
-            Origin::Points => table.fail(&POINTS, message, Some(help)),
+            Origin::Points | Origin::Samples => table.fail(&POINTS, message, Some(help)),
         }
+    }
+
+    /// The turn that they cover, or a report of why they cover none.
+    fn turn(&mut self, table: &TableReader<'_>, fill: f64) -> Option<turn::Turn> {
+        let mirrored = table.has(&MIRROR) && table.get(&MIRROR)?;
+        let rest = if table.has(&REST) { Some(table.get(&REST)?) } else { None };
+        turn::Turn::of(fill, self, (mirrored, rest)).map_err(|fault| self.report(table, fault)).ok()
+    }
+
+    /// The first and the last row.
+    fn ends(&self) -> (RowPlace, RowPlace) {
+        let none = RowPlace { at: 0.0, position: 0.0, row: 0, line: None };
+        (self.points.first().copied().unwrap_or(none), self.points.last().copied().unwrap_or(none))
     }
 
     /// What they are together, and several of them.
     fn words(&self) -> (&'static str, &'static str) {
-        if self.origin == Origin::Points { ("`points`", "points") } else { ("a table", "rows") }
+        match self.origin {
+            Origin::File { .. } => ("a table", "rows"),
+            Origin::Points => ("`points`", "points"),
+            Origin::Samples => ("a motion of samples", "samples"),
+        }
     }
 
     fn name(&self) -> &'static str {
-        if self.origin == Origin::Points { "points" } else { "table" }
+        match self.origin {
+            Origin::File { .. } => "table",
+            Origin::Points => "points",
+            Origin::Samples => "samples",
+        }
     }
 }
 
@@ -92,9 +143,7 @@ pub struct TableRows {
 /// The rows of the file of `table`, as they are.
 pub(super) fn table_rows(table: &TableReader<'_>, whole: ProgramContext) -> Option<TableRows> {
     let mut rows = file::read(table, whole)?;
-    let mirrored = table.has(&MIRROR) && table.get(&MIRROR)?;
-    let rest = if table.has(&REST) { Some(table.get(&REST)?) } else { None };
-    let turn = turn::Turn::of(table, whole, &mut rows, (mirrored, rest))?;
+    let turn = rows.turn(table, whole.fill)?;
     let count = turn.dwells.len();
     Some(TableRows {
         quantity: whole.quantity,
@@ -130,6 +179,21 @@ pub struct RowNoise {
     pub smoothed: f64,
 }
 
+/// The row that is farthest off the curve of its neighbours, compared with what is allowed; positions in m or rad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RowOutlier {
+    /// Its number, from 1 on.
+    pub row: usize,
+    /// Its line in a file.
+    pub line: Option<usize>,
+    /// Its cam angle, rad.
+    pub at: f64,
+    /// Its position less that of the curve of its neighbours.
+    pub off: f64,
+    /// How far it may be off, by the scatter and the rounding of the rows and by what the derivatives of the motion do there.
+    pub allowed: f64,
+}
+
 /// Figures of a curve through rows; angles in rad of the cam, positions in m or rad.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowFigures {
@@ -151,6 +215,8 @@ pub struct RowFigures {
     pub smoothing: Option<Smoothing>,
     /// What errors of the rows do to the acceleration, where they are seen and not smoothed.
     pub noise: Option<RowNoise>,
+    /// The row farthest off its neighbours; `None` of few rows.
+    pub outlier: Option<RowOutlier>,
     /// What was read otherwise than as it stands, in words.
     pub told: Vec<String>,
 }
@@ -164,6 +230,15 @@ impl RowFigures {
     /// Figures in shares of a segment that begins at an angle and has a width (rad) and a travel.
     pub(super) fn of_segment(self, index: usize, range: (f64, f64), travel: f64) -> Self {
         Self { segment: Some(index), ..self.placed(range, travel) }
+    }
+
+    /// With the line of the outlier in a file whose rows they are.
+    pub(super) fn at_lines(self, file: &Columns) -> Self {
+        let line = |outlier: RowOutlier| {
+            let row = outlier.row.checked_sub(1).and_then(|index| file.rows.get(index));
+            RowOutlier { line: row.map(FileRow::line), ..outlier }
+        };
+        Self { outlier: self.outlier.map(line), ..self }
     }
 
     /// Figures by shares at an angle and over a width, rad, with positions in a size.
@@ -185,6 +260,12 @@ impl RowFigures {
                 smooth: size * noise.smooth,
                 largest: size * noise.largest / width / width,
                 smoothed: size * noise.smoothed / width / width,
+            }),
+            outlier: self.outlier.map(|outlier| RowOutlier {
+                at: angle(outlier.at),
+                off: size * outlier.off,
+                allowed: size * outlier.allowed,
+                ..outlier
             }),
             ..self
         }
@@ -215,14 +296,18 @@ impl RowWishes {
         }
         let one = if quantity == Quantity::Angle { (Dimension::Angle, 1.0) } else { (Dimension::Length, arc) };
         let smooth = smoothing(table, &SMOOTH, rows.rounding, &[one]).ok()?;
-        let cubic = degree == 3.0;
-        if cubic && (smooth.is_some() || shape == RowShape::Monotonic) {
-            let other = if smooth.is_some() { "smooth" } else { "shape = \"monotonic\"" };
+        let wishes = Self { shape, cubic: degree == 3.0, smooth };
+        wishes.checked().map_err(|(message, help)| table.fail(&DEGREE, message, Some(help.into()))).ok()
+    }
+
+    /// These wishes, or why they contradict each other and a remedy.
+    fn checked(self) -> Result<Self, (String, &'static str)> {
+        if self.cubic && (self.smooth.is_some() || self.shape == RowShape::Monotonic) {
+            let other = if self.smooth.is_some() { "smooth" } else { "shape = \"monotonic\"" };
             let message = format!("degree = 3 and {other} cannot both be given: that curve is of degree 5");
-            table.fail(&DEGREE, message, Some("remove `degree`".into()));
-            return None;
+            return Err((message, "remove `degree`"));
         }
-        Some(Self { shape, cubic, smooth })
+        Ok(self)
     }
 }
 
@@ -264,8 +349,6 @@ pub(super) fn program(
     mut rows: Rows,
 ) -> Option<Program> {
     let wishes = RowWishes::of(table, &rows, whole.typed(table))?;
-    let mirrored = table.has(&MIRROR) && table.get(&MIRROR)?;
-    let rest = if table.has(&REST) { Some(table.get(&REST)?) } else { None };
-    let turn = turn::Turn::of(table, whole, &mut rows, (mirrored, rest))?;
+    let turn = rows.turn(table, whole.fill)?.moved(whole.at);
     Some(curve::program(&turn, (start, lobes), whole, &rows, wishes))
 }

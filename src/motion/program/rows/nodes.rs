@@ -1,10 +1,11 @@
 //! The nodes of a curve through rows, or near them, and the figures of it; of a whole turn and of a segment alike.
 
-use super::{OF_DWELL, RowFigures, RowNoise, RowShape, RowWishes, Smoothing};
+use super::{OF_DWELL, RowFigures, RowNoise, RowOutlier, RowShape, RowWishes, Smoothing};
 use crate::motion::laws::spline;
 use crate::numeric::bounded_jerk::{self, Given, NotMonotonic, STAYS};
 use crate::numeric::extremum;
 use crate::numeric::least_jerk::{NodeConstraint, NodeInterval, least_jerk};
+use crate::numeric::outlier::{self, Sensitivity};
 use crate::numeric::scatter::scatter;
 
 /// Cells in which the extremes of a quintic are separated.
@@ -224,8 +225,24 @@ impl RowRun<'_> {
             rounding: self.rounding,
             smoothing,
             noise: self.noise(found, wishes),
+            outlier: self.outlier(),
             told: told.to_vec(),
         }
+    }
+
+    /// The row that is farthest off its neighbours, numbered among these.
+    fn outlier(&self) -> Option<RowOutlier> {
+        let rows: Vec<(f64, f64)> = self.knots.iter().copied().zip(self.values.iter().copied()).collect();
+        let samples = match self.ends {
+            None => outlier::ring(&rows, &self.dwells, 1.0),
+            Some(ends) => {
+                let chain = outlier::chain(&rows, &self.dwells);
+                outlier::at_rest(chain, self.spacing, ends.map(|end| end == [Some(0.0); 2]))
+            }
+        };
+        let worst = outlier::worst(&samples, self.rounding, Sensitivity::Fine)?;
+        let at = self.knots.get(worst.row).copied().unwrap_or(0.0);
+        Some(RowOutlier { row: worst.row + 1, line: None, at, off: worst.off, allowed: worst.allowed })
     }
 
     /// Largest accelerations as it is and with the errors of the rows smoothed, by the share, where that may matter.

@@ -1,7 +1,7 @@
 //! Rows inside of a segment: the points of a spline, the shares of a table.
 
 use super::nodes::{Nodes, RowRun};
-use super::{RowFigures, RowShape, RowWishes, smoothing};
+use super::{RowFigures, RowOutlier, RowShape, RowWishes, smoothing};
 use crate::document::TableReader;
 use crate::motion::laws::spline::{self, SplineEnds};
 use crate::motion::laws::{LawCurve, LawError};
@@ -104,7 +104,9 @@ impl SplineRows {
             let monotonic = rows.nodes(RowShape::Monotonic, 0.0);
             found = monotonic.map_err(|at| contradiction(knots, &found, at))?;
         }
-        let figures = run(knots, typed, self.rounding, ends).figures(&found, self.wishes, &[]);
+        let mut figures = run(knots, typed, self.rounding, ends).figures(&found, self.wishes, &[]);
+        // The start of the segment is no point.
+        figures.outlier = figures.outlier.map(|outlier| RowOutlier { row: outlier.row.saturating_sub(1), ..outlier });
         Ok((spline::chain(knots, &found.jets()), figures))
     }
 }

@@ -1,10 +1,7 @@
 //! What rows cover of a turn: their order, the row that closes it, a half that is mirrored, a part that rests.
 
 use super::file::looks_like_radians;
-use super::{OF_DWELL, Origin, RestOfTurn, RowPlace, Rows, degrees};
-use crate::document::TableReader;
-use crate::motion::program::context::ProgramContext;
-use crate::motion::program::keys::MIRROR;
+use super::{OF_DWELL, Origin, RestOfTurn, RowPlace, Rows, RowsFault, degrees};
 use crate::numeric::scatter::median;
 use std::f64::consts::TAU;
 
@@ -36,45 +33,44 @@ pub(super) struct Turn {
 }
 
 impl Turn {
+    /// The turn or lobe of a width, rad, that rows cover.
+    ///
+    /// # Errors
+    /// What is wrong with a row.
     pub(super) fn of(
-        table: &TableReader<'_>,
-        whole: ProgramContext,
+        fill: f64,
         rows: &mut Rows,
         (mirrored, rest): (bool, Option<RestOfTurn>),
-    ) -> Option<Self> {
-        ordered(table, rows, whole.fill)?;
+    ) -> Result<Self, RowsFault> {
+        ordered(rows, fill)?;
         let fewest = if mirrored { 2 } else { FEWEST };
         if rows.points.len() < fewest {
             let (what, one) = rows.words();
             let message = format!("{what} needs at least {fewest} {one}, not {}", rows.points.len());
-            rows.fail(table, rows.points.len().saturating_sub(1), message, format!("add {one}"));
-            return None;
+            return Err(RowsFault::new(rows.points.len().saturating_sub(1), message, format!("add {one}")));
         }
         if mirrored {
-            mirror(table, rows, whole.fill)?;
+            mirror(rows, fill)?;
         }
         // Rounding of the angles moves the row that closes the turn.
         let least = pairs(&rows.points).map(|(a, b)| b.at - a.at).fold(f64::INFINITY, f64::min);
         let same = SAME_ANGLE.max((1.01 * rows.rounding_of_angles).min(CLOSING * least));
-        let closes = closed(table, rows, whole.fill, same)?;
-        let (first, last) = (*rows.points.first()?, *rows.points.last()?);
-        let open = whole.fill - (last.at - first.at);
+        let closes = closed(rows, fill, same)?;
+        let (first, last) = rows.ends();
+        let open = fill - (last.at - first.at);
         let size = rows.points.iter().map(|row| row.position.abs()).fold(0.0, f64::max);
         let equal = |a: f64, b: f64| (a - b).abs() <= SAME_PLACE * size;
         let widths: Vec<f64> = pairs(&rows.points).map(|(a, b)| b.at - a.at).collect();
         let rests = mirrored || rest == Some(RestOfTurn::Dwell);
         let covered = closes || open <= widest_allowed(rows, &equal) + same;
         if !covered && !rests {
-            uncovered(table, rows, whole, open, equal(first.position, last.position));
-            return None;
+            return Err(uncovered(rows, fill, open, equal(first.position, last.position)));
         }
         if !covered && !equal(first.position, last.position) {
-            cannot_rest(table, rows, (&first, &last), open);
-            return None;
+            return Err(cannot_rest((&first, &last), open));
         }
         if rows.points.len() < FEWEST {
-            too_few_behind_the_first(table, rows);
-            return None;
+            return Err(too_few_behind_the_first(rows));
         }
         let spacing = median(&mut widths.clone());
         let ends = pairs(&rows.points).map(|(a, b)| (a.position, b.position, b.at - a.at));
@@ -86,34 +82,42 @@ impl Turn {
         if let Some(last) = dwells.last_mut().filter(|_| !covered || asked) {
             *last = true;
         }
-        let knots = rows.points.iter().map(|row| (row.at - first.at) / whole.fill).chain([1.0]).collect();
+        let knots = rows.points.iter().map(|row| (row.at - first.at) / fill).chain([1.0]).collect();
         let values = rows.points.iter().map(|row| row.position).chain([first.position]).collect();
-        // Within a turn of 0, so that the angles of reports are those of a turn.
-        let at = if first.at.abs() >= TAU { libm::fmod(first.at, TAU) } else { first.at };
-        Some(Self { at, knots, values, dwells, spacing })
+        Ok(Self { at: within_a_turn(first.at), knots, values, dwells, spacing })
+    }
+
+    /// The turn with its rows later by an angle, rad.
+    pub(super) fn moved(self, by: f64) -> Self {
+        Self { at: within_a_turn(self.at + by), ..self }
     }
 }
 
+/// An angle (rad) within a turn of 0, so that the angles of reports are those of a turn.
+fn within_a_turn(angle: f64) -> f64 {
+    if angle.abs() >= TAU { libm::fmod(angle, TAU) } else { angle }
+}
+
 /// The ends of rows are at different positions, so that nothing can rest between them.
-fn cannot_rest(table: &TableReader<'_>, rows: &Rows, (first, last): (&RowPlace, &RowPlace), open: f64) {
+fn cannot_rest((first, last): (&RowPlace, &RowPlace), open: f64) -> RowsFault {
     let message = format!(
         "the rows end at {} deg and begin at {} deg with different positions, so that the uncovered {} deg cannot rest",
         degrees(last.at),
         degrees(first.at),
         degrees(open)
     );
-    rows.fail(table, last.row, message, "add rows up to equal positions at both ends".into());
+    RowsFault::new(last.row, message, "add rows up to equal positions at both ends".into())
 }
 
 /// Rows of which the last repeats the first are too few.
-fn too_few_behind_the_first(table: &TableReader<'_>, rows: &Rows) {
+fn too_few_behind_the_first(rows: &Rows) -> RowsFault {
     let (what, one) = rows.words();
     let (single, count) = (one.trim_end_matches('s'), rows.points.len());
     let message = format!(
         "{what} needs at least {FEWEST} {one}, not {count}: {single} {} repeats the first, and the spline closes by itself",
         count + 1
     );
-    rows.fail(table, 0, message, format!("add {one}"));
+    RowsFault::new(0, message, format!("add {one}"))
 }
 
 fn pairs(points: &[RowPlace]) -> impl Iterator<Item = (&RowPlace, &RowPlace)> {
@@ -131,7 +135,7 @@ fn widest_allowed(rows: &Rows, equal: &impl Fn(f64, f64) -> bool) -> f64 {
 }
 
 /// The rows in the order of growing angles: a table may also fall all along, or go over the end of the turn once.
-fn ordered(table: &TableReader<'_>, rows: &mut Rows, fill: f64) -> Option<()> {
+fn ordered(rows: &mut Rows, fill: f64) -> Result<(), RowsFault> {
     if rows.points.len() > 2 && pairs(&rows.points).all(|(a, b)| b.at < a.at) {
         rows.points.reverse();
     }
@@ -147,40 +151,40 @@ fn ordered(table: &TableReader<'_>, rows: &mut Rows, fill: f64) -> Option<()> {
                 row.at += fill;
             }
             rows.told.push(format!("the rows go over the end of the turn behind {} deg", degrees(before)));
-            return Some(());
+            return Ok(());
         }
     }
-    let Some(at) = descents.first() else { return Some(()) };
+    let Some(at) = descents.first() else { return Ok(()) };
     let (Some(row), Some(before)) = (rows.points.get(*at), at.checked_sub(1).and_then(|at| rows.points.get(at))) else {
-        return Some(());
+        return Ok(());
     };
     let (here, before) = (degrees(row.at), degrees(before.at));
-    if rows.origin == Origin::Points {
-        let message = format!(
-            "point {} at {:.6} deg does not come after point {at} at {:.6} deg",
-            at + 1,
-            row.at.to_degrees(),
-            before
-        );
-        rows.fail(table, *at, message, "give the points in order of increasing angle, each angle once".into());
-    } else {
+    if let Origin::File { .. } = rows.origin {
         let message = format!("{here} does not come after {before}: rows {at} and {} in degrees of the cam", at + 1);
-        rows.fail(table, row.row, message, "sort the rows by their angle, each angle once".into());
+        return Err(RowsFault::new(row.row, message, "sort the rows by their angle, each angle once".into()));
     }
-    None
+    let (_, all) = rows.words();
+    let one = all.trim_end_matches('s');
+    let message = format!(
+        "{one} {} at {:.6} deg does not come after {one} {at} at {:.6} deg",
+        at + 1,
+        row.at.to_degrees(),
+        before
+    );
+    Err(RowsFault::new(*at, message, format!("give the {all} in order of increasing angle, each angle once")))
 }
 
 /// The other half of rows that are one, mirrored at its higher end.
-fn mirror(table: &TableReader<'_>, rows: &mut Rows, fill: f64) -> Option<()> {
-    let (first, last) = (*rows.points.first()?, *rows.points.last()?);
+fn mirror(rows: &mut Rows, fill: f64) -> Result<(), RowsFault> {
+    let (first, last) = rows.ends();
     if last.at - first.at > 0.5 * fill * (1.0 + 1e-9) {
         let message = format!(
             "`mirror` takes rows of half a lobe, at most {} deg, but they cover {} deg",
             degrees(0.5 * fill),
             degrees(last.at - first.at)
         );
-        table.fail(&MIRROR, message, Some("remove `mirror`, or the rows of the other half".into()));
-        return None;
+        let help = "remove `mirror`, or the rows of the other half".into();
+        return Err(RowsFault { of_mirror: true, ..RowsFault::new(last.row, message, help) });
     }
     let at_last = last.position >= first.position;
     let nose = if at_last { last } else { first };
@@ -194,12 +198,12 @@ fn mirror(table: &TableReader<'_>, rows: &mut Rows, fill: f64) -> Option<()> {
         rows.points = mirrored;
     }
     rows.told.push(format!("mirrored at {} deg", degrees(nose.at)));
-    Some(())
+    Ok(())
 }
 
 /// Takes away rows that repeat others a turn before: the one that closes it, and what a list has beyond it; whether there are such.
-fn closed(table: &TableReader<'_>, rows: &mut Rows, fill: f64, same: f64) -> Option<bool> {
-    let first = *rows.points.first()?;
+fn closed(rows: &mut Rows, fill: f64, same: f64) -> Result<bool, RowsFault> {
+    let (first, _) = rows.ends();
     let size = rows.points.iter().map(|row| row.position.abs()).fold(0.0, f64::max);
     let kept = rows.points.iter().take_while(|row| row.at - first.at < fill - same).count();
     let beyond: Vec<RowPlace> = rows.points.iter().skip(kept).copied().collect();
@@ -216,28 +220,28 @@ fn closed(table: &TableReader<'_>, rows: &mut Rows, fill: f64, same: f64) -> Opt
                     degrees(fill),
                     first.row + 1
                 );
-                rows.fail(table, row.row, message, "make both positions equal, or remove the last row".into());
-                return None;
+                let help = "make both positions equal, or remove the last row".into();
+                return Err(RowsFault::new(row.row, message, help));
             }
             _ => {
                 let span = rows.points.last().map_or(0.0, |last| last.at - first.at);
-                outside(table, rows, row, (span, fill));
-                return None;
+                return Err(outside(rows, row, (span, fill)));
             }
         }
     }
     rows.points.truncate(kept);
-    Some(!beyond.is_empty())
+    Ok(!beyond.is_empty())
 }
 
 /// Reports a row beyond the turn that does not repeat another.
-fn outside(table: &TableReader<'_>, rows: &Rows, row: &RowPlace, (span, fill): (f64, f64)) {
-    if rows.origin == Origin::Points {
+fn outside(rows: &Rows, row: &RowPlace, (span, fill): (f64, f64)) -> RowsFault {
+    if !matches!(rows.origin, Origin::File { .. }) {
+        let one = rows.words().1.trim_end_matches('s');
         let first = rows.points.first().map_or(0.0, |first| first.at);
-        let message = format!("point {} at {:.6} deg is outside the turn or lobe", row.row + 1, row.at.to_degrees());
+        let message = format!("{one} {} at {:.6} deg is outside the turn or lobe", row.row + 1, row.at.to_degrees());
         let (low, high) = (first.to_degrees(), (first + fill).to_degrees());
         let help = format!("angles must be at least {low:.6} deg and below {high:.6} deg; the spline closes by itself");
-        return rows.fail(table, row.row, message, help);
+        return RowsFault::new(row.row, message, help);
     }
     let message = format!(
         "row {} at {} deg is outside the turn or lobe: the rows cover {} deg, more than {} deg",
@@ -254,17 +258,17 @@ fn outside(table: &TableReader<'_>, rows: &Rows, row: &RowPlace, (span, fill): (
     } else {
         format!("angles must span at most {} deg; `ratio`, `unit` or `over` say what else they are", degrees(fill))
     };
-    rows.fail(table, row.row, message, help);
+    RowsFault::new(row.row, message, help)
 }
 
 /// Reports a part of the turn without rows, with what would complete it.
-fn uncovered(table: &TableReader<'_>, rows: &Rows, whole: ProgramContext, open: f64, equal: bool) {
-    let (row, span) = (rows.points.last().map_or(0, |last| last.row), whole.fill - open);
+fn uncovered(rows: &Rows, fill: f64, open: f64, equal: bool) -> RowsFault {
+    let (row, span) = (rows.points.last().map_or(0, |last| last.row), fill - open);
     let what = format!("{} deg of the turn are without rows", degrees(open));
-    let what = if (whole.fill - TAU).abs() > SAME_ANGLE { what.replace("turn", "lobe") } else { what };
+    let what = if (fill - TAU).abs() > SAME_ANGLE { what.replace("turn", "lobe") } else { what };
     let complete = || {
         let mut ways = Vec::new();
-        if span <= 0.5 * whole.fill * (1.0 + 1e-9) && !equal {
+        if span <= 0.5 * fill * (1.0 + 1e-9) && !equal {
             ways.push("mirror = true makes a whole lobe of one half");
         }
         if equal {
@@ -276,22 +280,17 @@ fn uncovered(table: &TableReader<'_>, rows: &Rows, whole: ProgramContext, open: 
     if let Origin::File { in_degrees: true, span } = rows.origin {
         if looks_like_radians(span) {
             let message = format!("{what}: are these radians?");
-            return rows.fail(
-                table,
-                row,
-                message,
-                "unit = \"rad\" or a heading such as \"angle (rad)\" says so".into(),
-            );
+            let help = "set unit = \"rad\", or write a heading such as \"angle (rad)\"";
+            return RowsFault::new(row, message, help.into());
         }
         if (span - 1.0).abs() < 0.05 {
             let help = "over = \"360 deg\" says so; lift = \"8 mm\" makes shares of the positions";
-            return rows.fail(table, row, format!("{what}: are these shares of the turn?"), help.into());
+            return RowsFault::new(row, format!("{what}: are these shares of the turn?"), help.into());
         }
     }
-    rows.fail(
-        table,
+    RowsFault::new(
         row,
         format!("{what}: they end at {} deg", degrees(rows.points.last().map_or(0.0, |last| last.at))),
         complete(),
-    );
+    )
 }

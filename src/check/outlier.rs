@@ -1,0 +1,64 @@
+//! Whether one row of a table is off the curve of its neighbours.
+
+use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
+use crate::geometry::MILLIMETRES;
+use crate::motion::program::rows::{RowFigures, RowOutlier};
+use crate::motion::{Motion, Quantity};
+use crate::report::{Bound, Place, shown};
+
+/// The check.
+pub const CHECK: Check = of_unit("mm");
+
+/// The check of a swing.
+pub const OF_SWING: Check = of_unit("deg");
+
+const fn of_unit(unit: &'static str) -> Check {
+    Check {
+        name: "outlier",
+        on: CheckScope::Cam,
+        unit,
+        about: "How far a row of a table, a point or a sample is off the curve through its neighbours: one wrong digit is a bump that the cam is \
+                made with.",
+        explained: CheckExplanation {
+            bound: Bound::AtMost,
+            formula: "|position − polynomial through four or six neighbours| of the row where that is largest compared with its limit, of 20 rows \
+                      or more",
+            usual: "3 times what the divided differences of its neighbours alone show there, 3.5 steps of the rounding, 12 standard deviations of the \
+                    scatter: rows of laws whose acceleration jumps stay below. Of fewer than 72 rows, uneven ones, and beside a jump of the \
+                    velocity 18 times",
+            change: "correct the row, or leave it out; points that are meant so are given with more rows around them",
+        },
+    }
+}
+
+/// Measure of a motion through rows; `None` of another motion, and of few rows.
+#[must_use]
+pub fn measure(subject: &Subject<'_>) -> Option<Measure> {
+    of_motion(subject.curves?.motion)
+}
+
+/// Measure of a motion through rows.
+#[must_use]
+pub fn of_motion(motion: &dyn Motion) -> Option<Measure> {
+    let swings = motion.quantity() == Quantity::Angle;
+    let (check, size) = if swings { (&OF_SWING, 1.0_f64.to_degrees()) } else { (&CHECK, MILLIMETRES) };
+    let all = motion.program()?.rows().iter().filter_map(|rows| Some((rows, rows.outlier?)));
+    let share = |(_, outlier): &(_, RowOutlier)| outlier.off.abs() / outlier.allowed;
+    let (rows, outlier) = all.reduce(|a, b| if share(&b) > share(&a) { b } else { a })?;
+    let (value, limit) = (size * outlier.off.abs(), size * outlier.allowed);
+    let note = (value > limit).then(|| note(rows, outlier, swings));
+    let place = if motion.is_by_travel() { Place::at_overrun(outlier.at) } else { Place::at_angle(outlier.at) };
+    Some(check.measure(value, Some(limit)).noted(note).placed(place))
+}
+
+fn note(rows: &RowFigures, outlier: RowOutlier, swings: bool) -> String {
+    let (unit, size) = if swings { ("deg", 1.0_f64.to_degrees()) } else { ("mm", MILLIMETRES) };
+    let segment = rows.segment.map_or(String::new(), |index| format!(" of segment {}", index + 1));
+    let line = outlier.line.map_or(String::new(), |line| format!(" (line {line} of the file)"));
+    let side = if outlier.off > 0.0 { "above" } else { "below" };
+    format!(
+        "row {}{segment}{line} is {} {unit} {side} the curve through its neighbours: correct it, or leave it out",
+        outlier.row,
+        shown(size * outlier.off.abs())
+    )
+}

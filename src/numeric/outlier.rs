@@ -1,0 +1,306 @@
+//! A single value that is off the curve of its neighbours.
+//!
+//! A value that is wrong by e shows in divided differences: the one through it and its neighbours is e times a known weight, while those of its
+//! neighbours alone do not contain it. The difference of order n of a smooth curve is its nth derivative over n!, so that the neighbours give what
+//! the curve itself can add, however unevenly they lie. Of a curve whose derivatives jump the neighbours show the jump too, because every
+//! difference over it contains it. Two orders are tried: the fourth sees errors near jumps, the sixth those of coarse values of smooth curves.
+
+use super::scatter::{OF_MEDIAN, median};
+
+/// Neighbours on each side of a value: differences of the fourth and the sixth order.
+const SIDES: [usize; 2] = [2, 3];
+/// How many times a value may be off what its neighbours show, by the order: correct values of laws whose acceleration jumps reach 2.8 and 5.7.
+const FINE: [f64; 2] = [3.0, 6.4];
+/// Of few or uneven values, and beside a jump of the velocity, which at a value itself is much like an error of it: correct ones reach 10 and 16.
+const COARSE: [f64; 2] = [18.0, 36.0];
+/// Fewest values for the first of these, and fewest for any.
+const MANY: usize = 72;
+const FEWEST: usize = 20;
+/// Neighbours are even if their distances differ by less.
+const EVEN: f64 = 1.2;
+/// So much of what a value is off is explained by a jump of the slope beside it.
+const OF_JUMP: f64 = 3.0;
+/// Lines whose slopes change by a smaller share of what they differ by are straight.
+const STRAIGHT: f64 = 0.15;
+/// Distances at which they begin.
+const LINES: [usize; 3] = [1, 2, 3];
+/// Rounding puts a value off its neighbours by 1.6 steps at most.
+const OF_ROUNDING: f64 = 3.5;
+/// So many standard deviations of the scatter are no error, where it is more than this share of a step of the rounding.
+const OF_SCATTER: f64 = 12.0;
+const BEYOND_ROUNDING: f64 = 0.6;
+/// Differences to either side of a value whose median is its scatter, and fewest of them.
+const NEAR: usize = 16;
+const FEWEST_NEAR: usize = 8;
+/// Shares of the range: of what is off, and of what is more than the rounding of sums.
+const LEAST: f64 = 1e-7;
+const DIGITS: f64 = 1e-12;
+/// Samples on each side that the differences of a value reach.
+pub const AROUND: usize = 7;
+
+/// A value at a place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Growing from sample to sample.
+    pub at: f64,
+    /// The value.
+    pub value: f64,
+    /// The number of the row to be judged; `None` of one that only continues the curve.
+    pub row: Option<usize>,
+}
+
+/// The row that is farthest off its neighbours, compared with what is allowed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outlier {
+    /// The number of its row.
+    pub row: usize,
+    /// Its value less that of the polynomial through its neighbours.
+    pub off: f64,
+    /// How far it may be off.
+    pub allowed: f64,
+}
+
+impl Outlier {
+    /// Whether the row is farther off than correct ones are.
+    #[must_use]
+    pub fn is_wrong(&self) -> bool {
+        self.off.abs() > self.allowed
+    }
+
+    fn share(&self) -> f64 {
+        self.off.abs() / self.allowed
+    }
+}
+
+/// Samples of a ring with a period, continued at both ends; `rests` is whether the curve rests from each to the next.
+#[must_use]
+pub fn ring(rows: &[(f64, f64)], rests: &[bool], period: f64) -> Vec<Sample> {
+    let own = chain(rows, rests);
+    let shifted = |samples: &[Sample], by: f64| -> Vec<Sample> {
+        samples.iter().map(|sample| Sample { at: sample.at + by, row: None, ..*sample }).collect()
+    };
+    let count = own.len();
+    // The last row of a ring is its first.
+    let inner = own.get(..count.saturating_sub(1)).unwrap_or_default();
+    let before = inner.get(inner.len().saturating_sub(AROUND)..).unwrap_or_default();
+    let after = inner.get(..AROUND.min(inner.len())).unwrap_or_default();
+    [shifted(before, -period), inner.to_vec(), shifted(after, period)].concat()
+}
+
+/// Samples of rows, with some on each stretch that rests.
+#[must_use]
+pub fn chain(rows: &[(f64, f64)], rests: &[bool]) -> Vec<Sample> {
+    let mut all = Vec::with_capacity(rows.len());
+    let mut widths: Vec<f64> = rows.windows(2).filter_map(|pair| Some(pair.last()?.0 - pair.first()?.0)).collect();
+    let spacing = median(&mut widths);
+    for (row, (at, value)) in rows.iter().copied().enumerate() {
+        all.push(Sample { at, value, row: Some(row) });
+        let Some((next, _)) = rows.get(row + 1).copied() else { break };
+        if rests.get(row) == Some(&true) {
+            all.extend(resting((at, next), value, spacing));
+        }
+    }
+    all
+}
+
+/// Samples within a rest, a spacing apart: as many as count at both of its ends.
+fn resting((from, to): (f64, f64), value: f64, spacing: f64) -> Vec<Sample> {
+    let most = u32::try_from(2 * AROUND).unwrap_or(u32::MAX);
+    let parts = (1..=most).take_while(|parts| (to - from) / f64::from(*parts) > 0.75 * spacing).last().unwrap_or(1);
+    let step = (to - from) / f64::from(parts);
+    (1..parts).map(|part| Sample { at: from + step * f64::from(part), value, row: None }).collect()
+}
+
+/// A chain continued at a level before its first sample, or behind its last.
+#[must_use]
+pub fn at_rest(samples: Vec<Sample>, spacing: f64, [before, after]: [bool; 2]) -> Vec<Sample> {
+    let steps = || (1..=u32::try_from(AROUND).unwrap_or(0)).map(f64::from);
+    let beside = |sample: Option<&Sample>, by: f64| -> Vec<Sample> {
+        let Some(sample) = sample else { return Vec::new() };
+        steps().map(|step| Sample { at: sample.at + by * step * spacing, value: sample.value, row: None }).collect()
+    };
+    let mut first = if before { beside(samples.first(), -1.0) } else { Vec::new() };
+    first.reverse();
+    let last = if after { beside(samples.last(), 1.0) } else { Vec::new() };
+    [first, samples, last].concat()
+}
+
+/// How small an error is to be seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sensitivity {
+    /// As small as correct values of laws of motion allow.
+    Fine,
+    /// That of values of any origin.
+    Coarse,
+}
+
+/// The row that is farthest off, of values rounded to a step; `None` of few rows.
+#[must_use]
+pub fn worst(samples: &[Sample], rounding: f64, sensitivity: Sensitivity) -> Option<Outlier> {
+    let rows = samples.iter().filter(|sample| sample.row.is_some()).count();
+    if rows < FEWEST {
+        return None;
+    }
+    let judge = Judge::new(samples, rounding, rows >= MANY && sensitivity == Sensitivity::Fine);
+    let all = (0..samples.len()).filter_map(|index| judge.at(index));
+    all.reduce(|a, b| if b.share() > a.share() { b } else { a })
+}
+
+/// Samples with their differences.
+struct Judge<'a> {
+    samples: &'a [Sample],
+    /// For each order, of each window of consecutive samples, over what scatter of one makes of it.
+    scatter: [Vec<f64>; 2],
+    /// Standard deviation over all of them.
+    overall: f64,
+    range: f64,
+    rounding: f64,
+    many: bool,
+}
+
+impl<'a> Judge<'a> {
+    fn new(samples: &'a [Sample], rounding: f64, many: bool) -> Self {
+        let ends = |(low, high): (f64, f64), sample: &Sample| (low.min(sample.value), high.max(sample.value));
+        let (low, high) = samples.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+        let scatter =
+            SIDES.map(|side| samples.windows(2 * side + 1).map(|window| Difference::of(window).scatter()).collect());
+        let mut judge = Self { samples, scatter, overall: 0.0, range: high - low, rounding, many };
+        judge.overall = judge.scatter_in(|_, _| true);
+        judge
+    }
+
+    /// Standard deviation of the scatter, by the windows (order, first sample) that are asked for: the smaller one of both orders, because what
+    /// the curve adds differs between them.
+    fn scatter_in(&self, includes: impl Fn(usize, usize) -> bool) -> f64 {
+        let of_order = |(order, all): (usize, &Vec<f64>)| {
+            let moving =
+                |(first, off): (usize, &f64)| (includes(order, first) && *off > DIGITS * self.range).then_some(*off);
+            let mut found: Vec<f64> = all.iter().enumerate().filter_map(moving).collect();
+            if found.len() < FEWEST_NEAR { 0.0 } else { OF_MEDIAN * median(&mut found) }
+        };
+        self.scatter.iter().enumerate().map(of_order).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Standard deviation of the scatter near a sample, without it: on the side where it is larger, because a flank may scatter more than a dwell.
+    fn scatter_near(&self, index: usize) -> f64 {
+        let width = |order: usize| 2 * SIDES.get(order).copied().unwrap_or(0);
+        let before = self.scatter_in(|order, first| {
+            let last = first + width(order);
+            last < index && last + NEAR >= index
+        });
+        let after = self.scatter_in(|_, first| first > index && first <= index + NEAR);
+        before.max(after)
+    }
+
+    fn at(&self, index: usize) -> Option<Outlier> {
+        let row = self.samples.get(index)?.row?;
+        let fine = self.many && self.is_even(index)?;
+        let scatter = self.overall.max(self.scatter_near(index));
+        let noise = if scatter > BEYOND_ROUNDING * self.rounding { OF_SCATTER * scatter } else { 0.0 };
+        let of_order = |order: usize| {
+            let side = SIDES.get(order)?;
+            let (first, last) = (index.checked_sub(2 * side + 1)?, index + 2 * side + 1);
+            let around = self.samples.get(first..=last)?;
+            let own = Difference::of(self.samples.get(index - side..=index + side)?);
+            let weight = own.weight(*side)?;
+            let others: Vec<Sample> =
+                around.iter().enumerate().filter(|(at, _)| first + at != index).map(|(_, one)| *one).collect();
+            let shown =
+                others.windows(2 * side + 1).map(|window| Difference::of(window).value.abs()).fold(0.0, f64::max);
+            let off = own.value / weight;
+            let is_corner = || self.jump(index, off).is_none_or(|jump| off.abs() <= jump);
+            let times = if fine && !is_corner() { FINE } else { COARSE };
+            let allowed = (times.get(order)? * shown / weight.abs())
+                .max(noise * own.size / weight.abs())
+                .max(OF_ROUNDING * self.rounding)
+                .max(LEAST * self.range)
+                .max(f64::MIN_POSITIVE);
+            Some(Outlier { row, off, allowed })
+        };
+        let both = (0..SIDES.len()).filter_map(of_order);
+        both.reduce(|a, b| if b.share() > a.share() { b } else { a })
+    }
+
+    /// Whether the samples around one are evenly spaced.
+    fn is_even(&self, index: usize) -> Option<bool> {
+        let around = self.samples.get(index.checked_sub(AROUND)?..=index + AROUND)?;
+        let widths = || around.windows(2).filter_map(|pair| Some(pair.last()?.at - pair.first()?.at));
+        let (least, most) = (widths().fold(f64::INFINITY, f64::min), widths().fold(0.0, f64::max));
+        Some(most <= EVEN * least)
+    }
+
+    /// How much a jump of the slope beside a sample may put it off its neighbours: one at the sample, or the corners of a short stretch between two
+    /// straight lines.
+    fn jump(&self, index: usize, off: f64) -> Option<f64> {
+        let at = self.samples.get(index)?.at;
+        let spacing = 0.5 * (self.samples.get(index + 1)?.at - self.samples.get(index.checked_sub(1)?)?.at);
+        let [before, after] =
+            [self.three(index, 1, false)?, self.three(index, 1, true)?].map(|three| slope_at(three, at));
+        // A sample at a corner is on its inner side.
+        let one = if (after - before) * off < 0.0 { OF_JUMP * (after - before).abs() * spacing / 3.0 } else { 0.0 };
+        let corners = LINES.iter().filter_map(|from| self.corner(index, *from)).map(|jump| jump * spacing);
+        Some(corners.fold(one, f64::max))
+    }
+
+    /// By how much the slopes of straight lines on both sides of a sample differ, from a distance on.
+    fn corner(&self, index: usize, from: usize) -> Option<f64> {
+        let lines = [self.three(index, from, false)?, self.three(index, from, true)?];
+        let [left, right] = lines.map(slope_of);
+        let jump = (right - left).abs();
+        lines.into_iter().all(|line| bend_of(line).abs() <= STRAIGHT * jump).then_some(jump)
+    }
+
+    /// Three samples on one side of one, from a distance on.
+    fn three(&self, index: usize, from: usize, after: bool) -> Option<[Sample; 3]> {
+        let place = |by: usize| if after { Some(index + by) } else { index.checked_sub(by) };
+        let sample = |by: usize| self.samples.get(place(from + by)?).copied();
+        Some([sample(0)?, sample(1)?, sample(2)?])
+    }
+}
+
+/// The slope from the first to the last of three samples.
+fn slope_of([a, _, c]: [Sample; 3]) -> f64 {
+    (c.value - a.value) / (c.at - a.at)
+}
+
+/// By how much the slope changes from the first two to the last two.
+fn bend_of([a, b, c]: [Sample; 3]) -> f64 {
+    (c.value - b.value) / (c.at - b.at) - (b.value - a.value) / (b.at - a.at)
+}
+
+/// The slope, at a place, of the parabola through three samples.
+fn slope_at([a, b, c]: [Sample; 3], at: f64) -> f64 {
+    let first = (b.value - a.value) / (b.at - a.at);
+    let second = ((c.value - b.value) / (c.at - b.at) - first) / (c.at - a.at);
+    first + second * (2.0 * at - a.at - b.at)
+}
+
+/// A divided difference.
+struct Difference {
+    value: f64,
+    weights: Vec<f64>,
+    /// The root of the sum of the squares of the weights.
+    size: f64,
+}
+
+impl Difference {
+    fn of(samples: &[Sample]) -> Self {
+        let weight = |own: usize, at: f64| {
+            let others = samples.iter().enumerate().filter(|(other, _)| *other != own);
+            1.0 / others.map(|(_, other)| at - other.at).product::<f64>()
+        };
+        let weights: Vec<f64> = samples.iter().enumerate().map(|(own, sample)| weight(own, sample.at)).collect();
+        let value = weights.iter().zip(samples).map(|(weight, sample)| weight * sample.value).sum();
+        let size = weights.iter().map(|weight| weight * weight).sum::<f64>().sqrt();
+        Self { value, weights, size }
+    }
+
+    fn weight(&self, at: usize) -> Option<f64> {
+        self.weights.get(at).copied()
+    }
+
+    /// Its size over what scatter of one makes of it.
+    fn scatter(&self) -> f64 {
+        self.value.abs() / self.size
+    }
+}
