@@ -3,7 +3,7 @@
 //! A tool as wide as the groove runs in its middle; a smaller one along either flank, which it cuts exactly in the middle of its depth. The rows are as few as keep the
 //! tolerance where a control goes straight in A, X and Y at once; between two joints of the motion a stretch is halved until it does.
 
-use super::milling::{Milling, MillingError, MillingProgram, TurnedPath, TurnedRound, depths};
+use super::milling::{Milling, MillingError, MillingProgram, TurnedPath, TurnedRound, depths, smoothing};
 use super::polar::{LEAST_SHARE, MOST_ROWS, without_time};
 use super::swept::{TurnedCam, TurnedFlank};
 use super::{Body, Request};
@@ -55,9 +55,11 @@ pub(super) fn program(
     // Half a step of X and of Y, and half a step of A on the outside.
     let rounding = grid.step() + 0.5 * angles.step() * (MILLIMETRES * cam.outside()).to_radians();
     let asked_for = MILLIMETRES * request.fit.tolerance;
-    let tolerance = asked_for - rounding;
+    let smoothing = smoothing(controller, request);
+    let tolerance = asked_for - MILLIMETRES * smoothing - rounding;
     if tolerance < LEAST_SHARE * asked_for {
-        let (asked, least) = (shown(1e3 * asked_for), shown(1e3 * rounding / (1.0 - LEAST_SHARE)));
+        let (asked, least) =
+            (shown(1e3 * asked_for), shown(1e3 * rounding / (1.0 - LEAST_SHARE - controller.smoothing_share())));
         let what = format!("numbers of {decimals} decimals keep no tolerance of {asked} um: they need {least} um");
         let remedy = "give a coarser --tolerance, or cut.decimals that the control takes";
         return Err(Refusal::new(what).remedy(remedy).into());
@@ -83,6 +85,7 @@ pub(super) fn program(
         passes: Vec::new(),
         depths,
         turned: Some(TurnedPath { axis: 'A', rounds }),
+        smoothing,
     }])
 }
 

@@ -49,6 +49,8 @@ pub struct MillingProgram {
     pub depths: Vec<f64>,
     /// The path of a cam that is turned under its tool, in the place of passes.
     pub turned: Option<TurnedPath>,
+    /// Tolerance within which the control may smooth its path, m: the path is drawn within the rest.
+    pub smoothing: f64,
 }
 
 /// The path of a tool over a cam that an axis of the machine turns.
@@ -189,7 +191,8 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
     let decimals = cutting.decimals.unwrap_or(controller.decimals(units));
     let cutter = cutter_of(body, request);
     let grid = Grid::of_lengths(decimals, units);
-    let drawn = drawn(body, request, (cutter, decimals))?;
+    let smoothing = smoothing(controller, request);
+    let drawn = drawn(body, request, (cutter, decimals, smoothing))?;
     let depths = depths(body, &cutting, grid)?;
     let of_counter = body.load().is_some_and(LoadAsCut::is_of_another_disc);
     let mut first = 0;
@@ -217,6 +220,7 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
             passes,
             depths,
             turned,
+            smoothing,
         });
     }
     Ok(programs)
@@ -228,9 +232,19 @@ fn numbered(first: u32, further: usize) -> u32 {
     (first.saturating_sub(1) + further) % LARGEST_PROGRAM + 1
 }
 
-/// The drawing within what rounding leaves of the tolerance, with the paths of the cutter where its centre is moved.
-fn drawn(body: &dyn Body, request: &Request, (cutter, decimals): (Option<f64>, u32)) -> Result<Drawn, MillingError> {
-    let (middle, half) = request.fit.band();
+/// The tolerance that a control may use up by smoothing the path, m.
+pub(super) fn smoothing(controller: Controller, request: &Request) -> f64 {
+    controller.smoothing_share() * request.fit.band().1
+}
+
+/// The drawing within what rounding and smoothing leave of the tolerance, with the paths of the cutter where its centre is moved.
+fn drawn(
+    body: &dyn Body,
+    request: &Request,
+    (cutter, decimals, smoothing): (Option<f64>, u32, f64),
+) -> Result<Drawn, MillingError> {
+    let (middle, band) = request.fit.band();
+    let half = band - smoothing;
     let rounding = ROUNDING * Grid::of_lengths(decimals, body.machine().units()).step() / MILLIMETRES;
     if half - rounding < LEAST_SHARE * half {
         let sides = request.fit.tolerance / half;

@@ -4,7 +4,7 @@
 //! The rows are the fewest with which the interpolated path keeps what the rounding of its numbers leaves of the tolerance, as a table of points
 //! for a control has them (`points`).
 
-use super::milling::{Milling, MillingError, MillingProgram, TurnedPath, TurnedRound, depths};
+use super::milling::{Milling, MillingError, MillingProgram, TurnedPath, TurnedRound, depths, smoothing};
 use super::points::{PointCurve, TableError, traced};
 use super::{Body, Cut, Request};
 use crate::geometry::MILLIMETRES;
@@ -41,7 +41,8 @@ pub(super) fn program(body: &dyn Body, request: &Request, asked: Milling) -> Res
         refusal.remedy("give --cutter-diameter")
     })?;
     let grid = Grid::of_lengths(decimals, units);
-    let mut rows = rows((body, disc), request, (wheel, grid, decimals))?;
+    let smoothing = smoothing(controller, request);
+    let mut rows = rows((body, disc), request, (wheel, grid, decimals, smoothing))?;
     let climbs = cutting.direction == MillingDirection::Climb;
     if climbs == (sense(body) < 0.0) {
         rows.reverse();
@@ -67,6 +68,7 @@ pub(super) fn program(body: &dyn Body, request: &Request, asked: Milling) -> Res
         cutter,
         passes: Vec::new(),
         depths,
+        smoothing,
         turned,
     }])
 }
@@ -96,9 +98,10 @@ fn disc_of(body: &dyn Body) -> Result<Cut<'_>, Refusal> {
 fn rows(
     (body, disc): (&dyn Body, &Cut<'_>),
     request: &Request,
-    (wheel, grid, decimals): (f64, Grid, u32),
+    (wheel, grid, decimals, smoothing): (f64, Grid, u32, f64),
 ) -> Result<Vec<[f64; 2]>, MillingError> {
-    let (middle, half) = request.fit.band();
+    let (middle, band) = request.fit.band();
+    let half = band - smoothing;
     let path = traced(body, disc, PointCurve::Cutter, Some(wheel - middle)).map_err(|error| match error {
         TableError::Cutter(error) => MillingError::Cutter(error),
         TableError::Refused(why) => MillingError::Refused(why),

@@ -48,6 +48,16 @@ impl Controller {
         of_millimetre + u32::from(units == LengthUnit::Inch)
     }
 
+    /// Share of the tolerance that is left to the control for smoothing its path, where its path mode has a number for it: CTOL of SINUMERIK, cycle 32 of
+    /// HEIDENHAIN. LinuxCNC keeps its path (G61), FANUC has no such number.
+    #[must_use]
+    pub fn smoothing_share(self) -> f64 {
+        match self {
+            Self::Sinumerik | Self::Heidenhain => 0.2,
+            Self::LinuxCnc | Self::Fanuc => 0.0,
+        }
+    }
+
     /// The ending that it expects of the name of a program.
     #[must_use]
     pub fn ending(self) -> &'static str {
@@ -97,7 +107,7 @@ pub struct CuttingData {
     pub form: CuttingForm,
     /// Decimals of lengths; `None`: those of the control.
     pub decimals: Option<u32>,
-    /// Lines before what the program itself sets, and before its first move.
+    /// Lines after what the program itself sets, and before its first move to the part.
     pub preamble: Vec<String>,
     /// Lines after the last move.
     pub postamble: Vec<String>,
@@ -105,9 +115,9 @@ pub struct CuttingData {
     pub feed: f64,
     /// Feed into the material, m/s.
     pub plunge_feed: f64,
-    /// Speed of the spindle, rpm; without it the program starts no spindle.
+    /// Speed of the spindle, rpm; without it the program starts none and stops for the operator to do so.
     pub spindle: Option<f64>,
-    /// Number of the tool that is changed in; without it the program changes none.
+    /// Number of the tool that is changed in; without it the program stops for the operator to load it.
     pub tool: Option<u32>,
     /// Number of the program, for a control that names programs by numbers.
     pub program: u32,
@@ -119,6 +129,8 @@ pub struct CuttingData {
     pub overrun: f64,
     /// Height above the upper face at which the cutter moves freely, m.
     pub clearance: f64,
+    /// Z of the machine, in its own coordinates, to which the tool rises before its change and at the end, m; `None`: that of the control.
+    pub home: Option<f64>,
     /// The sense of milling.
     pub direction: MillingDirection,
     /// Where the radius of the cutter is taken into account.
@@ -159,12 +171,16 @@ const DECIMALS: Field<f64> = Field::number(
 .also(&["digits"]);
 const PREAMBLE: Field<Vec<String>> = Field::texts(
     "preamble",
-    "lines before the first move of a program, e.g. the datum and the coolant: camgen writes none of its own",
-    Optional("[\"G54\", \"M8\"]"),
+    "lines between the change of the tool and the first move to the part, e.g. the coolant, or another datum than G54",
+    Optional("[\"G55\", \"M8\"]"),
 )
 .also(&["header", "start"]);
-const POSTAMBLE: Field<Vec<String>> =
-    Field::texts("postamble", "lines after the last move of a program", Optional("[\"M9\"]")).also(&["footer", "end"]);
+const POSTAMBLE: Field<Vec<String>> = Field::texts(
+    "postamble",
+    "lines before the end of a program, after M9, M5 and the move to cut.home",
+    Optional("[\"G0 X0 Y0\"]"),
+)
+.also(&["footer", "end"]);
 const FEED: Field<f64> = Field::quantity(
     "feed",
     "feed of the cutter along its path",
@@ -182,15 +198,15 @@ const PLUNGE_FEED: Field<f64> = Field::quantity(
 );
 const SPINDLE: Field<f64> = Field::number(
     "spindle",
-    "speed of the spindle in rpm, clockwise; a program starts no spindle without it",
+    "speed of the spindle in rpm, clockwise; without it a program stops (M0) for the operator to start it",
     Optional("3000"),
     above(0.0, LARGEST_NUMBER),
 )
 .also(&["speed", "s", "rpm"]);
 const TOOL: Field<f64> = Field::number(
     "tool",
-    "number of the tool: a program changes it in, and takes the radius of this tool for G41 and G42; without it no tool is changed, and the \
-     radius is that of number 1",
+    "number of the tool: a program changes it in, takes its length, and its radius for G41 and G42; without it a program stops (M0) for the operator \
+     to load the tool, and the radius is that of number 1",
     Optional("1"),
     within(1.0, LARGEST_TOOL),
 );
@@ -226,6 +242,14 @@ const CLEARANCE: Field<f64> = Field::quantity(
     above(0.0, LONGEST),
 )
 .also(&["safe_height", "retract"]);
+const HOME: Field<f64> = Field::quantity(
+    "home",
+    "Z, in the coordinates of the machine, to which the tool rises before its change and at the end; when absent 0 mm for linuxcnc and sinumerik, -1 mm \
+     for heidenhain, and the reference point (G28) for fanuc",
+    Optional("-1 mm"),
+    Length,
+    within(-LONGEST, LONGEST),
+);
 const DIRECTION: Field<MillingDirection> = Field::words(
     "direction",
     "\"climb\" (down milling) or \"conventional\" (up), of a cutter that turns clockwise",
@@ -263,6 +287,7 @@ pub(super) const SECTION: KeySection = KeySection {
         DEPTH_PER_PASS.key,
         OVERRUN.key,
         CLEARANCE.key,
+        HOME.key,
         DIRECTION.key,
         COMPENSATION.key,
     ],
@@ -290,6 +315,7 @@ impl std::default::Default for CuttingData {
             depth_per_pass: None,
             overrun: 0.0,
             clearance: USUAL_CLEARANCE,
+            home: None,
             direction: MillingDirection::Climb,
             compensation: RadiusCompensation::Program,
         }
@@ -335,6 +361,7 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<CuttingData> {
         depth_per_pass: table.get(&DEPTH_PER_PASS),
         overrun: table.get(&OVERRUN)?,
         clearance: table.get(&CLEARANCE)?,
+        home: table.get(&HOME),
         direction: table.get(&DIRECTION)?,
         compensation: table.get(&COMPENSATION)?,
     })

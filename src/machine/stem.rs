@@ -8,7 +8,7 @@ const MOST_BYTES: usize = 180;
 /// The stem of a name without any character that fits.
 const UNNAMED: &str = "machine";
 /// Names of devices under Windows, whatever follows a point.
-const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
+const DEVICES: [&str; 6] = ["con", "prn", "aux", "nul", "conin$", "conout$"];
 const NUMBERED_DEVICES: [&str; 2] = ["com", "lpt"];
 
 fn fits(c: char) -> bool {
@@ -18,7 +18,9 @@ fn fits(c: char) -> bool {
 fn is_device(stem: &str) -> bool {
     let name = stem.split('.').next().unwrap_or_default().trim().to_ascii_lowercase();
     let numbered = |device: &&str| {
-        name.strip_prefix(*device).is_some_and(|rest| rest.len() == 1 && rest.bytes().all(|b| b.is_ascii_digit()))
+        let mut rest = name.strip_prefix(*device).unwrap_or_default().chars();
+        // Windows reads the superscript digits of Latin-1 as digits, too.
+        rest.next().is_some_and(|digit| digit.is_ascii_digit() || "¹²³".contains(digit)) && rest.next().is_none()
     };
     DEVICES.contains(&name.as_str()) || NUMBERED_DEVICES.iter().any(numbered)
 }
@@ -72,6 +74,9 @@ mod tests {
             ("NUL", "machine-NUL"),
             ("com1.x", "machine-com1.x"),
             ("company", "company"),
+            ("COM¹", "machine-COM¹"),
+            ("com12", "com12"),
+            ("conin", "conin"),
         ] {
             assert_eq!(fitting(name), stem, "{name:?}");
             assert_eq!(fault_of(stem), None, "{stem:?}");
@@ -84,7 +89,22 @@ mod tests {
 
     #[test]
     fn stems_that_do_not_fit_are_told() {
-        for stem in ["", ".x", "-x", "a/b", "a\\b", "a\nb", "a\u{202e}", "con", "LPT1.dxf", " x"] {
+        for stem in [
+            "",
+            ".x",
+            "-x",
+            "a/b",
+            "a\\b",
+            "a\nb",
+            "a\u{202e}",
+            "con",
+            "LPT1.dxf",
+            " x",
+            "COM¹",
+            "lpt³.a",
+            "CONIN$",
+            "conout$",
+        ] {
             assert!(fault_of(stem).is_some(), "{stem:?}");
         }
     }

@@ -12,6 +12,7 @@ mod diagnosis;
 mod error;
 mod file_kind;
 mod file_set;
+mod heads;
 mod inputs;
 mod judged;
 mod pair;

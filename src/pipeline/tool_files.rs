@@ -1,14 +1,16 @@
 //! The proof of a cutter's path and of a table of points that were edited or written by another program.
 
 use super::check::CutSection;
-use super::{Cam, Error, ExpectedFile, diagnosis, report};
+use super::{Cam, Error, ExpectedFile, diagnosis, heads, report};
 use crate::body::milling::{depth_of, widest_cutter};
-use crate::body::points::{PointCurve, PointErrors, PointTable, radius_of_roller, traced};
+use crate::body::points::{
+    PointCurve, PointErrors, PointTable, largest_errors, motion_errors, radius_of_roller, traced,
+};
 use crate::body::{Layer, Request};
 use crate::geometry::MILLIMETRES;
-use crate::geometry::points::{Interpolant, PointRows, PointTableSpec};
+use crate::geometry::points::{Interpolant, PointInterpolation, PointRows, PointTableSpec};
 use crate::reading::gauge as read_gauge;
-use crate::reading::gcode::{self, CutterSide, MoveKind};
+use crate::reading::gcode::{self, CutterProgram, CutterSide, MoveKind};
 use crate::reading::servo;
 use crate::reading::table as read_table;
 use crate::reading::{self, Chain};
@@ -19,6 +21,16 @@ use crate::verify::{
     join_reach,
 };
 use crate::write::points;
+
+/// Whether the control keeps its cutter beside the path of a program, most of the way that it cuts at one depth.
+fn keeps_its_cutter(program: &CutterProgram) -> bool {
+    let level = |moved: &&gcode::CutterMove| {
+        moved.kind != MoveKind::Rapid && moved.from[2] < 0.0 && moved.is_level() && !moved.is_upright()
+    };
+    let cuts = program.moves.iter().filter(level).count();
+    let kept = program.moves.iter().filter(level).filter(|moved| moved.side != CutterSide::Centre).count();
+    2 * kept >= cuts
+}
 
 impl Cam {
     /// Whether a DXF file holds the path of a cutter of this cam.
@@ -65,7 +77,8 @@ impl Cam {
         let stated = points::stated(bytes);
         let cutter = expected.cutter.or(request.cutter_radius).or(stated.cutter);
         let section = self.section(expected.section)?;
-        let judged = |cut: usize| self.judged_points((cut, section), (&read, stated, cutter), request);
+        let text = String::from_utf8_lossy(bytes);
+        let judged = |cut: usize| self.judged_points((cut, section), (&read, stated, cutter, &text), request);
         let checks = match section {
             Some(section) => judged(section.cut)?,
             None => self.best_of_cuts(expected, judged)?,
@@ -101,8 +114,7 @@ impl Cam {
     ) -> Result<Report, Error> {
         let program = gcode::read_for(bytes, Some(self.body().machine().cutting().controller))
             .map_err(|why| Error::Read(why.context("not a program that can be checked")))?;
-        let mut arcs = program.moves.iter().filter(|moved| matches!(moved.kind, MoveKind::Arc { .. }));
-        let kept = program.turned.is_empty() && arcs.all(|moved| moved.side != CutterSide::Centre);
+        let kept = keeps_its_cutter(&program);
         let cuts = self.body().cuts();
         let cutter = match expected.cutter.or(request.cutter_radius).or_else(|| widest_cutter(self.body())) {
             _ if kept => None,
@@ -131,7 +143,9 @@ impl Cam {
 
     /// Whether a table for a servo drive moves it as this cam moves its follower.
     pub(super) fn check_servo(&self, bytes: &[u8], request: &Request) -> Result<Report, Error> {
-        let table = servo::read(bytes);
+        let body = self.body();
+        let text = String::from_utf8_lossy(bytes);
+        let table = servo::read(bytes).and_then(|rows| heads::of_servo(body, &text, &rows).map_or(Ok(rows), Err));
         let tables = Ok(vec![WrittenServo { format: "the table", table }]);
         let evidence = self.nothing_written(MILLIMETRES * request.fit.tolerance, request)?;
         let checks = verify::run(&Evidence { servo: Some(&tables), ..evidence });
@@ -146,8 +160,13 @@ impl Cam {
         request: &Request,
     ) -> Result<Report, Error> {
         let tolerance_mm = MILLIMETRES * request.fit.tolerance;
+        let text = String::from_utf8_lossy(bytes);
         let checks = self.best_of_cuts(expected, |cut| {
-            let list = [WrittenInspection::of(cut, bytes)];
+            let mut list = WrittenInspection::of(cut, bytes);
+            list.places = list
+                .places
+                .and_then(|places| heads::of_places(self.body(), &text, list.ball_radius).map_or(Ok(places), Err));
+            let list = [list];
             Ok(verify::run(&Evidence { inspections: &list, ..self.nothing_written(tolerance_mm, request)? }))
         })?;
         Ok(self.report_on("list of places", request, checks))
@@ -155,7 +174,9 @@ impl Cam {
 
     /// Whether the lift table of a gauge follower is one of this cam.
     pub(super) fn check_gauge(&self, bytes: &[u8], request: &Request) -> Result<Report, Error> {
-        let rows = read_gauge::read(bytes);
+        let body = self.body();
+        let text = String::from_utf8_lossy(bytes);
+        let rows = read_gauge::read(bytes).and_then(|rows| heads::of_gauge(body, &text, &rows).map_or(Ok(rows), Err));
         let evidence = self.nothing_written(MILLIMETRES * request.fit.tolerance, request)?;
         let checks = verify::run(&Evidence { gauge: Some(&rows), ..evidence });
         Ok(self.report_on("lift table of a gauge follower", request, checks))
@@ -193,7 +214,7 @@ impl Cam {
     fn judged_points(
         &self,
         (cut_index, section): (usize, Option<CutSection>),
-        (read, stated, cutter): (&points::ReadPoints, points::StatedCurve, Option<f64>),
+        (read, stated, cutter, text): (&points::ReadPoints, points::StatedCurve, Option<f64>, &str),
         request: &Request,
     ) -> Result<Vec<Finding>, Error> {
         let tolerance_mm = MILLIMETRES * request.fit.tolerance;
@@ -239,7 +260,33 @@ impl Cam {
             let curve = Ok(Interpolant::new(&rows, read.form, read.between, read.closed));
             Ok(vec![WrittenPoints { table, cutter, curve }])
         });
-        Ok(verify::run(&Evidence { points: Some(&tables), ..evidence }))
+        let checks = verify::run(&Evidence { points: Some(&tables), ..evidence });
+        let kept = checks.iter().find(|finding| finding.check == "points" && finding.verdict != Verdict::Fail);
+        let stated = kept.zip(tables.as_ref().ok().and_then(|tables| tables.first())).and_then(|(found, written)| {
+            let table = self.as_read(written, found.value)?;
+            heads::of_points(self.body(), text, (&table, read.units, tolerance_mm))
+        });
+        Ok(stated.map_or(checks, |why| verify::run(&Evidence { points: Some(&Err(why)), ..evidence })))
+    }
+
+    /// A table of points with the figures that its head gives, as they are of its rows; `error` is their distance, mm.
+    fn as_read(&self, written: &WrittenPoints, error: f64) -> Option<PointTable> {
+        let (mut table, curve) = (written.table.clone(), written.curve.as_ref().ok()?);
+        let cuts = self.body().cuts();
+        let cut = cuts.get(table.cut)?;
+        table.errors = match motion_errors(self.body(), cut, table.curve, written.cutter) {
+            Ok(feel) => PointErrors::Known(largest_errors(&*feel, curve, table.wish.between)),
+            Err(why) => PointErrors::Unknown(why),
+        };
+        let rows = &mut table.rows;
+        rows.error = error;
+        let twice = rows.rows.windows(2).filter(|pair| pair[0] == pair[1]).count();
+        rows.intervals -= twice;
+        rows.corners = match table.wish.between {
+            PointInterpolation::Cubic => twice,
+            PointInterpolation::Linear => traced(self.body(), cut, table.curve, written.cutter).ok()?.corners(),
+        };
+        Some(table)
     }
 
     /// The evidence of a file without an outline.

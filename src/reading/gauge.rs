@@ -7,6 +7,8 @@ use crate::units::LengthUnit;
 pub struct GaugeRows {
     /// Radius of the ball or roller, mm; `None` of a flat face.
     pub radius: Option<f64>,
+    /// The unit that the file has its lengths in.
+    pub units: LengthUnit,
     /// Cam angle, degrees; distance of the centre, or of the face, from the axis, and lift, mm.
     pub rows: Vec<[f64; 3]>,
 }
@@ -15,7 +17,7 @@ pub struct GaugeRows {
 pub const COLUMNS: [(&str, LengthUnit); 2] =
     [("cam_deg,distance_mm,lift_mm", LengthUnit::Millimetre), ("cam_deg,distance_in,lift_in", LengthUnit::Inch)];
 /// What the head says of the follower.
-pub const FOLLOWER: &str = "# gauge_follower: ";
+pub const FOLLOWER: &str = "gauge_follower: ";
 /// A ball or a roller, with its diameter and its unit.
 pub const ROUND: &str = "ball or roller, diameter_";
 /// A flat face.
@@ -40,7 +42,10 @@ pub fn is_gauge(bytes: &[u8]) -> bool {
 /// A sentence when it is not one.
 pub fn read(bytes: &[u8]) -> Result<GaugeRows, String> {
     let text = std::str::from_utf8(bytes).map_err(|error| error.to_string())?;
-    let follower = text.lines().find_map(|line| line.strip_prefix(FOLLOWER)).ok_or("it does not say which follower")?;
+    let follower = text
+        .lines()
+        .find_map(|line| line.strip_prefix("# ")?.strip_prefix(FOLLOWER))
+        .ok_or("it does not say which follower")?;
     let radius = match follower.trim_end().strip_prefix(ROUND) {
         Some(diameter) => {
             let in_units = [("mm ", LengthUnit::Millimetre), ("in ", LengthUnit::Inch)].into_iter();
@@ -53,7 +58,8 @@ pub fn read(bytes: &[u8]) -> Result<GaugeRows, String> {
         None => return Err(format!("`{}` is not a gauge follower", follower.chars().take(40).collect::<String>())),
     };
     let mut lines = text.lines().filter(|line| !line.starts_with('#') && !line.is_empty());
-    let scale = lines.next().and_then(units).ok_or("the line that names the columns is missing")?.millimetres();
+    let units = lines.next().and_then(units).ok_or("the line that names the columns is missing")?;
+    let scale = units.millimetres();
     let row = |(index, line): (usize, &str)| {
         let numbers: Option<Vec<f64>> = line.split(',').map(|cell| cell.trim().parse().ok()).collect();
         let finite = numbers.filter(|numbers| numbers.iter().all(|number| number.is_finite()));
@@ -63,5 +69,5 @@ pub fn read(bytes: &[u8]) -> Result<GaugeRows, String> {
             .ok_or_else(|| format!("row {} has not three numbers", index + 1))
     };
     let rows: Vec<[f64; 3]> = lines.take(MOST_ROWS).enumerate().map(row).collect::<Result<_, _>>()?;
-    if rows.is_empty() { Err("it has no rows".into()) } else { Ok(GaugeRows { radius, rows }) }
+    if rows.is_empty() { Err("it has no rows".into()) } else { Ok(GaugeRows { radius, units, rows }) }
 }

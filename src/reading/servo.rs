@@ -9,6 +9,8 @@ pub struct ServoRows {
     pub swings: bool,
     /// Whether the drive goes straight from row to row, whose velocity and acceleration are then nothing.
     pub straight: bool,
+    /// The unit that the file has its lengths in; the rows are in millimetres.
+    pub units: LengthUnit,
     /// The rows.
     pub rows: Vec<[f64; 4]>,
 }
@@ -19,6 +21,7 @@ impl ServoRows {
         for value in self.rows.iter_mut().flat_map(|row| row.iter_mut().skip(1)) {
             *value *= units.millimetres();
         }
+        self.units = units;
         self
     }
 }
@@ -133,7 +136,8 @@ fn equal_parts(text: &str) -> Result<ServoRows, String> {
     }
     let closed = positions.iter().chain(positions.first()).enumerate();
     let row = |(index, position): (usize, &f64)| [360.0 * count(index) / count(positions.len()), *position, 0.0, 0.0];
-    Ok(ServoRows { swings: text.contains(SWINGS), straight: true, rows: closed.map(row).collect() })
+    let rows = closed.map(row).collect();
+    Ok(ServoRows { swings: text.contains(SWINGS), straight: true, units: LengthUnit::Millimetre, rows })
 }
 
 /// The points `(name := value, …)` of a declaration; comments are skipped.
@@ -226,10 +230,10 @@ mod tests {
         let csv =
             "# a head\nmaster_deg,slave_deg,velocity_deg_per_deg,acceleration_deg_per_deg2\n0,1,2,3\n90.5,-1e-3,0,4\n";
         let rows = vec![[0.0, 1.0, 2.0, 3.0], [90.5, -1e-3, 0.0, 4.0]];
-        assert_eq!(read(csv.as_bytes()), Ok(ServoRows { swings: true, straight: false, rows: rows.clone() }));
+        assert_eq!(read(csv.as_bytes()), Ok(ServoRows { swings: true, rows: rows.clone(), ..ServoRows::default() }));
         let st = "(* slave: mm *)\nVAR_GLOBAL\nA : ARRAY[0..1] OF SMC_CAMXYVA := [(dX := 0, dY:=1, dV:= 2 ,dA := 3),\n\
                   (dX := 90.5, dY := -1E-3, dV := 0, dA := 4)];\nEND_VAR\n";
-        assert_eq!(read(st.as_bytes()), Ok(ServoRows { swings: false, straight: false, rows }));
+        assert_eq!(read(st.as_bytes()), Ok(ServoRows { rows, ..ServoRows::default() }));
         let inches = read(st.replace("slave: mm", "slave: in;").as_bytes()).expect("a table in inches");
         assert_eq!(inches.rows[0], [0.0, 25.4, 50.8, 25.4 * 3.0]);
         assert!(is_servo(st.as_bytes()) && is_servo(csv.as_bytes()) && !is_servo(b"x_mm,y_mm\n"));

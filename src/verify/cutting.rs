@@ -3,6 +3,7 @@
 
 use super::check::{Evidence, WrittenProgram};
 use super::program::ProgramFault;
+use super::safe_start::too_early;
 use crate::geometry::MILLIMETRES;
 use crate::machine::{Controller, CuttingData};
 use crate::reading::gcode::{CutterProgram, CuttingState, Spindle, ToolLength, TurnedPass};
@@ -27,9 +28,11 @@ pub(super) fn as_designed(evidence: &Evidence<'_>, written: &WrittenProgram) -> 
     for (line, tolerance) in &program.path_tolerances {
         if *tolerance > TOO_FREE * evidence.tolerance_mm * (1.0 + SAME) {
             if tolerance.is_infinite() {
-                let why = format!(
-                    "line {line} lets the control leave its path as far as it likes (G64): write G64 P with a value"
-                );
+                let write = match program.control {
+                    Some(Controller::Sinumerik) => "CTOL with a value, or G60",
+                    _ => "G64 P with a value, or G61",
+                };
+                let why = format!("line {line} lets the control leave its path without a bound: write {write}");
                 return Err(ProgramFault::new(why));
             }
             let (tolerance, most) = (shown(*tolerance), shown(evidence.tolerance_mm));
@@ -45,6 +48,7 @@ pub(super) fn as_designed(evidence: &Evidence<'_>, written: &WrittenProgram) -> 
             return Err(ProgramFault::new(format!("in line {line} {fault}")));
         }
     }
+    too_early(program)?;
     feeds(evidence, &design, program)
 }
 

@@ -24,6 +24,7 @@ mod plate_ends;
 mod points;
 mod program;
 pub mod rolling;
+mod safe_start;
 mod servo;
 mod solid;
 mod sphere;

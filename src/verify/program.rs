@@ -1,6 +1,7 @@
 //! What judging a program for a machine gives.
 
 use super::check::WrittenProgram;
+use super::safe_start::assumed;
 use crate::body::Body;
 use crate::body::milling::rib_between;
 use crate::geometry::MILLIMETRES;
@@ -42,5 +43,6 @@ pub(super) fn remarks(body: &dyn Body, written: &WrittenProgram) -> String {
     let named = written.program.as_ref().is_ok_and(|program| program.states.iter().any(|(_, state)| state.named));
     let tool = body.machine().cutting().tool.filter(|_| named);
     let tool = tool.map(|tool| format!("; a tool is called by its name, which is not compared with cut.tool = {tool}"));
-    unknown + &tool.unwrap_or_default() + &rib.unwrap_or_default()
+    let assumed = written.program.as_ref().map_or_else(|_| String::new(), assumed);
+    unknown + &assumed + &tool.unwrap_or_default() + &rib.unwrap_or_default()
 }

@@ -7,6 +7,7 @@ use crate::body::gauge::{self, Gauge, GaugeTable};
 use crate::geometry::MILLIMETRES;
 use crate::reading::gauge::{COLUMNS, FLAT, FOLLOWER, ROUND};
 use crate::refusal::Refusal;
+use crate::units::LengthUnit;
 
 /// The table, as it was proved.
 pub const FORMAT: Format = Format {
@@ -26,24 +27,32 @@ pub const FORMAT: Format = Format {
 #[must_use]
 pub fn write(body: &dyn Body, table: &GaugeTable, mark: &str) -> Vec<u8> {
     let units = body.machine().units();
-    let unit = units.symbol();
     let columns = COLUMNS.iter().find(|(_, of)| *of == units).map_or("", |(columns, _)| columns);
-    let follower = match table.gauge {
-        Gauge::Round(radius) => {
-            format!("{ROUND}{unit} {}", shortest(units.of_mm(2.0 * MILLIMETRES * radius)))
-        }
-        Gauge::Flat => FLAT.to_owned(),
-    };
-    let rest = if table.gauge == Gauge::Flat { "face" } else { "centre" };
-    let mut text = format!(
-        "# {mark}\n# machine: {}\n{FOLLOWER}{follower}\n# guided on a line through the axis of the cam, at cam_deg, which runs against the \
-         rotation\n# distance_{unit}: of its {rest} from the axis; lift_{unit}: from the lowest row\n{columns}\n",
-        body.machine().name().replace(['\n', '\r'], " ")
-    );
+    let statements: String =
+        statements(body, table.gauge, units).iter().map(|statement| format!("# {statement}\n")).collect();
+    let mut text = format!("# {mark}\n{statements}{columns}\n");
     let lowest = table.rows.iter().map(|row| row[1]).fold(f64::INFINITY, f64::min);
     for [cam_deg, distance] in &table.rows {
         let cells = [*cam_deg, units.of_mm(*distance), units.of_mm(distance - lowest)].map(shortest);
         text.push_str(&format!("{}\n", cells.join(",")));
     }
     text.into_bytes()
+}
+
+/// What a table in a unit says of itself, line by line.
+#[must_use]
+pub fn statements(body: &dyn Body, gauge: Gauge, units: LengthUnit) -> Vec<String> {
+    let unit = units.symbol();
+    let (follower, rest) = match gauge {
+        Gauge::Round(radius) => {
+            (format!("{ROUND}{unit} {}", shortest(units.of_mm(2.0 * MILLIMETRES * radius))), "centre")
+        }
+        Gauge::Flat => (FLAT.to_owned(), "face"),
+    };
+    vec![
+        format!("machine: {}", body.machine().name().replace(['\n', '\r'], " ")),
+        format!("{FOLLOWER}{follower}"),
+        "guided on a line through the axis of the cam, at cam_deg, which runs against the rotation".to_owned(),
+        format!("distance_{unit}: of its {rest} from the axis; lift_{unit}: from the lowest row"),
+    ]
 }

@@ -45,24 +45,20 @@ const LISTED: [usize; 4] = [5, 10, 20, 30];
 /// A list as its files, in the order of their endings, under a mark.
 #[must_use]
 pub fn write(body: &dyn Body, list: &InspectionList, mark: &str) -> Vec<Vec<u8>> {
-    let machine = body.machine().name().replace(['\n', '\r'], " ");
     let units = body.machine().units();
     let unit = units.symbol();
-    let (name, dmis, decimals) = match units {
-        LengthUnit::Millimetre => ("mm", "MM", DECIMALS),
-        LengthUnit::Inch => ("inches", "INCH", DECIMALS + 2),
+    let (dmis, decimals) = match units {
+        LengthUnit::Millimetre => ("MM", DECIMALS),
+        LengthUnit::Inch => ("INCH", DECIMALS + 2),
     };
+    let lines = |mark: &str, all: Vec<String>| all.iter().map(|line| format!("{mark} {line}\n")).collect::<String>();
+    let head = lines("#", statements(body, units, units.of_mm(list.ball_radius)));
     let mut table = format!(
-        "# {mark}\n# machine: {machine}\n# units: {name}, degrees\n# ball_radius_{unit}: {}\n# normal: unit vector out of the metal; the ball touches at x, y\n\
-         # lower_{unit}, upper_{unit}: zone of the deviation along the normal\n\
-         no,cam_deg,polar_deg,radius_{unit},x_{unit},y_{unit},normal_x,normal_y,ball_x_{unit},ball_y_{unit},lower_{unit},upper_{unit},\
-         curvature_radius_{unit}\n",
-        shortest(units.of_mm(list.ball_radius))
+        "# {mark}\n{head}no,cam_deg,polar_deg,radius_{unit},x_{unit},y_{unit},normal_x,normal_y,ball_x_{unit},ball_y_{unit},lower_{unit},upper_{unit},\
+         curvature_radius_{unit}\n"
     );
-    let plain_name: String = machine.chars().filter(|c| (' '..='~').contains(c) && !"'$".contains(*c)).collect();
-    let mut program = format!(
-        "DMISMN/'{mark}',05.2\n$$ {plain_name}\n$$ X0 Y0 as in the drawing: the axis of the shaft; Z0 the plane of the drawing\nUNITS/{dmis},ANGDEC\n"
-    );
+    let head = lines("$$", program_statements(body));
+    let mut program = format!("DMISMN/'{mark}',05.2\n{head}UNITS/{dmis},ANGDEC\n");
     // Numbers alone do not say what they are: lines in millimetres have no head, those in inches state them.
     let mut lines = if units == LengthUnit::Inch { read::PLAIN_INCHES.to_owned() + "\n" } else { String::new() };
     for (index, place) in list.places.iter().enumerate() {
@@ -82,6 +78,31 @@ pub fn write(body: &dyn Body, list: &InspectionList, mark: &str) -> Vec<Vec<u8>>
     }
     program.push_str("ENDFIL\n");
     [table, lines, program].map(String::into_bytes).to_vec()
+}
+
+/// What the table of a list in a unit says of itself, line by line.
+#[must_use]
+pub fn statements(body: &dyn Body, units: LengthUnit, ball_radius: f64) -> Vec<String> {
+    let unit = units.symbol();
+    let name = if units == LengthUnit::Inch { "inches" } else { "mm" };
+    vec![
+        format!("machine: {}", machine(body)),
+        format!("units: {name}, degrees"),
+        format!("ball_radius_{unit}: {}", shortest(ball_radius)),
+        "normal: unit vector out of the metal; the ball touches at x, y".to_owned(),
+        format!("lower_{unit}, upper_{unit}: zone of the deviation along the normal"),
+    ]
+}
+
+/// What the DMIS program of a list says of itself, line by line.
+#[must_use]
+pub fn program_statements(body: &dyn Body) -> Vec<String> {
+    let name = machine(body).chars().filter(|c| (' '..='~').contains(c) && !"'$".contains(*c)).collect();
+    vec![name, "X0 Y0 as in the drawing: the axis of the shaft; Z0 the plane of the drawing".to_owned()]
+}
+
+fn machine(body: &dyn Body) -> String {
+    body.machine().name().replace(['\n', '\r'], " ")
 }
 
 /// The sheet of a list: the outline with its numbered places, and a table of them.

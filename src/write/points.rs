@@ -46,10 +46,10 @@ const CLOSED: &str = "# closed: yes";
 #[must_use]
 pub fn write(body: &dyn Body, table: &PointTable) -> Vec<u8> {
     let mut text = String::new();
-    for (key, value) in head(body, table) {
-        text.push_str(&format!("# {key}: {value}\n"));
-    }
     let (form, units) = (table.wish.form, body.machine().units());
+    for statement in statements(body, table, units) {
+        text.push_str(&format!("# {statement}\n"));
+    }
     let columns = COLUMNS.iter().find(|(_, of_form, of_unit)| (*of_form, *of_unit) == (form, units));
     text.push_str(columns.map_or("", |(columns, _, _)| columns));
     text.push('\n');
@@ -60,9 +60,14 @@ pub fn write(body: &dyn Body, table: &PointTable) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// The description of the table, line by line.
-fn head(body: &dyn Body, table: &PointTable) -> Vec<(Cow<'static, str>, String)> {
-    let (wish, rows, units) = (&table.wish, &table.rows, body.machine().units());
+/// What a table in a unit says of itself, line by line.
+#[must_use]
+pub fn statements(body: &dyn Body, table: &PointTable, units: LengthUnit) -> Vec<String> {
+    head(body, table, units).into_iter().map(|(key, value)| format!("{key}: {value}")).collect()
+}
+
+fn head(body: &dyn Body, table: &PointTable, units: LengthUnit) -> Vec<(Cow<'static, str>, String)> {
+    let (wish, rows) = (&table.wish, &table.rows);
     let speed =
         table.rpm.map_or_else(|| body.speeds().to_string(), |rpm| format!(", section for {} rpm", shortest(rpm)));
     let unit = if units == LengthUnit::Inch { "inches" } else { "mm" };
@@ -108,7 +113,7 @@ fn head(body: &dyn Body, table: &PointTable) -> Vec<(Cow<'static, str>, String)>
             "bound of the distance between the interpolated curve and the exact one, either way".to_owned(),
         ),
     ]);
-    head.extend(motion_lines(body, table));
+    head.extend(motion_lines(body, table, units));
     head.push(("rows".into(), rows.rows.len().to_string()));
     head
 }
@@ -120,7 +125,7 @@ fn number(name: &'static str, value: f64, units: LengthUnit) -> (Cow<'static, st
 }
 
 /// The errors of the follower's motion on the curve that the control makes, and which tolerances are kept.
-fn motion_lines(body: &dyn Body, table: &PointTable) -> Vec<(Cow<'static, str>, String)> {
+fn motion_lines(body: &dyn Body, table: &PointTable, units: LengthUnit) -> Vec<(Cow<'static, str>, String)> {
     const KEYS: [[&str; 3]; 4] = [
         ["velocity_tolerance_mm_per_rad", "velocity_tolerance_rad_per_rad", "velocity_tolerance_mm_per_mm"],
         ["velocity_error_mm_per_rad", "velocity_error_rad_per_rad", "velocity_error_mm_per_mm"],
@@ -131,7 +136,7 @@ fn motion_lines(body: &dyn Body, table: &PointTable) -> Vec<(Cow<'static, str>, 
         ],
         ["acceleration_error_mm_per_rad2", "acceleration_error_rad_per_rad2", "acceleration_error_mm_per_mm2"],
     ];
-    let (swings, by_travel, units) = (swings(body), by_travel(body), body.machine().units());
+    let (swings, by_travel) = (swings(body), by_travel(body));
     let keys = KEYS.map(|[straight, swung, travelled]| match (swings, by_travel) {
         (true, _) => swung,
         (false, true) => travelled,
@@ -324,6 +329,8 @@ pub fn stated(bytes: &[u8]) -> StatedCurve {
 pub struct ReadPoints {
     /// Its coordinates, by the names of its columns.
     pub form: PointCoordinates,
+    /// The unit of its file, by these names; its rows are in millimetres.
+    pub units: LengthUnit,
     /// Its interpolation, by its head.
     pub between: PointInterpolation,
     /// Whether it closes, by its head.
@@ -366,7 +373,7 @@ pub fn read(bytes: &[u8]) -> Result<ReadPoints, String> {
         (Some((form, unit)), Some(between)) => {
             let first = if form == PointCoordinates::Polar { 1.0 } else { unit.millimetres() };
             let rows = rows.into_iter().map(|[a, b]: [f64; 2]| [first * a, unit.millimetres() * b]).collect();
-            Ok(ReadPoints { form, between, closed, rows })
+            Ok(ReadPoints { form, units: unit, between, closed, rows })
         }
         (None, _) => Err("the line that names the columns is missing".into()),
         (_, None) => Err("the interpolation is not stated".into()),
@@ -382,6 +389,7 @@ mod tests {
         let good = "# interpolation: cubic, whatever\n# closed: yes, so\nx_mm,y_mm\n1.0,-2.5\n";
         let table = ReadPoints {
             form: PointCoordinates::Plane,
+            units: LengthUnit::Millimetre,
             between: PointInterpolation::Cubic,
             closed: true,
             rows: vec![[1.0, -2.5]],

@@ -4,6 +4,8 @@ use super::number::{plain, shortest};
 use super::{Format, FormatSelection, Rendering};
 use crate::body::servo::{self, ServoTable};
 use crate::body::{Body, LoadAsCut};
+use crate::geometry::MILLIMETRES;
+use crate::motion::Quantity;
 use crate::refusal::Refusal;
 use crate::units::LengthUnit;
 
@@ -53,7 +55,7 @@ fn of(cam: &Rendering<'_>, name: &str) -> Result<Vec<Vec<u8>>, Refusal> {
 #[must_use]
 pub fn write(body: &dyn Body, table: &ServoTable, mark: &str) -> Vec<(&'static str, Vec<u8>)> {
     let units = if table.swings { LengthUnit::Millimetre } else { body.machine().units() };
-    let head = head(body, table, (mark, units));
+    let head = [vec![mark.to_owned()], statements(body, table.nodes.len(), units)].concat();
     // The drive of a table in inches has positions in inches; of a swinging follower they are angles.
     let nodes: Vec<[f64; 4]> =
         table.nodes.iter().map(|[x, y, v, a]| [*x, units.of_mm(*y), units.of_mm(*v), units.of_mm(*a)]).collect();
@@ -66,36 +68,51 @@ pub fn write(body: &dyn Body, table: &ServoTable, mark: &str) -> Vec<(&'static s
 /// A table of one column, whatever the unit of other files in ten thousandths of a millimetre or a degree: the position at the beginning of each of so many equal parts of the
 /// turn, with straight lines between them (<https://infosys.beckhoff.com/content/1033/tccncmcplatform_fb/15306147467.html>).
 fn isg(body: &dyn Body, swings: bool, positions: &[f64], mark: &str) -> String {
-    let unit = if swings { "deg" } else { "mm" };
     let rows: String =
         positions.iter().map(|position| plain(TEN_THOUSANDTHS * position, ISG_DECIMALS) + "\n").collect();
+    let [master, kind, function, slave] = isg_statements(swings);
     format!(
-        "Tablename = {} # {mark}\nTable-ID = 1 # master: one turn of the cam in equal parts, the first line at 0 deg\nTabletype = 3 # \
-         TABLE_ONE_COLUMN_REAL64\nFunctiontype = 1 # LINEAR\nLines = {} # slave: {unit}, in 0.0001 {unit}\nBegintable\n{rows}EndTable\n",
+        "Tablename = {} # {mark}\nTable-ID = 1 # {master}\nTabletype = 3 # {kind}\nFunctiontype = 1 # {function}\nLines = {} # {slave}\nBegintable\n\
+         {rows}EndTable\n",
         variable(body),
         positions.len()
     )
 }
 
-/// What a table is, line by line.
-fn head(body: &dyn Body, table: &ServoTable, (mark, units): (&str, LengthUnit)) -> Vec<String> {
+/// What a table of the controls of ISG says of itself, behind its settings.
+#[must_use]
+pub fn isg_statements(swings: bool) -> [String; 4] {
+    let unit = if swings { "deg" } else { "mm" };
+    [
+        "master: one turn of the cam in equal parts, the first line at 0 deg".to_owned(),
+        "TABLE_ONE_COLUMN_REAL64".to_owned(),
+        "LINEAR".to_owned(),
+        format!("slave: {unit}, in 0.0001 {unit}"),
+    ]
+}
+
+/// What a table with so many nodes says of itself, line by line.
+#[must_use]
+pub fn statements(body: &dyn Body, nodes: usize, units: LengthUnit) -> Vec<String> {
     let plain: String = body.machine().name().chars().filter(|c| c.is_ascii() && !"(*)".contains(*c)).collect();
-    let unit = if table.swings { "deg" } else { units.symbol() };
+    let swings = body.follower_motion().is_some_and(|motion| motion.quantity() == Quantity::Angle);
+    let advance = body.follower_motion().map_or(0.0, servo::advance);
+    let advance = if swings { advance.to_degrees() } else { units.of_mm(MILLIMETRES * advance) };
+    let unit = if swings { "deg" } else { units.symbol() };
     let upside_down = "counter disc of a pair: the motion is upside down; a drive in the place of the cam takes the table of the main disc";
     let of_counter = is_of_another_disc(body).then(|| upside_down.to_owned());
     let lines = vec![
-        mark.to_owned(),
         format!("machine: {plain}"),
         "master: deg of the cam, one turn".to_owned(),
         format!("slave: {unit}; velocity and acceleration by the master, {unit}/deg and {unit}/deg2"),
         "interpolation: between two nodes the polynomial of degree 5 with position, velocity and acceleration of both"
             .to_owned(),
-        format!("nodes: {}", table.nodes.len()),
+        format!("nodes: {nodes}"),
     ];
-    let goes_on = (table.advance != 0.0).then(|| {
+    let goes_on = (advance != 0.0).then(|| {
         format!(
             "the slave goes on by {} {unit} in each turn of the master: run the table relative to its end",
-            shortest(table.advance)
+            shortest(advance)
         )
     });
     lines.into_iter().chain(of_counter).chain(goes_on).collect()

@@ -74,8 +74,9 @@ fn passes_sense_and_side_are_those_that_were_asked_for() {
         let all: Vec<&str> = sets.iter().chain(&more).copied().chain([direction_set.as_str()]).collect();
         let cam = cam("feeder", &all);
         let text = program(&cam, request(Controller::LinuxCnc, None));
-        for words in ["G54\nM8\nG17 G21 G40 G90 G91.1 G94\nT3 M6\nS3000 M3\n", "F450", "D3", "M5\nM9\nM30\n", "G0 Z5.0"]
-        {
+        let head = "G21\nG17 G90 G94\nG91.1 G40 G49 G80\nG92.2\nG61\nG53 G0 Z0.0\nT3 M6\nG54\nS3000 M3\nG54\nM8\nG17 G90 G94 G40\n";
+        let tail = "G0 Z5.0\nM9\nM5\nG53 G0 Z0.0\nM9\nM30\n";
+        for words in [head, "F450", "D3", "G0 G43 H3 Z5.0\nG1 Z", tail] {
             assert!(text.contains(words), "{words}\n{text}");
         }
         let side = if direction == "climb" { CutterSide::Left } else { CutterSide::Right };
@@ -125,12 +126,12 @@ fn a_planted_fault_is_refused_for_its_own_reason() {
             with(middle, Some(format!("G41 D1\n{old}"))),
             "must be on its path|must be on the left|on the left",
         ),
-        ("a hole in the cam", text.replace("M30", "G0 X-30 Y0\nG1 Z-500 F100\nG0 Z5\nM30"), "no pass begins there"),
+        ("a hole in the cam", text.replace("M9", "G0 X-30 Y0\nG1 Z-500 F100\nG0 Z5\nM9"), "no pass begins there"),
         ("an end in the middle", with(middle, Some(format!("%\n{old}"))), "ends the program"),
         ("another datum", with(middle, Some(format!("G55\n{old}"))), "datum"),
         ("not deep enough", with(plunge, Some("G1 Z-7.5 F100".to_owned())), "7.5 mm deep"),
         ("a rapid plunge", with(plunge, Some(lines[plunge].replace("G1", "G0"))), "rapid"),
-        ("a way in through the cam", with(arcs[0] - 2, Some("G0 X0 Y0".to_owned())), "into the cam|off its circle"),
+        ("a way in through the cam", with(arcs[0] - 3, Some("G0 X0 Y0".to_owned())), "into the cam|off its circle"),
     ];
     for (name, text, expected) in faults {
         let why = match checked(&cam, &text, cutter) {
@@ -187,7 +188,7 @@ fn a_program_that_a_control_reads_otherwise_is_refused() {
     let whole = fanuc.replace("Z-15.0", "Z-15");
     assert!(why(&whole, Some(4e-3)).contains("Z-15 has no decimal point"), "{start}");
     // A head without blanks between its words.
-    let dense = fanuc.replace("G17 G21 G40 G90 G94", "G21G17G90G40G94");
+    let dense = fanuc.replace("G17 G90 G94 G40 G49", "G17G90G94G40G49");
     assert!(checked(&cam, &dense, Some(4e-3)).is_ok_and(|(passes, ..)| passes));
     for controller in [Controller::Fanuc, Controller::LinuxCnc, Controller::Sinumerik] {
         let text = program(&cam, request(controller, None));
@@ -206,7 +207,7 @@ fn a_program_that_a_control_reads_otherwise_is_refused() {
         "CYCL DEF 11.1 SCL 0.9",
         "CYCL DEF 8.1 X",
     ] {
-        let found = why(&text.replacen("\n8 L", &format!("\n8 {line}\n8 L"), 1), None);
+        let found = why(&with_lines(&text, "L X", line), None);
         assert!(found.contains("DR") || found.contains("not the profile that it says"), "{line}: {found}");
     }
 }
@@ -402,11 +403,11 @@ fn a_spindle_that_does_not_turn_or_a_wrong_depth_sense_or_tolerance_is_refused()
         assert!(found.contains(why), "{why}: {found}");
     }
     let dialogue = program(&cam, request(Controller::Heidenhain, cutter));
-    let last = dialogue.rfind("R0 FMAX").and_then(|at| dialogue[..at].rfind('\n')).expect("a retract");
+    let last = dialogue.rfind("L Z+5.0").and_then(|at| dialogue[..at].rfind('\n')).expect("a retract");
     let end = dialogue[last + 1..].find('\n').expect("a line") + last + 1;
     let lost = format!("{}{}", &dialogue[..last], &dialogue[end..]);
     assert!(why_refused(&cam, &lost, cutter).contains("below the upper face"));
-    let loose = dialogue.replacen("7 TOOL", "7 CYCL DEF 32.0 TOLERANCE\n7 CYCL DEF 32.1 T0.5\n7 TOOL", 1);
+    let loose = with_lines(&dialogue, "L X", "CYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1 T0.5");
     assert_ne!(loose, dialogue);
     assert!(why_refused(&cam, &loose, cutter).contains("leave its path by 0.5 mm"));
     let up = self::cam("feeder", &[&sets[..], &["cut.direction=conventional"]].concat());
@@ -491,8 +492,8 @@ fn the_length_is_that_of_the_tool() {
             let found = why_refused(&cam, &wrong, cutter);
             assert!(found.contains(why), "{controller:?} {why}: {found}");
         }
+        assert!(why_refused(&cam, &text.replace(&takes, "G0 Z5.0"), cutter).contains("write G43"), "{controller:?}");
         for right in [
-            text.replace(&takes, "G0 Z5.0"),
             text.replace("G17", "G40 G49 G80\nG49 H0\nG17"),
             text.replace("M30", "G49\nG91 G28 Z0 M5\nG49 H0\nM30"),
             text.replace(&takes, "G0 Z5.0 G43 H001"),
@@ -527,7 +528,7 @@ fn the_speed_of_the_spindle_is_that_of_the_design() {
             assert!(checked(&cam, &text.replace("S2000", speed), cutter).is_ok_and(|found| found.0), "{controller:?}");
         }
         if controller != Controller::Heidenhain {
-            let before = text.replace("T1 M6\nS2000 M3", "S2000 M3\nT1 M6");
+            let before = text.replace("T1 M6\nG54\nS2000 M3", "G54\nS2000 M3\nT1 M6");
             assert!(why_refused(&cam, &before, cutter).contains("M6 after M3"), "{controller:?}");
             assert!(why_refused(&cam, &text.replace("S2000", "G96 S2000"), cutter).contains("G96"), "{controller:?}");
         }
@@ -565,7 +566,7 @@ fn letters_beyond_ascii_may_stand_in_comments_alone() {
 fn a_path_that_linuxcnc_may_leave_as_far_as_it_likes_is_refused() {
     let (cam, cutter) = (cam("feeder", &["cut.depth=8mm"]), Some(4e-3));
     let text = program(&cam, request(Controller::LinuxCnc, cutter));
-    let with = |words: &str| text.replacen("G17", &format!("{words}\nG17"), 1);
+    let with = |words: &str| with_lines(&text, "(profile)", words);
     for words in ["G64", "G64 P0.005\nG64", "G61\nG64"] {
         let found = why_refused(&cam, &with(words), cutter);
         assert!(found.contains("G64 P with a value"), "{words}: {found}");
@@ -597,7 +598,7 @@ fn allowances_and_written_variables_are_refused_and_those_of_zero_are_not() {
     for (controller, before, wrong, right) in [
         (
             Sinumerik,
-            "G17",
+            "G0 X",
             &[
                 "OFFN=0.3",
                 "TOFFR=0.3",
@@ -616,7 +617,7 @@ fn allowances_and_written_variables_are_refused_and_those_of_zero_are_not() {
         ),
         (LinuxCnc, "G17", &["M61 Q2", "G92.3", "#5221=100"], &["G92.1", "#1=5"]),
         (Fanuc, "G17", &["#13001=5.", "#5221=100.", "G45 D05"], &["#100=5."]),
-        (Heidenhain, "L Z+5", &["M136", "FN 17: SYSWRITE ID10 NR1 IDX1 = +5"], &["FN 0: Q1 =+300"]),
+        (Heidenhain, "L X", &["M136", "FN 17: SYSWRITE ID10 NR1 IDX1 = +5"], &["FN 0: Q1 =+300"]),
     ] {
         let text = program(&cam, request(controller, None));
         for line in wrong {
@@ -637,7 +638,7 @@ fn calls_and_jumps_are_refused_in_every_dialect() {
     for (controller, before, wrong, right) in [
         (
             Heidenhain,
-            "L Z+5",
+            "L X",
             &[
                 "CALL PGM ROUGH.H",
                 "CALL LBL 1 REP2",
@@ -716,8 +717,186 @@ fn everyday_words_of_controls_are_read() {
     passes(&text.replace("T1 M6", "T=\"MILL8\" M6"), "not compared with cut.tool = 1");
     passes(&with_lines(&text, "T1 M6", "SUPA G0 Z300 D0"), "");
     passes(&with_lines(&text, "M30", "G0 SUPA Z300 D0"), "");
-    let after = with_lines(&text, "S2000", "SUPA G0 Z300 D0");
-    assert!(why_refused(&cam, &after, None).contains("without the length"));
+    passes(&with_lines(&text, "S2000", "SUPA G0 Z300 D0"), "");
     let fanuc = program(&cam, request(Controller::Fanuc, None)).replace("T1 M6", "T=\"MILL8\" M6");
     assert!(why_refused(&cam, &fanuc, None).contains("not by a name"));
+}
+
+/// The words of the head on which a move relies: without one of them the program is refused, and its message says what to write.
+#[test]
+fn a_move_before_what_it_relies_on_is_refused() {
+    use Controller::{Fanuc, Heidenhain, LinuxCnc, Sinumerik};
+    let (cam, cutter) = (cam("feeder", &SHOP), Some(4e-3));
+    for (controller, faults) in [
+        (
+            LinuxCnc,
+            &[
+                (" G40 G49", " G49", "write G40"),
+                ("G90 G94", "G90", "write G94"),
+                ("G91.1 ", "", "write G91.1"),
+                ("G61\n", "", "write G61"),
+                ("G54\n", "", "write G54"),
+                ("G53 G0 Z0.0\nT1", "T1", "at a height that is not known"),
+                ("G53 G0 Z0.0\nT1", "G28\nT1", "in all axes"),
+                ("G53 G0 Z0.0\nT1", "G0 G28 Z0\nT1", "by coordinates of the part"),
+                ("G0 G43 H1 Z5.0", "G0 Z5.0", "write G43"),
+            ][..],
+        ),
+        (
+            Fanuc,
+            &[
+                ("G40 G49", "G49", "write G40"),
+                ("G94 ", "", "write G94"),
+                ("G0 G43 H01 Z5.0", "G0 Z5.0", "write G43"),
+                ("G0 G43 H01 Z5.0", "G43 H01 Z5.0\nG91 G28 Z0.\nG90\nG0 Z5.0", "write G43"),
+                ("G91 G28 Z0.\nG90\nT1", "G90\nT1", "at a height that is not known"),
+                ("G91 G28 Z0.\nG90\nT1", "G91 G53 G0 Z0.\nG90\nT1", "leaves out unless in G90"),
+            ][..],
+        ),
+        (
+            Sinumerik,
+            &[
+                (" G40", "", "write G40"),
+                ("G642 CTOL=0.001", "G642", "without a bound"),
+                ("G642 CTOL=0.001", "G64", "without a bound"),
+                ("G642 CTOL=0.001", "G645", "without a bound"),
+                ("G642 CTOL=0.001", "COMPCAD", "without a bound"),
+                ("G642 CTOL=0.001\n", "", "path mode"),
+                ("G0 D1 Z5.0", "G0 Z5.0", "write D1"),
+                (" D0\nT1", "\nT1", "write D0"),
+            ][..],
+        ),
+        (
+            Heidenhain,
+            &[
+                (" R0", "", "write R0"),
+                ("L Z-1.0 R0 FMAX M91\n", "M9\n", "at a height that is not known"),
+                ("FMAX M3\n", "FMAX\n", "was not started"),
+            ][..],
+        ),
+    ] {
+        let text = program(&cam, request(controller, cutter));
+        assert!(checked(&cam, &text, cutter).is_ok_and(|found| found.0), "{controller:?}");
+        for (from, to, why) in faults {
+            // In the head alone, but for R0.
+            let wrong = if *from == " R0" { text.replace(from, to) } else { text.replacen(from, to, 1) };
+            assert_ne!(wrong, text, "{controller:?} {from}");
+            let found = why_refused(&cam, &wrong, cutter);
+            assert!(found.contains(why), "{controller:?} {from}: {found}");
+        }
+        // Across and down at once, and down before it is across.
+        let (across, down) = if controller == Heidenhain { ("L X", "L Z+5") } else { ("G0 X", "G0 ") };
+        let lines: Vec<&str> = text.lines().collect();
+        let at = lines.iter().position(|line| line.contains(across)).expect("a first move");
+        assert!(lines[at + 1].contains(down), "{text}");
+        let mut swapped = lines.clone();
+        swapped.swap(at, at + 1);
+        let found = why_refused(&cam, &(swapped.join("\n") + "\n"), cutter);
+        assert!(found.contains("before X and Y are known"), "{controller:?}: {found}");
+        let lowered = if controller == Heidenhain { " Z+5.0 R0" } else { " Z5.0 " };
+        let slanted = lines[at].replacen(" R0", lowered, 1);
+        let slanted = if controller == Heidenhain { slanted } else { slanted + lowered };
+        let mut both = lines.clone();
+        both[at] = &slanted;
+        let found = why_refused(&cam, &(both.join("\n") + "\n"), cutter);
+        assert!(found.contains("goes down as it does"), "{controller:?}: {found}");
+    }
+}
+
+/// Without a tool or a spindle in the machine file the program stops for the operator, and says what to set; without its stop it is refused.
+#[test]
+fn a_program_without_a_tool_stops_for_it() {
+    for controller in CONTROLLERS {
+        let cam = cam("feeder", &["cut.depth=8mm"]);
+        let text = program(&cam, request(controller, Some(4e-3)));
+        let stop = if controller == Controller::Heidenhain { " STOP\n" } else { "\nM0\n" };
+        let lower = text.to_ascii_lowercase();
+        for words in ["load the cutter", "start the spindle", "cut.tool", "cut.spindle"] {
+            assert!(lower.contains(words), "{controller:?} {words}: {text}");
+        }
+        let line = |line: &str| format!("\n{line}").ends_with(stop.trim_end());
+        let without: String = text.lines().filter(|own| !line(own)).map(|own| own.to_owned() + "\n").collect();
+        assert_ne!(without, text, "{controller:?}");
+        let found = why_refused(&cam, &without, Some(4e-3));
+        assert!(found.contains("M0") || found.contains("STOP"), "{controller:?}: {found}");
+        let whole = self::cam("feeder", &SHOP);
+        let text = program(&whole, request(controller, Some(4e-3)));
+        assert!(!text.contains(stop) && !text.to_ascii_lowercase().contains("load the cutter"), "{text}");
+    }
+}
+
+/// Words that say nothing new, or take back what moves the profile, pass; so does a program that leaves all of its setting up to the operator.
+#[test]
+fn harmless_words_and_a_bare_path_are_taken() {
+    use Controller::{Fanuc, Heidenhain, LinuxCnc, Sinumerik};
+    let (cam, cutter) = (cam("feeder", &SHOP), Some(4e-3));
+    for (controller, before, lines) in [
+        (LinuxCnc, "G0 X", &["G54 G92.1", "G90 G92.2 G80", "G64 P0.004", "G91 G28 Z0\nG90"][..]),
+        (Fanuc, "G0 X", &["G61", "G91 G28 Z0.\nG90"]),
+        (Sinumerik, "G0 X", &["G60", "G64 CTOL=0.004", "G641 ADIS=0.004", "TRANS", "COMPCAD\nCOMPOF", "G0 SUPA Z0 D0"]),
+        (Heidenhain, "L X", &["L Z-1 R0 FMAX M91", "L M140 MB MAX"]),
+    ] {
+        let text = program(&cam, request(controller, cutter));
+        for line in lines {
+            let found = checked(&cam, &with_lines(&text, before, line), cutter);
+            assert!(found.as_ref().is_ok_and(|found| found.0), "{controller:?} {line}: {found:?}");
+        }
+    }
+    // One that loses its bound in the middle is refused.
+    let exact = program(&cam, request(Sinumerik, cutter)).replace("G642 CTOL=0.001", "G60");
+    assert!(checked(&cam, &exact, cutter).is_ok_and(|found| found.0));
+    for words in ["G64", "G642", "G645", "COMPON"] {
+        let wrong = with_line(&exact, |line| line.starts_with("G2 "), |line| format!("{words}\n{line}"));
+        assert!(why_refused(&cam, &wrong, cutter).contains("without a bound"), "{words}");
+    }
+    let kept = program(&cam, request(Heidenhain, None)).replacen(" RL F300", " RL F300 M120 LA10", 1);
+    assert!(checked(&cam, &kept, None).is_ok_and(|found| found.0 && found.2.contains("M120")));
+    let bare = self::cam("feeder", &["cut.depth=8mm"]);
+    let text = program(&bare, request(LinuxCnc, cutter));
+    let path = text.find("G1 Z-").expect("a pass");
+    let start = text.lines().find(|line| line.starts_with("G0 X")).expect("a start");
+    let end = text.find("M9").expect("a tail");
+    let alone = format!("G17 G21 G40 G90 G91.1 G94\nG0 Z5.0\n{start}\n{}M30\n", &text[path..end]);
+    let found = checked(&bare, &alone, cutter).expect("a program");
+    assert!(found.0 && found.2.contains("not stated, as set before the program: tool length, datum"), "{found:?}");
+    let across = alone.replace("G0 Z5.0\nG0 X", "G0 X");
+    assert!(why_refused(&bare, &across, cutter).contains("at a height that is not known"));
+}
+
+/// A path of lines alone is that of a cutter's centre where the control does not keep its cutter beside it.
+#[test]
+fn a_program_without_arcs_takes_the_diameter_of_the_cutter() {
+    let (cam, cutter) = (cam("feeder", &SHOP), Some(4e-3));
+    let text = program(&cam, request(Controller::LinuxCnc, cutter));
+    let read = read(text.as_bytes()).expect("a program");
+    let mut moves = read.moves.iter();
+    let lines = text.lines().map(|line| {
+        if !line.starts_with("G2 ") && !line.starts_with("G3 ") {
+            return format!("{line}\n");
+        }
+        let arc = moves.find(|moved| matches!(moved.kind, MoveKind::Arc { .. })).expect("an arc");
+        arc.segments().iter().map(as_lines).collect()
+    });
+    let text: String = lines.collect();
+    assert!(!text.contains("G2 ") && !text.contains("G3 "));
+    let (passes, value, note) = checked(&cam, &text, cutter).expect("a program");
+    assert!(passes && value < 0.005 && note.contains("cutter Ø8 mm"), "{value} {note}");
+    assert!(matches!(checked(&cam, &text, None), Err(Error::Cutter(_))));
+}
+
+/// An arc in straight lines within 0.2 µm.
+fn as_lines(arc: &camgen::geometry::contour::Segment) -> String {
+    let (chord, sweep) = (arc.end - arc.start, arc.sweep());
+    let centre = arc.start + 0.5 * chord + 0.5 / (0.5 * sweep).tan() * nalgebra::Vector2::new(-chord.y, chord.x);
+    let from = arc.start - centre;
+    let count = (sweep.abs() / (8.0 * 2e-4 / from.norm()).sqrt()).ceil().max(1.0);
+    let mut text = String::new();
+    let mut step = 1.0;
+    while step <= count {
+        let (sin, cos) = (sweep * step / count).sin_cos();
+        let to = centre + nalgebra::Vector2::new(cos * from.x - sin * from.y, sin * from.x + cos * from.y);
+        text += &format!("G1 X{:.5} Y{:.5} F300\n", to.x, to.y);
+        step += 1.0;
+    }
+    text
 }

@@ -35,6 +35,7 @@ mod forces;
 mod gcode;
 mod groove;
 mod groove_cam;
+mod heads;
 mod html;
 mod importing;
 mod inches;

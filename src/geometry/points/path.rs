@@ -136,6 +136,12 @@ impl<'a> ExactPath<'a> {
         })
     }
 
+    /// How many corners it has.
+    #[must_use]
+    pub fn corners(&self) -> usize {
+        self.joints(false).0.len()
+    }
+
     /// The lengths at which it has a corner, and those at which a circle about the shaft begins or ends or, if requested,
     /// the curvature jumps, mm.
     pub(super) fn joints(&self, jumps: bool) -> (Vec<f64>, Vec<f64>) {

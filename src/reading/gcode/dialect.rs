@@ -123,6 +123,17 @@ pub(super) fn moves_the_profile(block: &str, control: Option<Controller>) -> Opt
     (!zero(shift)).then_some("moves the datum (G52)")
 }
 
+/// Whether a block of SINUMERIK only shows a message, or ends what moves, turns or scales the profile.
+pub(super) fn is_nothing(block: &str, control: Option<Controller>) -> bool {
+    let block = block.to_ascii_uppercase();
+    let number = block.strip_prefix('N').map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
+    let block = number.unwrap_or(&block).trim();
+    let ends =
+        |(word, _): &(&str, &str)| block.strip_prefix(word).is_some_and(|rest| ["", "()"].contains(&rest.trim()));
+    control == Some(Controller::Sinumerik)
+        && (FRAMES.iter().any(ends) || (block.starts_with("MSG(") && block.ends_with(')')))
+}
+
 /// Whether a block writes a variable of the control rather than of the program: `#5221=1`, `$TC_DP6[1,1]=4`.
 fn writes_variable(block: &str, control: Option<Controller>) -> bool {
     if block.contains("$P_") {
@@ -157,7 +168,14 @@ pub(super) fn in_common_words(block: &str, control: Option<Controller>) -> Strin
             plain = format!("{kept}{letter}{rest}");
         }
     }
-    plain
+    // The path mode has read these.
+    for word in ["CTOL", "ADIS"] {
+        let Some(rest) = after(&plain, word).and_then(|rest| rest.trim_start().strip_prefix('=')) else { continue };
+        let behind = rest.trim_start().trim_start_matches(|c: char| c.is_ascii_digit() || ".+-".contains(c));
+        let before = plain.len() - after(&plain, word).map_or(0, str::len) - word.len();
+        plain = format!("{}{behind}", plain.get(..before).unwrap_or_default());
+    }
+    plain.trim().to_owned()
 }
 
 /// What stands behind the first `%` of a program for FANUC, which reads nothing before it.
@@ -176,36 +194,13 @@ pub(super) fn behind_its_start(text: &str) -> &str {
     text
 }
 
-/// By how much a block lets the control leave its path, in the unit of the program: G61, G64 and G64 P of LinuxCNC, without P as far as it likes; CYCLE832, CTOL
-/// and ADIS of SINUMERIK.
-pub(super) fn path_tolerance(block: &str, control: Option<Controller>) -> Option<f64> {
-    let block = block.to_ascii_uppercase();
-    let number = |rest: &str| {
-        let rest = rest.trim_start_matches(['(', '=', ' ']);
-        let end = rest.find(|c: char| !(c.is_ascii_digit() || ['.', '+'].contains(&c))).unwrap_or(rest.len());
-        rest.get(..end)?.parse().ok()
-    };
-    if control == Some(Controller::Sinumerik) {
-        return ["CYCLE832", "CTOL", "ADIS"].iter().find_map(|word| number(after(&block, word)?));
-    }
-    let of_linuxcnc = control == Some(Controller::LinuxCnc);
-    if of_linuxcnc && ["G61", "G61.1"].iter().any(|word| has_word(&block, word)) {
-        return Some(0.0);
-    }
-    let freely = after(&block, "G64").filter(|_| control != Some(Controller::Fanuc))?;
-    match freely.find('P') {
-        Some(at) => number(freely.get(at + 1..)?),
-        None => of_linuxcnc.then_some(f64::INFINITY),
-    }
-}
-
 /// Whether a block has a word.
 pub(super) fn has_word(block: &str, word: &str) -> bool {
     after(block, word).is_some()
 }
 
 /// What follows a word in a block, where the block has it as a word of its own.
-fn after<'b>(block: &'b str, word: &str) -> Option<&'b str> {
+pub(super) fn after<'b>(block: &'b str, word: &str) -> Option<&'b str> {
     let is_code = word.starts_with(['G', 'M']) && word.as_bytes().get(1).is_some_and(u8::is_ascii_digit);
     block.match_indices(word).find_map(|(at, _)| {
         let (before, rest) = (block.get(..at)?, block.get(at + word.len()..)?);

@@ -1,6 +1,6 @@
 //! Programs in words of a letter and a number: LinuxCNC, FANUC, SINUMERIK.
 
-use super::dialect::{behind_its_start, dialect, in_common_words, moves_the_profile, path_tolerance};
+use super::dialect::{behind_its_start, dialect, in_common_words, is_nothing, moves_the_profile};
 use super::machine_state::{MachineState, at_line};
 use super::modal::{ModalWords, Situation, are_known, dwells, is_harmless, leaves, passed_over};
 use super::words::{Word, counted, of, without_comments, words};
@@ -12,7 +12,7 @@ use nalgebra::Vector2;
 /// Reads a program; where its head does not say for which control it is, for that of its design.
 pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgram, Refusal> {
     let control = dialect(text, design);
-    let (mut state, mut modal) = (MachineState::default(), ModalWords::of(control, false));
+    let (mut state, mut modal) = (MachineState::of(control), ModalWords::of(control, false));
     // FANUC reads nothing before the first `%`.
     let read = if control == Some(Controller::Fanuc) { behind_its_start(text) } else { text };
     let before = text.lines().count() - read.lines().count();
@@ -39,8 +39,9 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
         if let Some(what) = moves_the_profile(block, control) {
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
         }
-        if let Some(tolerance) = path_tolerance(block, control) {
-            state.keeps_path_within(line, modal.scale() * tolerance, control);
+        state.path_mode.block(line, typed, control, modal.scale());
+        if is_nothing(block, control) {
+            continue;
         }
         if control == Some(Controller::Fanuc) {
             counted(line, block, modal.units())?;
@@ -52,9 +53,11 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
         }
         match words(block) {
             Some(words) if are_known(&words, None) => run(line, &words, &mut state, &mut modal)?,
-            _ => {
+            found => {
                 state.unknown(line, typed)?;
                 passed_over(line, block, control)?;
+                // Datums such as G54.1 P1.
+                state.readiness.block(&found.unwrap_or_default());
             }
         }
     }
@@ -80,6 +83,8 @@ fn may_be_skipped(line: usize, block: &str) -> Result<(), Refusal> {
 /// A block that goes to a place of the machine, such as `G91 G28 Z0`: only upwards, or with the cutter above the part.
 fn to_the_machine(line: usize, words: &[Word], state: &mut MachineState) -> Result<(), Refusal> {
     let axes = ['X', 'Y', 'Z'].map(|axis| words.iter().any(|(letter, _)| *letter == axis));
+    let knows_height = state.knows_height();
+    state.readiness.leaves_by(line, (axes, words), knows_height);
     if state.side != CutterSide::Centre {
         return Err(at_line(line, "the cutter leaves for a place of the machine while it is kept beside its path"));
     }
@@ -93,6 +98,7 @@ fn run(line: usize, words: &[Word], state: &mut MachineState, modal: &mut ModalW
     // From below the face it leaves upwards alone, and is then above it.
     let is_deep = state.is_deep() && !leaves;
     modal.block(line, words, Situation { has_moved: state.has_moved(), is_deep })?;
+    state.readiness.block(words);
     if leaves {
         to_the_machine(line, words, state)?;
     }

@@ -17,7 +17,8 @@ const PLACES: [&str; 3] = ["M91", "M92", "M140"];
 
 /// Reads a program.
 pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
-    let (mut state, mut centre, mut ended, mut stopped) = (MachineState::default(), None, false, false);
+    let (mut state, mut centre, mut ended, mut stopped) =
+        (MachineState::of(Some(Controller::Heidenhain)), None, false, false);
     for (index, whole) in text.lines().enumerate() {
         let line = index + 1;
         // A name may have blanks; a comma is a decimal point.
@@ -42,9 +43,10 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
             []
             // Without a call a label does nothing.
             | ["LBL", _]
-            | ["STOP" | "M0" | "M1" | "M6" | "M8" | "M9"]
+            | ["M1" | "M6" | "M8" | "M9"]
             // Those of them that move the profile are refused above.
             | ["PLANE" | "TRANS", ..] => {}
+            ["STOP" | "M0"] => state.readiness.stops(),
             ["CYCL", "DEF", "32.1", rest @ ..] => path_tolerance(line, rest, &mut state)?,
             ["CYCL", "DEF", cycle, ..] if KNOWN_CYCLES.contains(&cycle.split('.').next().unwrap_or_default()) => {}
             ["TOOL", "CALL", call @ ..] => tool_call(line, call, &mut state)?,
@@ -105,6 +107,7 @@ fn tool_call(line: usize, words: &[&str], state: &mut MachineState) -> Result<()
         state.cutting.named = first.starts_with('"');
         state.radius_fault = None;
         state.cutting.length = ToolLength::Unstated;
+        state.readiness.tool_changes();
     }
     if first == "0" {
         state.cutting.length = ToolLength::Cancelled;
@@ -142,6 +145,7 @@ fn turn(line: usize, word: &str, state: &mut MachineState) -> Result<(), Refusal
         return Err(at_line(line, "the spindle stops or turns back below the upper face"));
     }
     state.spindle = way;
+    state.readiness.spindle_turns(way != Spindle::Stopped);
     state.cutting.spindle = state.spindle.at(state.cutting.speed);
     Ok(())
 }
@@ -149,10 +153,10 @@ fn turn(line: usize, word: &str, state: &mut MachineState) -> Result<(), Refusal
 /// `CYCL DEF 32.1 T0.01`.
 fn path_tolerance(line: usize, words: &[&str], state: &mut MachineState) -> Result<(), Refusal> {
     let words = words.concat();
-    if let Some(tolerance) = words.strip_prefix('T') {
-        let tolerance = state.scale() * number(line, tolerance)?;
-        state.keeps_path_within(line, tolerance, None);
-    }
+    let tolerance = words.strip_prefix('T').map(|tolerance| number(line, tolerance)).transpose()?;
+    let scale = state.scale();
+    state.path_mode.keeps_within(line, tolerance.map(|tolerance| scale * tolerance));
+    state.readiness.path_mode_is_stated();
     Ok(())
 }
 
@@ -175,12 +179,16 @@ fn coordinates(
     for word in words {
         let axis = ["X", "Y", "Z"].iter().position(|axis| word.starts_with(axis));
         match (*word, axis) {
-            ("R0", _) => state.side = CutterSide::Centre,
+            ("R0", _) => {
+                state.side = CutterSide::Centre;
+                state.readiness.side_is_stated();
+            }
             ("RL" | "RR", _) => {
                 if let Some(why) = state.radius_fault {
                     return Err(at_line(line, format!("the cutter is to be kept beside its path, and {why}")));
                 }
                 state.side = if *word == "RL" { CutterSide::Left } else { CutterSide::Right };
+                state.readiness.side_is_stated();
             }
             ("DR+", _) => left = Some(true),
             ("DR-", _) => left = Some(false),
@@ -192,6 +200,9 @@ fn coordinates(
             }
             ("M3" | "M4" | "M5" | "M13" | "M14", _) => turn(line, word, state)?,
             ("M8" | "M9" | "M2" | "M30", _) => {}
+            // Parts of the profile into which the cutter does not fit may be left out, so many blocks (LA) ahead.
+            ("M120", _) => state.leaves_out = true,
+            (word, _) if words.contains(&"M120") && word.starts_with("LA") => {}
             (word, Some(axis)) => {
                 let value = state.scale() * number(line, word.get(1..).unwrap_or_default())?;
                 if let Some(own) = to.get_mut(axis) {
@@ -219,7 +230,10 @@ fn to_the_machine(line: usize, words: &[&str], state: &mut MachineState) -> Resu
     if left.is_some() || state.side != CutterSide::Centre || (upwards && axes != [false; 3]) {
         return Err(at_line(line, "M91, M92 and M140 stand in a block with more than the place to leave for"));
     }
-    state.leave(line, if upwards { [false, false, true] } else { axes })
+    let axes = if upwards { [false, false, true] } else { axes };
+    let knows_height = state.knows_height();
+    state.readiness.leaves(line, axes, knows_height);
+    state.leave(line, axes)
 }
 
 fn straight(line: usize, words: &[&str], state: &mut MachineState) -> Result<(), Refusal> {

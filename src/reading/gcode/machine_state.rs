@@ -1,6 +1,8 @@
 //! Where the cutter is and what holds until it is changed, whatever the words of the control.
 
 use super::cutting_state::{CuttingFeed, CuttingState, Spindle};
+use super::path_mode::PathMode;
+use super::readiness::{PartMove, Readiness};
 use super::{CutterMove, CutterProgram, CutterSide, FASTEST, MOST_MOVES, MoveKind, NO_MOVE, RADII};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
@@ -26,6 +28,11 @@ pub(super) struct MachineState {
     pub(super) spindle: Spindle,
     /// With what it cuts.
     pub(super) cutting: CuttingState,
+    /// What the program has stated before its moves.
+    pub(super) readiness: Readiness,
+    pub(super) path_mode: PathMode,
+    /// Whether the control may leave out parts of the profile.
+    pub(super) leaves_out: bool,
     program: CutterProgram,
 }
 
@@ -35,6 +42,10 @@ pub(super) fn at_line(line: usize, what: impl Into<String>) -> Refusal {
 }
 
 impl MachineState {
+    pub(super) fn of(control: Option<Controller>) -> Self {
+        Self { readiness: Readiness::of(control), ..Self::default() }
+    }
+
     /// Millimetres in a length of such a program.
     pub(super) fn scale(&self) -> f64 {
         self.units.unwrap_or_default().millimetres()
@@ -55,16 +66,15 @@ impl MachineState {
         if self.is_deep() {
             return Err(Refusal::new("the program ends with the tool below the upper face"));
         }
-        Ok(CutterProgram { side_at_end: self.side, control, ..self.program })
+        let (early, sets_up) = self.readiness.found();
+        let (path_tolerances, leaves_out) = (self.path_mode.used(), self.leaves_out);
+        let side_at_end = self.side;
+        Ok(CutterProgram { side_at_end, control, early, sets_up, path_tolerances, leaves_out, ..self.program })
     }
 
-    /// A tolerance of the path, mm.
-    pub(super) fn keeps_path_within(&mut self, line: usize, tolerance: f64, control: Option<Controller>) {
-        // The words of LinuxCNC (G61, G64) end each other.
-        if control == Some(Controller::LinuxCnc) && !self.has_moved() {
-            self.program.path_tolerances.clear();
-        }
-        self.program.path_tolerances.push((line, tolerance));
+    /// Whether the height is known in the coordinates of the part.
+    pub(super) fn knows_height(&self) -> bool {
+        self.at[2].is_some()
     }
 
     /// A block that is not known.
@@ -105,13 +115,32 @@ impl MachineState {
         }
     }
 
+    /// What a move from a place relies on.
+    fn relies(&mut self, line: usize, kind: MoveKind, before: [Option<f64>; 3]) {
+        let is_arc = matches!(kind, MoveKind::Arc { .. });
+        let deep = |z: Option<f64>| z.is_some_and(|z| z < 0.0);
+        self.readiness.moves(PartMove {
+            line,
+            rapid: kind == MoveKind::Rapid,
+            arc: is_arc,
+            knew_place: before[0].is_some() && before[1].is_some(),
+            knew_height: before[2].is_some(),
+            across: before[..2] != self.at[..2] || is_arc,
+            along_z: before[2] != self.at[2],
+            down: self.at[2] < before[2],
+            cuts: kind != MoveKind::Rapid && (deep(before[2]) || deep(self.at[2])),
+        });
+    }
+
     /// A move to the coordinates that are given.
     pub(super) fn go(&mut self, line: usize, kind: MoveKind, to: [Option<f64>; 3]) -> Result<(), Refusal> {
         let before = self.at;
         for (own, new) in self.at.iter_mut().zip(to) {
             *own = new.or(*own);
         }
+        self.relies(line, kind, before);
         if kind != MoveKind::Rapid {
+            self.path_mode.moves();
             match self.feed {
                 None => return Err(at_line(line, "the cutter is to move at a feed that is not given")),
                 Some(feed) if !(feed > 0.0 && feed <= FASTEST) => {

@@ -9,11 +9,14 @@ mod iso;
 mod klartext;
 mod machine_state;
 mod modal;
+mod path_mode;
+mod readiness;
 mod tool_length;
 mod turned;
 mod words;
 
 pub use cutting_state::{CuttingFeed, CuttingState, Spindle, ToolLength};
+pub use readiness::Unstated;
 pub use turned::{StandingMove, TurnedPass};
 
 use crate::geometry::contour::Segment;
@@ -155,6 +158,12 @@ pub struct CutterProgram {
     pub feeds: Vec<CuttingFeed>,
     /// By how much the control may leave its path, mm, and the line that says so.
     pub path_tolerances: Vec<(usize, f64)>,
+    /// The first moves that rely on what the program had not stated before them, and their lines.
+    pub early: Vec<(usize, Unstated)>,
+    /// Whether it sets up its tool, its datum or its height at all; otherwise the operator has, before it is started.
+    pub sets_up: bool,
+    /// Whether the control may leave out parts of the profile into which its cutter does not fit (M120 of HEIDENHAIN).
+    pub leaves_out: bool,
 }
 
 /// Whether bytes are a program: a dialogue begins with its name, other programs state in their head how their words are meant.

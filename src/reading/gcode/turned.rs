@@ -2,9 +2,11 @@
 //! in all at once, in the time that each block gives (G93).
 
 use super::cutting_state::CuttingFeed;
-use super::dialect::{dialect, in_common_words, moves_the_profile, path_tolerance};
+use super::dialect::{dialect, in_common_words, is_nothing, moves_the_profile};
 use super::machine_state::at_line;
 use super::modal::{ModalWords, Situation, are_known, dwells, leaves, passed_over};
+use super::path_mode::PathMode;
+use super::readiness::{PartMove, Readiness};
 use super::words::{Word, counted, of, without_comments, words};
 use super::{CutterProgram, FASTEST};
 use crate::machine::Controller;
@@ -50,6 +52,9 @@ struct TurnedState {
     plunged: Option<usize>,
     program: CutterProgram,
     open: Option<TurnedPass>,
+    /// What the program has stated before its moves.
+    readiness: Readiness,
+    path_mode: PathMode,
 }
 
 /// The axis that a program turns, C or A; `None` where it turns none.
@@ -64,13 +69,15 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
     let control = dialect(text, design);
     // Of a disc the tool stays over the axis, whatever is not said.
     let beside = (axis == 'C').then_some(0.0);
-    let mut state = TurnedState { axis, at: [None, None, beside, None], ..TurnedState::default() };
+    let readiness = Readiness::of(control);
+    let mut state = TurnedState { axis, at: [None, None, beside, None], readiness, ..TurnedState::default() };
     state.program.control = control;
     let mut modal = ModalWords::of(control, true);
     for (index, whole) in text.lines().enumerate() {
         let line = index + 1;
         let block = without_comments(whole, control).ok_or_else(|| at_line(line, "a comment does not end"))?;
-        let block = in_common_words(block.trim(), control);
+        let typed = block.trim();
+        let block = in_common_words(typed, control);
         let block = block.as_str();
         if modal.ended || block.is_empty() || block == "%" {
             continue;
@@ -78,28 +85,30 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
         if let Some(what) = moves_the_profile(block, control) {
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
         }
-        if let Some(tolerance) = path_tolerance(block, control) {
-            if control == Some(Controller::LinuxCnc) && !state.has_moved {
-                state.program.path_tolerances.clear();
-            }
-            state.program.path_tolerances.push((line, modal.scale() * tolerance));
+        state.path_mode.block(line, typed, control, modal.scale());
+        if is_nothing(block, control) {
+            continue;
         }
         if control == Some(Controller::Fanuc) {
             counted(line, block, modal.units())?;
         }
         match words(block) {
             Some(words) if are_known(&words, Some(axis)) => state.run(line, &words, &mut modal)?,
-            _ if !state.has_moved && [0, 1, 3].iter().all(|axis| state.at[*axis].is_none()) => {
+            found if !state.has_moved && [0, 1, 3].iter().all(|axis| state.at[*axis].is_none()) => {
                 passed_over(line, block, control)?;
                 state.program.unknown.push(block.to_owned());
+                state.readiness.block(&found.unwrap_or_default());
             }
             _ => return Err(at_line(line, format!("`{block}` is not known, and what it does to the path neither"))),
         }
     }
-    match (modal.ended, state.open) {
+    match (modal.ended, &state.open) {
         (false, _) => Err(Refusal::new("the program has no end (M2 or M30)")),
         (true, Some(_)) => Err(Refusal::new("the program ends with the tool at its depth")),
-        (true, None) => Ok(state.program),
+        (true, None) => {
+            let (early, sets_up) = state.readiness.found();
+            Ok(CutterProgram { early, sets_up, path_tolerances: state.path_mode.used(), ..state.program })
+        }
     }
 }
 
@@ -110,8 +119,11 @@ impl TurnedState {
         let letters = [self.axis, 'X', 'Y', 'Z'];
         let away = leaves(words);
         modal.block(line, words, Situation { has_moved: self.has_moved, is_deep: is_deep && !away })?;
+        self.readiness.block(words);
         if away {
             let leaves = letters.map(|axis| words.iter().any(|(letter, _)| *letter == axis));
+            let axes = [leaves[0] || leaves[1], leaves[2], leaves[3]];
+            self.readiness.leaves_by(line, (axes, words), self.at[3].is_some());
             if is_deep && leaves != [false, false, false, true] {
                 return refused("the tool leaves for a place of the machine from below the upper face");
             }
@@ -148,6 +160,7 @@ impl TurnedState {
         let deep = below(before[3]) || below(self.at[3]);
         self.has_moved = true;
         let rises = !turns && !along && self.at[3] > before[3];
+        self.relies(line, before, modal.motion == Some(0));
         match modal.motion {
             None => return refused("the tool is to move, and it is not stated how (G0, G1)"),
             Some(0) if !deep => return Ok(()),
@@ -186,6 +199,25 @@ impl TurnedState {
                 Ok(())
             }
             (true, false) => self.cut(line, (before, modal), (turns, along)),
+        }
+    }
+
+    /// What a move from a place relies on.
+    fn relies(&mut self, line: usize, before: [Option<f64>; 4], rapid: bool) {
+        let below = |z: Option<f64>| z.is_some_and(|z| z < 0.0);
+        self.readiness.moves(PartMove {
+            line,
+            rapid,
+            arc: false,
+            knew_place: before[..3].iter().all(Option::is_some),
+            knew_height: before[3].is_some(),
+            across: before[..3] != self.at[..3],
+            along_z: before[3] != self.at[3],
+            down: self.at[3] < before[3],
+            cuts: !rapid && (below(before[3]) || below(self.at[3])),
+        });
+        if !rapid {
+            self.path_mode.moves();
         }
     }
 

@@ -1,6 +1,6 @@
 //! A program in words of a letter and a number, for LinuxCNC, FANUC and SINUMERIK.
 
-use super::feed;
+use super::{by_hand, feed};
 use crate::body::milling::{MillingPass, MillingProgram};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::blocks::Block;
@@ -11,6 +11,8 @@ use nalgebra::Vector2;
 
 /// Digits of a number of revolutions.
 const SPEED_DECIMALS: usize = 1;
+/// Digits of a tolerance of the path.
+pub(super) const SMOOTHING_DECIMALS: usize = 6;
 
 /// A program being written.
 pub(super) struct IsoText<'p> {
@@ -19,12 +21,14 @@ pub(super) struct IsoText<'p> {
     text: String,
     /// Where the cutter is, mm.
     at: Vector2<f64>,
+    /// Whether it has come down from its home.
+    is_down: bool,
 }
 
 /// The text of a program.
 pub(super) fn write(program: &MillingProgram, comments: &[String], name: &str) -> String {
     let decimals = usize::try_from(program.decimals).unwrap_or(usize::MAX);
-    let mut text = IsoText { program, decimals, text: String::new(), at: Vector2::zeros() };
+    let mut text = IsoText { program, decimals, text: String::new(), at: Vector2::zeros(), is_down: false };
     text.begin(comments, name);
     for depth in &program.depths {
         if let Some(path) = &program.turned {
@@ -53,7 +57,7 @@ impl IsoText<'_> {
         self.line(&comment);
     }
 
-    /// What states unit, plane and coordinates, after the lines of the shop.
+    /// All that a move relies on, before the first one: the words of another program may still be active.
     fn begin(&mut self, comments: &[String], name: &str) {
         let cutting = &self.program.cutting;
         if self.program.controller == Controller::Fanuc {
@@ -63,39 +67,85 @@ impl IsoText<'_> {
         for comment in comments {
             self.comment(comment);
         }
-        for line in &cutting.preamble {
-            self.line(line);
-        }
-        self.line(match (self.program.controller, self.program.units) {
-            (Controller::LinuxCnc | Controller::Heidenhain, LengthUnit::Millimetre) => "G17 G21 G40 G90 G91.1 G94",
-            (Controller::LinuxCnc | Controller::Heidenhain, LengthUnit::Inch) => "G17 G20 G40 G90 G91.1 G94",
-            (Controller::Fanuc, LengthUnit::Millimetre) => "G17 G21 G40 G90 G94",
-            (Controller::Fanuc, LengthUnit::Inch) => "G17 G20 G40 G90 G94",
-            // Feeds are in the unit, too.
-            (Controller::Sinumerik, LengthUnit::Millimetre) => "G17 G40 G90 G94 G710",
-            (Controller::Sinumerik, LengthUnit::Inch) => "G17 G40 G90 G94 G700",
-        });
+        self.state();
+        self.home();
         if let Some(tool) = cutting.tool {
             self.line(&format!("T{tool} M6"));
         }
+        self.stop();
+        self.line("G54");
         if let Some(speed) = cutting.spindle {
             self.line(&format!("S{} M3", short(speed, SPEED_DECIMALS)));
         }
-        let length = match (self.program.controller, cutting.tool) {
-            (Controller::LinuxCnc, Some(tool)) => format!(" G43 H{tool}"),
-            (Controller::Fanuc, Some(tool)) => format!(" G43 H{tool:02}"),
-            // SINUMERIK takes the length with the tool.
-            _ => String::new(),
-        };
-        self.rise(&length);
+        for line in &cutting.preamble {
+            self.line(line);
+        }
+        if !cutting.preamble.is_empty() {
+            // Its lines may have made coordinates incremental, as G91 G28 does.
+            self.line("G17 G90 G94 G40");
+        }
+    }
+
+    /// Unit, alone in its block, plane, coordinates, feeds, no offsets of before, and how exactly the path is kept.
+    fn state(&mut self) {
+        let metric = self.program.units == LengthUnit::Millimetre;
+        match self.program.controller {
+            // Feeds are in the unit, too.
+            Controller::Sinumerik => {
+                self.line(if metric { "G710" } else { "G700" });
+                self.line("G17 G90 G94 G40");
+                self.line("TRANS");
+                let smoothing = self.program.units.of_mm(MILLIMETRES * self.program.smoothing);
+                self.line(&format!("G642 CTOL={}", short(smoothing, SMOOTHING_DECIMALS)));
+            }
+            Controller::Fanuc => {
+                self.line(if metric { "G21" } else { "G20" });
+                self.line("G17 G90 G94 G40 G49");
+                self.line("G80 G64");
+            }
+            Controller::LinuxCnc | Controller::Heidenhain => {
+                self.line(if metric { "G21" } else { "G20" });
+                self.line("G17 G90 G94");
+                self.line("G91.1 G40 G49 G80");
+                self.line("G92.2");
+                self.line("G61");
+            }
+        }
+    }
+
+    /// Up, in the coordinates of the machine: whatever length of a tool is active.
+    fn home(&mut self) {
+        let home = self.program.cutting.home;
+        let z = self.number(MILLIMETRES * home.unwrap_or(0.0));
+        match self.program.controller {
+            Controller::Fanuc if home.is_none() => {
+                self.line("G91 G28 Z0.");
+                self.line("G90");
+            }
+            Controller::Sinumerik => self.line(&format!("G0 SUPA Z{z} D0")),
+            _ => self.line(&format!("G53 G0 Z{z}")),
+        }
+    }
+
+    /// Stops for the operator where the machine file does not say all that a cut needs.
+    fn stop(&mut self) {
+        let wanted = by_hand(self.program);
+        if wanted.is_empty() {
+            return;
+        }
+        for line in wanted {
+            // LinuxCNC shows such a comment where it stops.
+            let shown = if self.program.controller == Controller::LinuxCnc { format!("MSG, {line}") } else { line };
+            self.comment(&shown);
+        }
+        self.line("M0");
     }
 
     fn end(&mut self) {
-        let cutting = &self.program.cutting;
-        if cutting.spindle.is_some() {
-            self.line("M5");
-        }
-        for line in &cutting.postamble {
+        self.line("M9");
+        self.line("M5");
+        self.home();
+        for line in &self.program.cutting.postamble {
             self.line(line);
         }
         self.line("M30");
@@ -109,14 +159,29 @@ impl IsoText<'_> {
         plain(self.program.units.of_mm(millimetres), self.decimals)
     }
 
+    /// To the clearance height.
     pub(super) fn up(&mut self) {
-        self.rise("");
+        let clearance = self.number(MILLIMETRES * self.program.cutting.clearance);
+        self.line(&format!("G0 Z{clearance}"));
     }
 
-    /// To the clearance height, with more words.
-    fn rise(&mut self, words: &str) {
+    /// Above the start of a pass: in the plane first, and for the first one down from its home with the length of the tool.
+    pub(super) fn approach(&mut self, place: &str) {
+        self.line(&format!("G0 {place}"));
+        if std::mem::replace(&mut self.is_down, true) {
+            return;
+        }
+        let length = match (self.program.controller, self.program.cutting.tool) {
+            (Controller::LinuxCnc, Some(tool)) => format!(" G43 H{tool}"),
+            // That of the tool in the spindle.
+            (Controller::LinuxCnc, None) => " G43".to_owned(),
+            (Controller::Fanuc, Some(tool)) => format!(" G43 H{tool:02}"),
+            (Controller::Sinumerik, _) => " D1".to_owned(),
+            // Set by the operator where the program stopped.
+            (Controller::Fanuc, None) | (Controller::Heidenhain, _) => String::new(),
+        };
         let clearance = self.number(MILLIMETRES * self.program.cutting.clearance);
-        self.line(&format!("G0{words} Z{clearance}"));
+        self.line(&format!("G0{length} Z{clearance}"));
     }
 
     /// The words of a place that differ from where the cutter is.
@@ -142,7 +207,7 @@ impl IsoText<'_> {
         let (plunge, along) = (self.feed(cutting.plunge_feed), self.feed(cutting.feed));
         self.comment(&pass.words);
         let start = pass.compensated.map_or(pass.start, |[from, _]| from);
-        self.line(&format!("G0 X{} Y{}", self.number(start.x), self.number(start.y)));
+        self.approach(&format!("X{} Y{}", self.number(start.x), self.number(start.y)));
         self.at = start;
         self.line(&format!("G1 Z{} F{plunge}", self.number(-depth)));
         if pass.compensated.is_some() {

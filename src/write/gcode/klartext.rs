@@ -1,6 +1,7 @@
 //! A program in the dialogue of HEIDENHAIN controls (Klartext): numbered blocks, centres in absolute coordinates.
 
-use super::feed;
+use super::iso::SMOOTHING_DECIMALS;
+use super::{by_hand, feed};
 use crate::body::milling::{MillingPass, MillingProgram};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::blocks::Block;
@@ -12,27 +13,30 @@ use nalgebra::Vector2;
 const SPEED_DECIMALS: usize = 1;
 /// Steps of a feed in an inch per minute.
 const TENTHS: f64 = 10.0;
+/// Height of the home, m: just below the end of the travel.
+pub(super) const HOME: f64 = -1e-3;
 
 /// A program being written.
 struct DialogueText<'p> {
     program: &'p MillingProgram,
     decimals: usize,
     blocks: Vec<String>,
+    /// Whether the cutter has come down from its home.
+    is_down: bool,
 }
 
 /// The text of a program.
 pub(super) fn write(program: &MillingProgram, comments: &[String], name: &str) -> String {
     let decimals = usize::try_from(program.decimals).unwrap_or(usize::MAX);
     let unit = if program.units == LengthUnit::Inch { "INCH" } else { "MM" };
-    let mut text = DialogueText { program, decimals, blocks: vec![format!("BEGIN PGM {name} {unit}")] };
+    let mut text = DialogueText { program, decimals, blocks: vec![format!("BEGIN PGM {name} {unit}")], is_down: false };
     text.begin(comments);
     for depth in &program.depths {
         for pass in &program.passes {
             text.pass(pass, *depth);
         }
     }
-    text.blocks.extend(program.cutting.postamble.iter().cloned());
-    text.blocks.push("M30".to_owned());
+    text.end();
     text.blocks.push(format!("END PGM {name} {unit}"));
     let numbered = text.blocks.iter().enumerate().map(|(number, block)| format!("{number} {block}\n"));
     numbered.collect()
@@ -59,23 +63,50 @@ impl DialogueText<'_> {
         format!("X{} Y{}", self.signed(to.x), self.signed(to.y))
     }
 
+    /// All that a move relies on, before the first one: what another program has set may still be active.
     fn begin(&mut self, comments: &[String]) {
         let cutting = &self.program.cutting;
         self.blocks.extend(comments.iter().map(|comment| format!("; {comment}")));
-        self.blocks.extend(cutting.preamble.iter().cloned());
+        for cycle in ["7.0 DATUM SHIFT", "7.1 X+0", "7.2 Y+0", "7.3 Z+0", "10.0 ROTATION", "10.1 ROT+0"] {
+            self.block(format!("CYCL DEF {cycle}"));
+        }
+        self.home("");
         let speed = cutting.spindle.map(|speed| format!(" S{}", short(speed, SPEED_DECIMALS))).unwrap_or_default();
         match cutting.tool {
             Some(tool) => self.block(format!("TOOL CALL {tool} Z{speed}")),
             None if cutting.spindle.is_some() => self.block(format!("TOOL CALL Z{speed}")),
             None => {}
         }
-        let starts = if cutting.spindle.is_some() { " M3" } else { "" };
-        self.up(starts);
+        let wanted = by_hand(self.program);
+        if !wanted.is_empty() {
+            self.blocks.extend(wanted.iter().map(|line| format!("; {line}")));
+            self.block("STOP".to_owned());
+        }
+        let smoothing = self.program.units.of_mm(MILLIMETRES * self.program.smoothing);
+        self.block("CYCL DEF 32.0 TOLERANCE".to_owned());
+        self.block(format!("CYCL DEF 32.1 T{}", short(smoothing, SMOOTHING_DECIMALS)));
+        self.blocks.extend(cutting.preamble.iter().cloned());
     }
 
-    fn up(&mut self, more: &str) {
+    /// The tolerance of the machine's builder again, up, and the spindle stops.
+    fn end(&mut self) {
+        self.block("CYCL DEF 32.0 TOLERANCE".to_owned());
+        self.block("CYCL DEF 32.1".to_owned());
+        self.block("M9".to_owned());
+        self.home(" M5");
+        self.blocks.extend(self.program.cutting.postamble.iter().cloned());
+        self.block("M30".to_owned());
+    }
+
+    /// Up, in the coordinates of the machine, in which the length of the tool is not counted.
+    fn home(&mut self, more: &str) {
+        let home = self.signed(MILLIMETRES * self.program.cutting.home.unwrap_or(HOME));
+        self.block(format!("L Z{home} R0 FMAX M91{more}"));
+    }
+
+    fn up(&mut self) {
         let clearance = self.signed(MILLIMETRES * self.program.cutting.clearance);
-        self.block(format!("L Z{clearance} R0 FMAX{more}"));
+        self.block(format!("L Z{clearance} R0 FMAX"));
     }
 
     /// Down at its start, round, and up again.
@@ -84,7 +115,12 @@ impl DialogueText<'_> {
         let (plunge, along) = (self.feed(cutting.plunge_feed), self.feed(cutting.feed));
         self.block(format!("; {}", pass.words));
         let start = pass.compensated.map_or(pass.start, |[from, _]| from);
-        self.block(format!("L {} R0 FMAX", self.place(start)));
+        let first = !std::mem::replace(&mut self.is_down, true);
+        let starts = if first && cutting.spindle.is_some() { " M3" } else { "" };
+        self.block(format!("L {} R0 FMAX{starts}", self.place(start)));
+        if first {
+            self.up();
+        }
         self.block(format!("L Z{} R0 F{plunge}", self.signed(-depth)));
         if pass.compensated.is_some() {
             let side = if pass.cutter_left { "RL" } else { "RR" };
@@ -104,6 +140,6 @@ impl DialogueText<'_> {
         if let Some([_, to]) = pass.compensated {
             self.block(format!("L {} R0", self.place(to)));
         }
-        self.up("");
+        self.up();
     }
 }

@@ -136,9 +136,47 @@ fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
         path,
         format!("{origin}, Z0 {face}, {} {unit} deep in {count} {passes}", length(depth)),
         "bore, keyway and holes are not in this program".to_owned(),
+        first_move(program),
     ];
     head.extend(rib);
     head
+}
+
+/// Where the tool goes first, which must suit the machine.
+fn first_move(program: &MillingProgram) -> String {
+    let usual = if program.controller == Controller::Heidenhain { klartext::HOME } else { 0.0 };
+    match (program.controller, program.cutting.home) {
+        (Controller::Fanuc, None) => {
+            "the first move takes Z to its reference point, G28; cut.home is another".to_owned()
+        }
+        (_, home) => {
+            let z = short(program.units.of_mm(MILLIMETRES * home.unwrap_or(usual)), 6);
+            format!("the first move takes Z to {z} {} of the machine, cut.home", program.units.symbol())
+        }
+    }
+}
+
+/// What an operator must do where the program stops before its first move, line by line; nothing where the machine file says all of it.
+fn by_hand(program: &MillingProgram) -> Vec<String> {
+    let cutting = &program.cutting;
+    let of_tool = match program.controller {
+        Controller::LinuxCnc => "load the cutter as the tool in the spindle: its length is that of the tool table",
+        Controller::Fanuc => "load the cutter and set its length with G43 H, or Z0 of G54 with this cutter",
+        Controller::Sinumerik => "load the cutter as the tool in the spindle: its length is that of its edge D1",
+        Controller::Heidenhain => "load the cutter and call it with TOOL CALL",
+    };
+    let kept = program.passes.iter().any(|pass| pass.compensated.is_some());
+    let radius = "its radius is that of offset D1";
+    let spindle = "start the spindle clockwise";
+    let lines = [
+        (cutting.tool.is_none(), of_tool),
+        (cutting.tool.is_none() && kept && program.controller != Controller::Heidenhain, radius),
+        (cutting.spindle.is_none(), spindle),
+        (cutting.tool.is_none(), "cut.tool in the machine file does without this stop for the tool"),
+        (cutting.spindle.is_none(), "cut.spindle in the machine file does without this stop for the spindle"),
+    ];
+    let wanted = lines.into_iter().filter(|(is_wanted, _)| *is_wanted);
+    wanted.flat_map(|(_, line)| folded(&plain_text(line))).collect()
 }
 
 /// The radius that a cutter must stay below where the control keeps it on the profile, mm: that of the lead-in.

@@ -30,7 +30,7 @@ impl IsoText<'_> {
         // Beside a disc the wheel goes down in the open.
         let (down, to) = if axis == 'C' { (&along, &plunge) } else { (&plunge, &along) };
         self.comment(&round.words);
-        self.line(&format!("G0 {} {axis}{}", place(round.away), plain(first, decimals)));
+        self.approach(&format!("{} {axis}{}", place(round.away), plain(first, decimals)));
         self.line(&format!("G1 Z{} F{down}", self.number(-depth)));
         let goes_to = round.away != [x, y];
         if goes_to {

@@ -1,0 +1,176 @@
+//! What a file says of itself, compared with what camgen says of the cam: a statement of a head that contradicts it is refused with its line.
+//!
+//! A statement is known by its key, what stands before the colon. Other lines are remarks of whoever wrote the file, unless its mark says that this version of
+//! camgen did: then every statement of this version must be there.
+
+use crate::body::Body;
+use crate::body::gauge::Gauge;
+use crate::body::points::PointTable;
+use crate::geometry::MILLIMETRES;
+use crate::reading::gauge::GaugeRows;
+use crate::reading::servo::ServoRows;
+use crate::units::LengthUnit;
+use crate::write::{gauge, inspection, points, servo};
+
+/// What the mark of this version begins with.
+const MARK: &str = concat!("camgen ", env!("CARGO_PKG_VERSION"), ", inputs ");
+/// Numbers of a head that differ by less are equal, as a share.
+const SAME: f64 = 1e-6;
+/// Errors, found anew on rows that were rounded, as a share.
+const SAME_ERROR: f64 = 0.02;
+
+/// A line of a head, without its mark of a comment.
+struct HeadLine<'t> {
+    line: usize,
+    text: &'t str,
+}
+
+/// What a table for a servo drive says that is not so of a cam.
+pub(super) fn of_servo(body: &dyn Body, text: &str, read: &ServoRows) -> Option<String> {
+    if read.straight {
+        return of_equal_parts(text, read.swings);
+    }
+    let expected = servo::statements(body, read.rows.len(), read.units);
+    let found = if text.contains("(*") { in_comment(text) } else { behind(text, "#") };
+    contradiction(&found, &expected)
+}
+
+/// What a table of the controls of ISG says behind its settings. A comment of one word is the name of the setting.
+fn of_equal_parts(text: &str, swings: bool) -> Option<String> {
+    let [master, kind, function, slave] = servo::isg_statements(swings);
+    let due = [("Tabletype", kind), ("Functiontype", function)];
+    let found: Vec<HeadLine<'_>> = text
+        .lines()
+        .take_while(|line| line.trim() != "Begintable")
+        .enumerate()
+        .filter_map(|(index, line)| Some(HeadLine { line: index + 1, text: line.split_once('#')?.1.trim() }))
+        .collect();
+    let misnamed = text.lines().enumerate().find_map(|(index, line)| {
+        let (setting, comment) = line.split_once('#')?;
+        let (_, due) = due.iter().find(|(name, _)| setting.trim_start().starts_with(name))?;
+        let named = !comment.trim().is_empty() && !comment.trim().contains(' ');
+        (named && comment.trim() != due).then(|| told(index + 1, comment.trim(), due))
+    });
+    misnamed.or_else(|| contradiction(&found, &[master, slave]))
+}
+
+/// What the lift table of a gauge follower says that is not so of a cam.
+pub(super) fn of_gauge(body: &dyn Body, text: &str, read: &GaugeRows) -> Option<String> {
+    let follower = read.radius.map_or(Gauge::Flat, |radius| Gauge::Round(radius / MILLIMETRES));
+    contradiction(&behind(text, "#"), &gauge::statements(body, follower, read.units))
+}
+
+/// What a list of places with a ball of a radius, mm, says that is not so of a cam.
+pub(super) fn of_places(body: &dyn Body, text: &str, ball_radius: f64) -> Option<String> {
+    if text.trim_start().starts_with("DMISMN/") {
+        let mut found = behind(text, "$$");
+        let mark = text.lines().next().and_then(|line| line.split('\'').nth(1)).unwrap_or_default();
+        found.insert(0, HeadLine { line: 1, text: mark });
+        return contradiction(&found, &inspection::program_statements(body));
+    }
+    let units = if text.contains("x_in,y_in") { LengthUnit::Inch } else { LengthUnit::Millimetre };
+    contradiction(&behind(text, "#"), &inspection::statements(body, units, units.of_mm(ball_radius)))
+}
+
+/// What a table of points says that is not so: its figures are those of the table as it was read.
+pub(super) fn of_points(
+    body: &dyn Body,
+    text: &str,
+    (table, units, tolerance_mm): (&PointTable, LengthUnit, f64),
+) -> Option<String> {
+    let found = behind(text, "#");
+    let stated = |key: &str| found.iter().any(|line| line.text.starts_with(key));
+    let count = |key: &str| {
+        let value = found.iter().find_map(|line| line.text.strip_prefix(key)?.strip_prefix(": "));
+        value.and_then(|value| value.split([' ', ',']).next()?.parse::<usize>().ok()).unwrap_or(0)
+    };
+    let mut told = table.clone();
+    // Both are rows that stand twice; which of them a row is, is not seen in it.
+    let (corners, jumps) = (count("corners"), count("jumps"));
+    let twice = table.rows.corners + table.rows.jumps;
+    if twice == corners + jumps {
+        (told.rows.corners, told.rows.jumps) = (corners, jumps);
+    }
+    let limits = [stated("velocity_tolerance"), stated("acceleration_tolerance")];
+    for (own, is_stated) in told.allowed.iter_mut().zip(limits) {
+        *own = if is_stated { *own } else { f64::INFINITY };
+    }
+    // A table may be checked without the tolerances that it was made for.
+    let unknown = limits.iter().zip(told.allowed).any(|(stated, allowed)| *stated && allowed.is_infinite());
+    told.wish.tolerance = tolerance_mm;
+    let mut expected = points::statements(body, &told, units);
+    expected.retain(|line| !(unknown && (line.starts_with("keeps") || line.starts_with("not_kept"))));
+    let tolerance = |line: &HeadLine<'_>| {
+        let stated = line.text.strip_prefix("tolerance_")?.split_once(": ")?.1.parse::<f64>().ok()?;
+        Some(units.millimetres() * stated)
+    };
+    // One that was made for a finer tolerance is within this one, too.
+    let finer = |stated: f64| stated <= tolerance_mm * (1.0 + SAME) && stated >= table.rows.error * (1.0 - SAME);
+    if found.iter().filter_map(tolerance).all(finer) {
+        expected.retain(|line| !line.starts_with("tolerance_"));
+    }
+    contradiction(&found, &expected)
+}
+
+/// The lines that begin with a mark of a comment.
+fn behind<'t>(text: &'t str, mark: &str) -> Vec<HeadLine<'t>> {
+    let numbered = text.lines().enumerate();
+    let own = numbered.filter_map(|(index, line)| {
+        Some(HeadLine { line: index + 1, text: line.trim_start().strip_prefix(mark)?.trim() })
+    });
+    own.collect()
+}
+
+/// The lines of the first comment of structured text.
+fn in_comment(text: &str) -> Vec<HeadLine<'_>> {
+    let lines = text.lines().enumerate().skip_while(|(_, line)| !line.contains("(*"));
+    let own = lines.take_while(|(_, line)| line.trim() != "*)");
+    own.map(|(index, line)| HeadLine { line: index + 1, text: line.trim().trim_start_matches("(*").trim() }).collect()
+}
+
+/// The first statement that is another than expected.
+fn contradiction(found: &[HeadLine<'_>], expected: &[String]) -> Option<String> {
+    let known = |text: &str| expected.iter().any(|due| due == text);
+    let strange: Vec<&HeadLine<'_>> = found
+        .iter()
+        .filter(|line| !(known(line.text) || line.text.is_empty() || line.text.starts_with(MARK)))
+        .collect();
+    let contradicts = strange.iter().find_map(|line| {
+        let (key, stated) = line.text.split_once(": ")?;
+        let due = expected.iter().find(|due| due.split_once(": ").is_some_and(|(own, _)| own == key))?;
+        let value = due.split_once(": ").map_or("", |(_, value)| value);
+        (!same(key, stated, value)).then(|| told(line.line, line.text, due))
+    });
+    let own = found.iter().any(|line| line.text.starts_with(MARK));
+    let has = |due: &String| {
+        let key = due.split_once(": ").map(|(key, _)| key);
+        found
+            .iter()
+            .any(|line| line.text == due || (key.is_some() && line.text.split_once(": ").map(|(own, _)| own) == key))
+    };
+    let lost = || {
+        let due = expected.iter().find(|due| own && !has(due))?;
+        Some(
+            strange
+                .first()
+                .map_or_else(|| format!("its head lacks `{}`", short(due)), |line| told(line.line, line.text, due)),
+        )
+    };
+    contradicts.or_else(lost)
+}
+
+/// Whether two values of a statement are equal, or nearly, where they are numbers.
+fn same(key: &str, stated: &str, due: &str) -> bool {
+    let share = if key.contains("error") { SAME_ERROR } else { SAME };
+    let close = |(stated, due): (f64, f64)| (stated - due).abs() <= share * due.abs();
+    stated == due || stated.parse().ok().zip(due.parse().ok()).is_some_and(close)
+}
+
+fn told(line: usize, stated: &str, due: &str) -> String {
+    format!("line {line} of its head states `{}`; of this cam it is `{}`", short(stated), short(due))
+}
+
+fn short(text: &str) -> String {
+    let start: String = text.chars().take(80).collect();
+    if start.len() < text.len() { start + "…" } else { start }
+}

@@ -1,0 +1,234 @@
+//! What a move relies on before the program has stated it. A control keeps words of the program before, and every group of them is unknown until it is stated: here
+//! the first move that needs such a group is kept, and what may be reported and what must be refused is judged where a program is.
+
+use super::words::Word;
+use crate::machine::Controller;
+
+/// What a move needs, and the program had not stated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unstated {
+    /// Whether the control keeps the cutter beside its path: G40, R0.
+    Compensation,
+    /// Feeds by the minute: G94.
+    FeedMode,
+    /// Centres of arcs from their start: G91.1.
+    Centres,
+    /// The length of the tool: G43 H, D, TOOL CALL, or a stop for the operator.
+    Length,
+    /// The length of a tool that the program itself has changed in, or whose length it has lost: G43 H, D.
+    LengthOfChanged,
+    /// The datum: G54.
+    Datum,
+    /// How exactly the path is kept: G61, G64, G642.
+    PathMode,
+    /// A spindle that turns: S, M3.
+    Spindle,
+    /// The height of the tool, before it moves fast across the part.
+    Height,
+    /// That the tool is above its place in the plane, before it goes down.
+    Place,
+    /// The axes of a move to a reference point (G28): without any, all of them move.
+    Axes,
+    /// Incremental coordinates (G91) of a move to a reference point, which goes by the place that it names.
+    WayToReference,
+    /// That a move in machine coordinates is a rapid one (G0).
+    Motion,
+    /// Absolute coordinates (G90) of a move in machine coordinates, which FANUC leaves out in G91.
+    Absolute,
+    /// That no length of a tool is taken into account (D0) by a move in machine coordinates.
+    NoLength,
+}
+
+/// What a program has stated so far.
+#[derive(Debug, Default)]
+pub(super) struct Readiness {
+    control: Option<Controller>,
+    compensation: bool,
+    feed_mode: bool,
+    centres: bool,
+    datum: bool,
+    path_mode: bool,
+    spindle: bool,
+    length: bool,
+    absolute: Option<bool>,
+    rapid: Option<bool>,
+    /// Whether the program has changed a tool in, or stopped for the operator to do so.
+    changes: bool,
+    stopped: bool,
+    /// Whether a length was taken that is lost since; whether G43 holds, and whether SINUMERIK knows an edge.
+    lost: bool,
+    adds: bool,
+    edge: bool,
+    /// Whether the tool is at a height of the machine.
+    retracted: bool,
+    /// Whether the program sets up its tool, its datum or its height at all.
+    sets_up: bool,
+    early: Vec<(usize, Unstated)>,
+}
+
+/// A move in the coordinates of the part.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PartMove {
+    pub(super) line: usize,
+    pub(super) rapid: bool,
+    pub(super) arc: bool,
+    /// Whether the places in the plane, and the height, were known before it; without those in the plane Z may go down anywhere.
+    pub(super) knew_place: bool,
+    pub(super) knew_height: bool,
+    /// Whether it moves in the plane, or turns the part, and along Z.
+    pub(super) across: bool,
+    pub(super) along_z: bool,
+    pub(super) down: bool,
+    /// Whether it cuts below the upper face.
+    pub(super) cuts: bool,
+}
+
+impl Readiness {
+    pub(super) fn of(control: Option<Controller>) -> Self {
+        // The dialogue has its feeds by the minute, its centres in absolute coordinates, and the datum that the operator activates.
+        let dialogue = control == Some(Controller::Heidenhain);
+        let centres = control != Some(Controller::LinuxCnc);
+        Self { control, feed_mode: dialogue, centres, datum: dialogue, ..Self::default() }
+    }
+
+    /// The first moves that came too early, and whether the program sets up its tool, its datum or its height at all.
+    pub(super) fn found(self) -> (Vec<(usize, Unstated)>, bool) {
+        (self.early, self.sets_up)
+    }
+
+    /// What a block of letters and numbers states, before its move.
+    pub(super) fn block(&mut self, words: &[Word]) {
+        let sinumerik = self.control == Some(Controller::Sinumerik);
+        let value = |letter: char| words.iter().find(|word| word.0 == letter).map(|word| word.1);
+        if words.contains(&('M', 6.0)) {
+            self.tool_changes();
+        }
+        if sinumerik && value('T').is_some() {
+            (self.changes, self.sets_up) = (true, true);
+        }
+        self.stopped |= words.contains(&('M', 0.0));
+        for (_, code) in words.iter().filter(|word| word.0 == 'G') {
+            self.code(*code);
+        }
+        let edge = value('D').filter(|_| sinumerik);
+        self.edge |= edge.is_some();
+        // The length of a tool that nobody has named is not known.
+        let named = self.changes || self.stopped;
+        let (takes, ends) = (words.contains(&('G', 43.0)), words.contains(&('G', 49.0)));
+        let taken = match self.control {
+            Some(Controller::Sinumerik) => edge.map(|edge| edge > 0.0 && named),
+            // H is modal there, and so is G43 for another H.
+            Some(Controller::Fanuc) => (takes || (self.adds && value('H').is_some())).then(|| value('H') != Some(0.0)),
+            _ => takes.then(|| value('H').map_or(named, |number| number > 0.0)),
+        };
+        self.adds = takes || (self.adds && !ends);
+        self.length = taken.unwrap_or(self.length && !ends);
+        self.sets_up |= taken == Some(true);
+        let turns = words.contains(&('M', 3.0)) || words.contains(&('M', 4.0));
+        self.spindle = (self.spindle || turns) && !(words.contains(&('M', 5.0)) && !turns);
+    }
+
+    fn code(&mut self, code: f64) {
+        let sinumerik = self.control == Some(Controller::Sinumerik);
+        let is = |codes: &[f64]| codes.iter().any(|own| (own - code).abs() < 1e-6);
+        self.compensation |= is(&[40.0, 41.0, 42.0]);
+        self.feed_mode |= is(&[93.0, 94.0, 95.0]);
+        self.centres |= is(&[90.1, 91.1]);
+        if is(&[0.0, 1.0, 2.0, 3.0]) {
+            self.rapid = Some(is(&[0.0]));
+        }
+        if is(&[90.0, 91.0]) {
+            self.absolute = Some(is(&[90.0]));
+        }
+        if (54.0..60.0).contains(&code) || (sinumerik && (500.0..600.0).contains(&code)) {
+            (self.datum, self.sets_up) = (true, true);
+        }
+        self.path_mode |=
+            is(&[61.0, 61.1, 62.0, 64.0]) || (sinumerik && (is(&[60.0]) || (641.0..646.0).contains(&code)));
+    }
+
+    /// A tool is changed in: M6, TOOL CALL.
+    pub(super) fn tool_changes(&mut self) {
+        (self.changes, self.sets_up) = (true, true);
+        // By its call the dialogue takes its length.
+        self.length = self.control == Some(Controller::Heidenhain);
+        (self.spindle, self.stopped, self.lost) = (false, false, false);
+    }
+
+    /// The program stops for the operator: M0, STOP.
+    pub(super) fn stops(&mut self) {
+        self.stopped = true;
+    }
+
+    /// R0, RL or RR.
+    pub(super) fn side_is_stated(&mut self) {
+        self.compensation = true;
+    }
+
+    /// CYCLE832, cycle 32.
+    pub(super) fn path_mode_is_stated(&mut self) {
+        self.path_mode = true;
+    }
+
+    /// M3, M4, M5 of the dialogue.
+    pub(super) fn spindle_turns(&mut self, turns: bool) {
+        self.spindle = turns;
+    }
+
+    fn lacks(&mut self, line: usize, unless: bool, what: Unstated) {
+        if !unless && !self.early.iter().any(|(_, known)| *known == what) {
+            self.early.push((line, what));
+        }
+    }
+
+    /// A move to a reference point (G28, G30), by the coordinates that it names, or in machine coordinates (G53).
+    pub(super) fn leaves_by(&mut self, line: usize, (axes, words): ([bool; 3], &[Word]), knows_height: bool) {
+        if words.contains(&('G', 53.0)) {
+            self.lacks(line, self.rapid == Some(true), Unstated::Motion);
+            let fanuc = self.control == Some(Controller::Fanuc);
+            self.lacks(line, !fanuc || self.absolute == Some(true), Unstated::Absolute);
+            let sinumerik = self.control == Some(Controller::Sinumerik);
+            self.lacks(line, !(sinumerik && axes[2]) || self.edge, Unstated::NoLength);
+        } else {
+            self.lacks(line, axes != [false; 3], Unstated::Axes);
+            let dives = words.iter().any(|(letter, number)| *letter == 'Z' && *number < 0.0);
+            self.lacks(line, self.absolute == Some(false) && !dives, Unstated::WayToReference);
+        }
+        self.leaves(line, axes, knows_height);
+    }
+
+    /// A move to a place of the machine along these axes.
+    pub(super) fn leaves(&mut self, line: usize, axes: [bool; 3], knows_height: bool) {
+        self.sets_up = true;
+        self.lacks(line, !(axes[0] || axes[1]) || knows_height || self.retracted, Unstated::Height);
+        if axes[2] {
+            self.retracted = true;
+            if self.control == Some(Controller::Fanuc) {
+                // It shows G43, and has dropped the length.
+                self.lost |= self.length || self.stopped;
+                self.length = false;
+            }
+        }
+    }
+
+    /// A move in the coordinates of the part.
+    pub(super) fn moves(&mut self, moved: PartMove) {
+        let line = moved.line;
+        self.lacks(line, self.compensation, Unstated::Compensation);
+        self.lacks(line, moved.rapid || self.feed_mode, Unstated::FeedMode);
+        self.lacks(line, !moved.arc || self.centres, Unstated::Centres);
+        self.lacks(line, self.datum, Unstated::Datum);
+        self.lacks(line, moved.rapid || self.path_mode, Unstated::PathMode);
+        let by_hand = self.stopped && !self.changes && !self.lost;
+        if moved.along_z && !self.length && !by_hand {
+            let own = self.changes || self.lost;
+            self.lacks(line, false, if own { Unstated::LengthOfChanged } else { Unstated::Length });
+        }
+        let level = moved.knew_height || self.retracted;
+        let slanted = moved.across && moved.along_z && (self.retracted || !moved.knew_height || moved.down);
+        self.lacks(line, !moved.across || (level && !(moved.rapid && slanted)), Unstated::Height);
+        self.lacks(line, !moved.along_z || moved.knew_place, Unstated::Place);
+        self.lacks(line, !moved.cuts || self.spindle || self.stopped, Unstated::Spindle);
+        self.retracted &= !moved.along_z;
+    }
+}

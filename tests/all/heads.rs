@@ -1,0 +1,116 @@
+//! What files say of themselves: every line of a head is read, and an altered one is refused with its line.
+
+use crate::common::program::{Run, camgen_in, files};
+
+/// A line of a head with its first number larger by one, then with another last word.
+fn altered(text: &str) -> Vec<String> {
+    let digit = text.find(|c: char| c.is_ascii_digit());
+    let number = digit.and_then(|from| {
+        let rest = &text[from..];
+        let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(rest.len());
+        let number = rest[..end].trim_end_matches('.').parse::<f64>().ok()?;
+        Some(format!("{}{}{}", &text[..from], number + 1.0, &rest[rest[..end].trim_end_matches('.').len()..]))
+    });
+    let (start, last) = text.rsplit_once(' ').unwrap_or(("", text));
+    let word =
+        if last.parse::<f64>().is_ok() { None } else { Some(format!("{start} {}another", &last[..last.len() / 2])) };
+    number.into_iter().chain(word).collect()
+}
+
+/// The lines of a head with where their statement begins, but for the mark of camgen and the settings of a drive.
+fn head(name: &str, text: &str) -> Vec<(usize, usize)> {
+    let lines = text.lines().enumerate();
+    let begins = |line: &str| match name {
+        _ if name.ends_with(".st") => line.starts_with("   ").then_some(3),
+        _ if name.ends_with(".dmi") => line.strip_prefix("$$ ").map(|_| 3),
+        _ if name.ends_with("-isg.txt") => line.find("# ").map(|at| at + 2),
+        _ => line.strip_prefix("# ").map(|_| 2),
+    };
+    let own = lines.take_while(|(_, line)| !line.starts_with("VAR_GLOBAL"));
+    own.filter_map(|(index, line)| Some((index, begins(line)?)))
+        .filter(|(index, at)| !text.lines().nth(*index).is_some_and(|line| line[*at..].starts_with("camgen ")))
+        .collect()
+}
+
+#[track_caller]
+fn every_line_is_judged(design: &str, make: &[&str], check: &[&str]) -> usize {
+    let directory = tempfile::tempdir().expect("a directory");
+    let words = ["make", design, "--name", "cam", "--out", ".", "--force"];
+    let mut run: Run = camgen_in(directory, &[&words, make].concat());
+    assert!(run.code < 2, "{design} {make:?}: {}", run.err);
+    let mut count = 0;
+    for name in files(run.directory.path()) {
+        if ![".st", ".csv", ".dmi", "-isg.txt"].iter().any(|ending| name.ends_with(ending)) || name == "cam.csv" {
+            continue;
+        }
+        let text = std::fs::read_to_string(run.directory.path().join(&name)).expect("a file");
+        let judge = |directory, text: &str| {
+            let directory: tempfile::TempDir = directory;
+            std::fs::write(directory.path().join(&name), text).expect("written");
+            camgen_in(directory, &[&["check", &name, design], check].concat())
+        };
+        run = judge(run.directory, &text);
+        assert_eq!(run.code, 0, "{design} {name}: {}{}", run.out, run.err);
+        for (index, at) in head(&name, &text) {
+            let line = text.lines().nth(index).expect("a line");
+            for other in altered(&line[at..]) {
+                let with = |(own, kept): (usize, &str)| {
+                    if own == index { format!("{}{other}\n", &line[..at]) } else { format!("{kept}\n") }
+                };
+                run = judge(run.directory, &text.lines().enumerate().map(with).collect::<String>());
+                let said = format!("{}{}", run.out, run.err);
+                assert!(run.code == 1 || run.code == 2, "{design} {name} passes with `{other}`: {said}");
+                // Those that say how the numbers are meant are refused by the numbers.
+                let numbers = ["follower", "slave", "interpolation", "closed", "ball", "given", "points"];
+                let named = said.contains(&format!("line {}", index + 1));
+                assert!(named || numbers.iter().any(|word| other.contains(word)), "{design} {name} `{other}`: {said}");
+                count += 1;
+            }
+        }
+    }
+    count
+}
+
+#[test]
+fn an_altered_line_of_a_head_is_refused() {
+    let servo = "servo-csv,servo-xyva,servo-twincat,servo-isg";
+    let all = format!("points,gauge,inspect,{servo}");
+    assert!(every_line_is_judged("feeder", &["--format", &all], &[]) > 80);
+    assert!(every_line_is_judged("lever", &["--format", servo], &[]) > 30);
+    assert!(every_line_is_judged("wedge", &["--format", "points"], &[]) > 20);
+}
+
+#[test]
+fn an_altered_line_of_another_table_of_points_is_refused() {
+    let cubic = ["--format", "points", "--points-between", "cubic", "--points-as", "xy", "--points-step", "chord"];
+    let cutter = ["--format", "points", "--points-of", "cutter", "--cutter-diameter", "8mm"];
+    for (design, make) in [("feeder", &cubic[..]), ("valve", &["--format", "points"]), ("lever", &cutter)] {
+        assert!(every_line_is_judged(design, make, &[]) > 20, "{design}");
+    }
+}
+
+/// Lines that a shop adds, a head that it leaves out, and a table that is checked within a coarser tolerance.
+#[test]
+fn other_lines_of_a_head_are_remarks() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let words = ["make", "feeder", "--name", "cam", "--out", ".", "--format", "points,gauge,servo-csv,inspect"];
+    let mut run = camgen_in(directory, &words);
+    assert_eq!(run.code, 0, "{}", run.err);
+    for name in ["cam-points.csv", "cam-gauge.csv", "cam-servo.csv", "cam-inspect.csv"] {
+        let path = run.directory.path().join(name);
+        let text = std::fs::read_to_string(&path).expect("a file");
+        let needed = |line: &&str| ["gauge_follower", "interpolation", "closed"].iter().any(|word| line.contains(word));
+        let bare: String = text
+            .lines()
+            .filter(|line| !line.starts_with('#') || needed(line))
+            .map(|line| format!("{line}\n"))
+            .collect();
+        for (other, more) in
+            [(format!("# measured by Bob: twice\n{text}"), &[][..]), (bare, &[]), (text, &["--tolerance", "10um"])]
+        {
+            std::fs::write(run.directory.path().join(name), other).expect("written");
+            run = camgen_in(run.directory, &[&["check", name, "feeder"], more].concat());
+            assert_eq!(run.code, 0, "{name} {more:?}: {}{}", run.out, run.err);
+        }
+    }
+}
