@@ -79,7 +79,6 @@ pub(super) fn of_points(
     (table, units, tolerance_mm): (&PointTable, LengthUnit, f64),
 ) -> Option<String> {
     let found = behind(text, "#");
-    let stated = |key: &str| found.iter().any(|line| line.text.starts_with(key));
     let count = |key: &str| {
         let value = found.iter().find_map(|line| line.text.strip_prefix(key)?.strip_prefix(": "));
         value.and_then(|value| value.split([' ', ',']).next()?.parse::<usize>().ok()).unwrap_or(0)
@@ -91,15 +90,23 @@ pub(super) fn of_points(
     if twice == corners + jumps {
         (told.rows.corners, told.rows.jumps) = (corners, jumps);
     }
-    let limits = [stated("velocity_tolerance"), stated("acceleration_tolerance")];
-    for (own, is_stated) in told.allowed.iter_mut().zip(limits) {
-        *own = if is_stated { *own } else { f64::INFINITY };
-    }
-    // A table may be checked without the tolerances that it was made for.
-    let unknown = limits.iter().zip(told.allowed).any(|(stated, allowed)| *stated && allowed.is_infinite());
     told.wish.tolerance = tolerance_mm;
+    // A table may be checked without the tolerances that it was made for: what it keeps is then judged by those that it states.
+    let of_one = points::statements(body, &PointTable { allowed: [1.0; 2], ..told.clone() }, units);
+    let keys = ["velocity_tolerance", "acceleration_tolerance"];
+    let mut judged = keys.to_vec();
+    for (own, key) in told.allowed.iter_mut().zip(keys) {
+        let stated = value(found.iter().map(|line| line.text), key);
+        if own.is_infinite() {
+            judged.retain(|other| *other != key);
+            let one = value(of_one.iter().map(String::as_str), key);
+            *own = stated.zip(one).map_or(f64::INFINITY, |(stated, one)| stated / one);
+        } else if stated.is_none() {
+            *own = f64::INFINITY;
+        }
+    }
     let mut expected = points::statements(body, &told, units);
-    expected.retain(|line| !(unknown && (line.starts_with("keeps") || line.starts_with("not_kept"))));
+    expected.retain(|line| !keys.iter().any(|key| line.starts_with(key) && !judged.contains(key)));
     let tolerance = |line: &HeadLine<'_>| {
         let stated = line.text.strip_prefix("tolerance_")?.split_once(": ")?.1.parse::<f64>().ok()?;
         Some(units.millimetres() * stated)
@@ -110,6 +117,11 @@ pub(super) fn of_points(
         expected.retain(|line| !line.starts_with("tolerance_"));
     }
     contradiction(&found, &expected)
+}
+
+/// The number of the statement whose key begins with a word.
+fn value<'t>(mut lines: impl Iterator<Item = &'t str>, key: &str) -> Option<f64> {
+    lines.find(|line| line.starts_with(key))?.split_once(": ")?.1.parse().ok()
 }
 
 /// The lines that begin with a mark of a comment.

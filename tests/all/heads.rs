@@ -4,7 +4,8 @@ use crate::common::program::{Run, camgen_in, files};
 
 /// A line of a head with its first number larger by one, then with another last word.
 fn altered(text: &str) -> Vec<String> {
-    let digit = text.find(|c: char| c.is_ascii_digit());
+    let value = text.find(": ").unwrap_or(0);
+    let digit = text[value..].find(|c: char| c.is_ascii_digit()).map(|at| value + at);
     let number = digit.and_then(|from| {
         let rest = &text[from..];
         let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(rest.len());
@@ -28,7 +29,11 @@ fn head(name: &str, text: &str) -> Vec<(usize, usize)> {
     };
     let own = lines.take_while(|(_, line)| !line.starts_with("VAR_GLOBAL"));
     own.filter_map(|(index, line)| Some((index, begins(line)?)))
-        .filter(|(index, at)| !text.lines().nth(*index).is_some_and(|line| line[*at..].starts_with("camgen ")))
+        .filter(|(index, at)| {
+            let statement = text.lines().nth(*index).map_or("", |line| &line[*at..]);
+            // What was asked of it is not known to a check that does not ask the same.
+            !["camgen ", "velocity_tolerance", "acceleration_tolerance"].iter().any(|word| statement.starts_with(word))
+        })
         .collect()
 }
 
