@@ -740,6 +740,8 @@ fn a_move_before_what_it_relies_on_is_refused() {
                 ("G53 G0 Z0.0\nT1", "G28\nT1", "in all axes"),
                 ("G53 G0 Z0.0\nT1", "G0 G28 Z0\nT1", "by coordinates of the part"),
                 ("G0 G43 H1 Z5.0", "G0 Z5.0", "write G43"),
+                // The place that it has gone to is another one then.
+                ("G0 G43 H1 Z5.0", "G0 G43 H1 Z5.0\nG55", "datum changes"),
             ][..],
         ),
         (
@@ -833,7 +835,19 @@ fn harmless_words_and_a_bare_path_are_taken() {
     for (controller, before, lines) in [
         (LinuxCnc, "G0 X", &["G54 G92.1", "G90 G92.2 G80", "G64 P0.004", "G91 G28 Z0\nG90"][..]),
         (Fanuc, "G0 X", &["G61", "G91 G28 Z0.\nG90"]),
-        (Sinumerik, "G0 X", &["G60", "G64 CTOL=0.004", "G641 ADIS=0.004", "TRANS", "COMPCAD\nCOMPOF", "G0 SUPA Z0 D0"]),
+        (
+            Sinumerik,
+            "G0 X",
+            &[
+                "G60",
+                "G64 CTOL=0.004",
+                "G641 ADIS=0.004",
+                "TRANS",
+                "CYCLE832(0.004,1,1)",
+                "COMPCAD\nCOMPOF",
+                "G0 SUPA Z0 D0",
+            ],
+        ),
         (Heidenhain, "L X", &["L Z-1 R0 FMAX M91", "L M140 MB MAX"]),
     ] {
         let text = program(&cam, request(controller, cutter));

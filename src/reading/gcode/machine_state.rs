@@ -51,9 +51,9 @@ impl MachineState {
         self.units.unwrap_or_default().millimetres()
     }
 
-    /// Whether the cutter has moved.
+    /// Whether the cutter has moved to a place of the part.
     pub(super) fn has_moved(&self) -> bool {
-        !self.program.moves.is_empty()
+        !self.program.moves.is_empty() || self.at != [None; 3]
     }
 
     /// Whether the cutter is below the upper face.

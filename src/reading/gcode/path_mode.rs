@@ -45,6 +45,11 @@ impl PathMode {
         self.is = tolerance.map(|tolerance| (line, tolerance));
     }
 
+    /// Whether the program says how exactly the path is kept.
+    pub(super) fn is_stated(&self) -> bool {
+        self.is.is_some()
+    }
+
     /// The tool moves at a feed.
     pub(super) fn moves(&mut self) {
         if let Some(own) = self.is.filter(|own| self.used.last() != Some(own)) {

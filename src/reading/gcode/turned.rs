@@ -86,6 +86,9 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
         }
         state.path_mode.block(line, typed, control, modal.scale());
+        if state.path_mode.is_stated() {
+            state.readiness.path_mode_is_stated();
+        }
         if is_nothing(block, control) {
             continue;
         }
