@@ -69,14 +69,14 @@ pub(crate) trait InGroove: Body {
     }
 }
 
-/// The forces on a body's rollers; there are none where neither mass and speed nor a spring is given.
+/// The forces on a body's rollers: of a mass at a speed, a preload or a spring.
 pub(crate) struct GrooveForces<'a> {
     body: &'a dyn InGroove,
     pressing: Pressing,
 }
 
 impl<'a> GrooveForces<'a> {
-    /// `None` where no force is known.
+    /// `None` without a mass and a speed, a preload or a spring: no force is known then.
     pub(crate) fn of(body: &'a dyn InGroove) -> Option<Self> {
         let machine = body.machine();
         let (follower, spring) = (&machine.follower, machine.spring());

@@ -1,7 +1,7 @@
 //! Places of a profile for a measuring machine: numbered, each with its normal, the centre of a probing ball that touches there, and its zone.
 
 use super::{Body, Request};
-use crate::geometry::MILLIMETRES;
+use crate::geometry::{MILLIMETRES, radius_of_curvature};
 use crate::machine::Rotation;
 use nalgebra::Vector2;
 
@@ -65,7 +65,6 @@ pub fn lists(body: &dyn Body, request: &Request) -> Vec<InspectionList> {
             let (piece, angle) = curves.motion.locate(cam_deg.to_radians());
             let found = curves.profile(piece, angle);
             let normal = found.outward() * curves.metal_side();
-            let bend = curves.metal_side() * found.curvature;
             let point = turned(found.point * MILLIMETRES);
             let polar = libm::atan2(point.y, point.x).to_degrees();
             InspectionPlace {
@@ -73,7 +72,7 @@ pub fn lists(body: &dyn Body, request: &Request) -> Vec<InspectionList> {
                 polar_deg: if polar < 0.0 { polar + 360.0 } else { polar },
                 point,
                 normal: turned(normal),
-                radius: if bend == 0.0 { f64::INFINITY } else { MILLIMETRES / bend },
+                radius: radius_of_curvature(curves.metal_side() * found.curvature),
             }
         };
         let (ball_radius, zone) = (MILLIMETRES * asked.ball_radius, MILLIMETRES * zone);

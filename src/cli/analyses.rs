@@ -10,7 +10,7 @@ use super::args::{LinkageArgs, LinkageGoal};
 use super::args::{Order, ShaftArgs, ShaftSolver};
 use super::cams::{show, source_date};
 use super::put::put_set;
-use super::{Failure, Outcome, print, print_message};
+use super::{Failure, Outcome, print, print_message, refusal};
 use camgen::analysis::compare::{self as comparison, ComparisonOptions, measured};
 use camgen::analysis::{Analysis, laws, size};
 use camgen::body::Cut;
@@ -321,9 +321,7 @@ pub(super) fn write_with(judged: &Judged, args: &ReportArgs, writing: &Writing) 
     } else if judged.passed() || writing.force {
         Some(judged.files(writing).map_err(Failure::new)?).filter(|_| !args.dry_run)
     } else {
-        print_message(
-            "refused: a check failed, nothing was written (--force writes anyway; `camgen explain CHECK` explains a check)",
-        );
+        print_message(refusal(args.dry_run));
         None
     };
     match files {

@@ -7,7 +7,7 @@ use super::args::{
 use super::live::{self, LiveSource};
 use super::progress::Progress;
 use super::put::put_set;
-use super::{Failure, Outcome, print, print_message, print_painted, text};
+use super::{Failure, Outcome, print, print_message, print_painted, refusal, text};
 use camgen::body::Request;
 use camgen::body::gauge::Gauge;
 use camgen::body::inspection::Inspection;
@@ -378,9 +378,7 @@ fn files_of(
         return Ok(None);
     }
     if !proven.passed() && !writing.force {
-        print_message(
-            "refused: a check failed, nothing was written (--force writes anyway; `camgen explain CHECK` explains a check)",
-        );
+        print_message(refusal(common.report.dry_run));
         failures_of_others(proven);
         return Ok(None);
     }

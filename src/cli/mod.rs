@@ -129,6 +129,15 @@ fn print_painted(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// What a failed check means for the files.
+fn refusal(dry_run: bool) -> &'static str {
+    if dry_run {
+        "refused: a check failed; without --dry-run no file would be written (--force would write them; `camgen explain CHECK` explains a check)"
+    } else {
+        "refused: a check failed, nothing was written (--force writes anyway; `camgen explain CHECK` explains a check)"
+    }
+}
+
 /// Prints a message on stderr; a failure of that is ignored.
 fn print_message(message: &str) {
     let _ = writeln!(io::stderr().lock(), "{}", plain(message));

@@ -110,6 +110,7 @@ pub(super) fn nearest<'k>(path: &str, known: &'k [KnownKey]) -> Vec<&'k str> {
     if path.len() > LONGEST_PATH {
         return Vec::new();
     }
+    let path = &folded(path);
     let (table, name) = (table_of(path), last(path));
     let distance = |key: &'k KnownKey| {
         let (whole, other) = (edit_distance(path, &key.named), last(&key.named));
@@ -167,7 +168,6 @@ pub fn similar<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
     if word.is_empty() || word.len() > LONGEST_PATH {
         return None;
     }
-    let folded = |text: &str| text.to_lowercase().replace('-', "_");
     let wanted = folded(word);
     let length = wanted.chars().count();
     let distances = known.into_iter().map(|candidate| {
@@ -180,8 +180,37 @@ pub fn similar<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
     (2 * wrong <= length).then_some(nearest)
 }
 
-/// Levenshtein's distance; letters in the wrong order are a single mistake.
+/// In lower case, with one sign between words.
+fn folded(text: &str) -> String {
+    text.to_lowercase().replace('-', "_")
+}
+
+/// The mistakes of a name: by its letters, or by its words, where the beginning of a word (`bore_diam`) and words in another order are a single mistake.
 fn mistakes(a: &str, b: &str) -> usize {
+    let [of_a, of_b] = [a, b].map(|name| name.split('_').collect::<Vec<_>>());
+    let by_letters = letter_mistakes(a, b);
+    if of_a.len() != of_b.len() || by_letters <= 1 {
+        return by_letters;
+    }
+    let [mut sorted_a, mut sorted_b] = [of_a.clone(), of_b.clone()];
+    sorted_a.sort_unstable();
+    sorted_b.sort_unstable();
+    let by_words =
+        if sorted_a == sorted_b { 1 } else { of_a.iter().zip(&of_b).map(|(a, b)| word_mistakes(a, b)).sum() };
+    by_letters.min(by_words)
+}
+
+fn word_mistakes(a: &str, b: &str) -> usize {
+    let begins = |short: &str, long: &str| short.len() >= SHORTEST_ABBREVIATION && long.starts_with(short);
+    let by_letters = letter_mistakes(a, b);
+    if by_letters > 1 && (begins(a, b) || begins(b, a)) { 1 } else { by_letters }
+}
+
+/// The shortest beginning that is accepted for a word of a name.
+const SHORTEST_ABBREVIATION: usize = 3;
+
+/// Levenshtein's distance; letters in the wrong order are a single mistake.
+fn letter_mistakes(a: &str, b: &str) -> usize {
     let letters = |text: &str| {
         let mut letters: Vec<char> = text.chars().collect();
         letters.sort_unstable();
@@ -290,9 +319,20 @@ mod tests {
         ];
         known.push(KnownKey { named: "motion.segment[].angle".into(), ..key("motion.segment[].over", true) });
         known.push(key("cam.keyway.angle", false));
+        known.push(key("cam.bore_fit", true));
+        known.push(key("cam.bore_radius", true));
         for (path, near) in [
             ("cam.diameter", &["cam.base_diameter", "cam.bore_diameter"][..]),
-            ("cam.bore", &["cam.bore_diameter"]),
+            ("cam.bore", &["cam.bore_fit", "cam.bore_diameter", "cam.bore_radius"]),
+            ("cam.bore_diam", &["cam.bore_diameter"]),
+            ("cam.bore_dia", &["cam.bore_diameter"]),
+            ("cam.bore_rad", &["cam.bore_radius"]),
+            ("cam.bore_fits", &["cam.bore_fit"]),
+            ("cam.diameter_bore", &["cam.bore_diameter"]),
+            ("cam.BORE-DIAMETER", &["cam.bore_diameter"]),
+            ("cam.boreDiameter", &["cam.bore_diameter"]),
+            ("cam.thick", &["cam.thickness"]),
+            ("bore_diam", &["cam.bore_diameter"]),
             ("cam.mass", &["follower.roller.mass"]),
             ("cam.thikness", &["cam.thickness"]),
             ("motion.segment[].angle", &["motion.segment[].over"]),

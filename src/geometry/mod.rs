@@ -38,3 +38,26 @@ pub use entity::Entity;
 
 /// Millimetres in a metre: geometry leaves SI by this factor.
 pub const MILLIMETRES: f64 = 1e3;
+
+/// A curve of less curvature, 1/m, counts as straight: the rounding of a straight flank of a cam is some 1e-14.
+pub const STRAIGHT: f64 = 1e-9;
+
+/// Radius of curvature, mm, with the sign of the curvature, 1/m; infinite where the curve is straight.
+#[must_use]
+pub fn radius_of_curvature(curvature: f64) -> f64 {
+    if curvature.abs() < STRAIGHT { f64::INFINITY } else { MILLIMETRES / curvature }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn straight_curve_has_infinite_radius_of_either_sign() {
+        for curvature in [0.0, -0.0, 7e-15, -7e-15] {
+            assert_eq!(radius_of_curvature(curvature), f64::INFINITY, "{curvature}");
+        }
+        assert_eq!([radius_of_curvature(10.0), radius_of_curvature(-10.0)], [100.0, -100.0]);
+        assert!(radius_of_curvature(f64::NAN).is_nan());
+    }
+}

@@ -41,7 +41,7 @@ pub enum Error {
         known: String,
     },
     /// The cam cannot have a format that was requested.
-    #[error("no {format} file: {why}; give what is missing, or leave {format} out of the formats")]
+    #[error("no {format} file: {why}; leave {format} out of the formats")]
     Unfit {
         /// The format.
         format: &'static str,

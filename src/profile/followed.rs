@@ -19,8 +19,8 @@ pub use errors::ErrorsOnChain;
 
 use super::Curves;
 use crate::follower::Element;
-use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::{Contour, Edge};
+use crate::geometry::{MILLIMETRES, STRAIGHT};
 use crate::motion::program::SegmentSummary;
 use crate::motion::{Jet, Motion, Piece, Quantity, own_pieces};
 use crate::numeric::chebyshev::{self, SearchStart};
@@ -38,8 +38,6 @@ const SETTLED: f64 = 1e-9;
 const LEAST_REACH: f64 = 2e-3;
 /// A roller touches within this many roundings of a length.
 const TOUCHING: f64 = 2.0 * f64::EPSILON;
-/// A curve of less curvature, 1/m, counts as straight.
-pub(super) const STRAIGHT: f64 = 1e-9;
 /// A change of velocity or acceleration, m/rad or rad/rad, with which the slope of a linear relation is measured.
 const CHANGE: f64 = 0.1;
 /// The curve that the follower's point follows while the contact runs along a segment.

@@ -12,10 +12,10 @@
 //! error; the jump of the acceleration is early or late by the same amount, and each spline is judged by its own side of it.
 
 use super::Curves;
-use super::followed::{Guide, HAIR, PieceRange, STRAIGHT, jet_on_guide, largest_rates, nearest, parts};
+use super::followed::{Guide, HAIR, PieceRange, jet_on_guide, largest_rates, nearest, parts};
 use crate::follower::Element;
 use crate::geometry::points::{Interpolant, MotionErrors};
-use crate::geometry::{CurvePoint, MILLIMETRES};
+use crate::geometry::{CurvePoint, MILLIMETRES, STRAIGHT};
 use crate::motion::Jet;
 use crate::numeric::chebyshev::{self, SearchStart};
 use crate::numeric::extremum::Extremum;

@@ -152,15 +152,25 @@ pub struct OutlineMeasures {
     pub length_mm: f64,
 }
 
+/// A number of arcs that rounds to 0: arcs and lines describe the exact outline.
+const NO_ARCS: f64 = 0.05;
+
 impl OutlineMeasures {
-    /// The section `outline`.
-    #[must_use]
-    pub fn section(&self) -> Section {
+    fn best_possible_words(&self) -> String {
+        if self.arcs_best_possible < NO_ARCS {
+            return "those of the exact outline".into();
+        }
         let ratio = self.arcs_over_best_possible.map_or(String::new(), |ratio| format!(" × {ratio:.2}"));
         let also =
             |what: &str, best: Option<f64>| best.map_or(String::new(), |best| format!(", {best:.1} for the {what}"));
-        let also = also("velocity", self.arcs_best_possible_velocity)
-            + &also("acceleration", self.arcs_best_possible_acceleration);
+        let velocity = also("velocity", self.arcs_best_possible_velocity);
+        let acceleration = also("acceleration", self.arcs_best_possible_acceleration);
+        format!("best possible {:.1}{ratio}{velocity}{acceleration}", self.arcs_best_possible)
+    }
+
+    /// The section `outline`.
+    #[must_use]
+    pub fn section(&self) -> Section {
         let (arcs, lines) = (self.arcs, self.lines);
         let (what, short) = match (self.splines, self.spans) {
             (Some(splines), Some(spans)) => (
@@ -170,10 +180,7 @@ impl OutlineMeasures {
                 ),
                 format!("{splines} splines of {spans} spans"),
             ),
-            _ => (
-                format!("{arcs} arcs and {lines} lines (best possible {:.1}{ratio}{also})", self.arcs_best_possible),
-                format!("{arcs} arcs"),
-            ),
+            _ => (format!("{arcs} arcs and {lines} lines ({})", self.best_possible_words()), format!("{arcs} arcs")),
         };
         let words = vec![format!(
             "{what}, {:.4} µm from the exact curve, tolerance {} µm",

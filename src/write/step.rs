@@ -21,7 +21,7 @@ pub const FORMAT: Format = Format {
     name: "step",
     when: FormatSelection::Usual,
     flank: true,
-    unfit: |body| body.height().is_none().then_some("cam.thickness is not given"),
+    unfit: |body| body.height().is_none().then_some("cam.thickness is not given, which a solid needs: set it"),
     endings: |_| vec![".step".into()],
     write: |cam| Ok(vec![write_marked(&solid(cam)?, &cam.report.title(), cam.created, &cam.report.mark())]),
     of_analysis: None,

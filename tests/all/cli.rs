@@ -329,6 +329,31 @@ fn an_output_directory_that_cannot_be_is_told_and_old_files_stay() {
     assert_eq!(fs::read_to_string(kept).expect("old"), "old");
 }
 
+/// A dry run writes nothing in any case: what a failed check says of files is meant for the run without it.
+#[test]
+fn a_failed_check_of_a_dry_run_says_what_would_be_written() {
+    for args in [&["rotary", "--set", "limits.contact_stress=1MPa"][..], &["regimes", "--rpm", "40"]] {
+        let wet = camgen(args);
+        assert!(wet.code == 1 && wet.err.contains("nothing was written"), "{args:?}: {}", wet.err);
+        let dry = camgen(&[args, &["--dry-run"]].concat());
+        assert!(
+            dry.code == 1 && dry.err.contains("without --dry-run no file would be written"),
+            "{args:?}: {}",
+            dry.err
+        );
+        assert!(!dry.err.contains("nothing was written"), "{args:?}: {}", dry.err);
+    }
+}
+
+/// No key gives a plane cam the mesh of a conoid: the message asks for nothing.
+#[test]
+fn a_format_of_another_body_is_left_out() {
+    let run = camgen(&["make", "feeder", "--format", "stl"]);
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("stl is for a conoid; use step for a plane cam; leave stl out"), "{}", run.err);
+    assert!(!run.err.contains("give what is missing"), "{}", run.err);
+}
+
 #[test]
 fn without_a_thickness_there_is_no_solid() {
     let directory = tempfile::tempdir().expect("a directory");

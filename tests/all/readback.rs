@@ -406,8 +406,27 @@ fn straight_flanks_are_lines() {
     assert!(largest.fold(0.0, f64::max) < 1e6);
     let found = proven.report();
     assert_eq!(note(&found, "cutter_radius"), "nothing is concave");
-    let run = make(include_str!("../cases/tangent-cam.toml"), &["--out", "."]);
+    let run = make(include_str!("../cases/tangent-cam.toml"), &["--out", ".", "--format", "csv,svg,points,inspect"]);
     assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    // Arcs and lines are the exact outline: no number of tangent arcs is the best possible one.
+    assert!(
+        run.out.contains("2 lines (those of the exact outline)") && !run.out.contains("best possible"),
+        "{}",
+        run.out
+    );
+    // In every table a straight flank has a radius of curvature of `inf`, whatever the sign of its rounding.
+    for ending in [".csv", "-inspect.csv"] {
+        let table = fs::read_to_string(run.directory.path().join(format!("cam-make-600rpm{ending}"))).expect("a table");
+        let mut rows = table.lines().filter(|line| !line.starts_with('#'));
+        let heads: Vec<&str> = rows.next().expect("a head").split(',').collect();
+        let columns = (0..heads.len()).filter(|column| heads[*column].contains("curvature_radius"));
+        let columns: Vec<usize> = columns.collect();
+        let radii: Vec<&str> =
+            rows.flat_map(|row| columns.iter().filter_map(move |column| row.split(',').nth(*column))).collect();
+        assert!(radii.contains(&"inf") && !radii.contains(&"-inf"), "{ending}: {radii:?}");
+        let largest = radii.iter().filter_map(|radius| radius.parse::<f64>().ok()).filter(|radius| radius.is_finite());
+        assert!(largest.fold(0.0_f64, |largest, radius| largest.max(radius.abs())) < 1e9, "{ending}: {radii:?}");
+    }
     let name = run.directory.path().join("cam-make-600rpm.svg");
     let sheet = fs::read_to_string(name).expect("a sheet");
     for text in [&run.out, &sheet] {

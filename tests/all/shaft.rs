@@ -44,6 +44,26 @@ fn the_program_tells_the_known_figures() {
 }
 
 /// The tables: both sides of a step, the asymptote of a stiff support, the lift over a turn.
+/// A massless shaft with a thin disc has one forward critical speed: it is given, with a note, however many are asked for.
+#[test]
+fn fewer_critical_speeds_than_asked_are_given_with_a_note() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let text = "name = \"one\"\n[shaft]\nbeam = \"euler\"\n[[shaft.segment]]\nlength = \"600 mm\"\ndiameter = \"50 mm\"\ndensity = \"0 kg/m3\"\n\
+                modulus = \"210 GPa\"\npoisson = 0.3\n[[shaft.support]]\nat = \"0 mm\"\nstiffness = \"rigid\"\n[[shaft.support]]\nat = \"400 mm\"\n\
+                stiffness = \"rigid\"\n[[shaft.disc]]\nat = \"550 mm\"\nmass = \"20 kg\"\ndiametral_inertia = \"0.15 kg*m2\"\npolar_inertia = \"0.28 kg*m2\"\n";
+    fs::write(directory.path().join("one.toml"), text).expect("written");
+    let ran = camgen_in(directory, &["shaft", "one.toml", "--modes", "2", "--dry-run"]);
+    assert!(
+        ran.code == 0 && ran.out.contains("the shaft has 1 critical speed: number 2 does not exist"),
+        "{}{}",
+        ran.out,
+        ran.err
+    );
+    let ran =
+        camgen_in(ran.directory, &["shaft", "one.toml", "--whirl", "planar", "--modes", "2", "--dry-run", "--json"]);
+    assert_eq!(report(&ran)["shaft"]["critical_rpm"].as_array().map(Vec::len), Some(2));
+}
+
 #[test]
 fn the_tables_tell_the_shaft_and_the_lift() {
     let made = run(

@@ -364,7 +364,7 @@ fn rolling_tells_the_maximum_of_a_face() {
 /// Taken for inches the outline runs near the centres of curvature of the exact one, where no distance can be bounded: the
 /// search ends all the same.
 #[test]
-fn an_outline_in_inches_is_refused_in_no_time() {
+fn outline_scaled_to_inches_fails() {
     let overrides = ["cam.rotation=ccw", "follower.roller.offset=15mm", "buffer.column=return"];
     let cam = cam(&overrides);
     for tolerance in [5e-6, 50e-9] {

@@ -39,7 +39,7 @@ use crate::check::Measures;
 use crate::document::cams;
 use crate::follower::{Element, Follower};
 use crate::geometry::contour::Contour;
-use crate::geometry::{Entity, MILLIMETRES};
+use crate::geometry::{Entity, MILLIMETRES, radius_of_curvature};
 use crate::load::Load;
 use crate::machine::{Machine, Rotation};
 use crate::motion::{Motion, Quantity};
@@ -301,8 +301,8 @@ impl Disc {
             curve: Some(point_as_turned(&self.machine, contact.curve.point * MILLIMETRES)),
             profile: Some(point_as_turned(&self.machine, profile.point * MILLIMETRES)),
             pressure_angle_deg: Some(contact.pressure_angle.to_degrees()),
-            curve_radius: Some(MILLIMETRES / contact.curve.curvature),
-            profile_radius: Some(MILLIMETRES / profile.curvature),
+            curve_radius: Some(radius_of_curvature(contact.curve.curvature)),
+            profile_radius: Some(radius_of_curvature(profile.curvature)),
             force: self.force_row((piece, angle), &contact, state.as_deref()),
             added: state.as_ref().map(|state| state.columns(&at)).unwrap_or_default(),
             load: state,

@@ -18,7 +18,7 @@ use crate::check::{Measures, contact_stress};
 use crate::document::cams;
 use crate::follower::Follower;
 use crate::geometry::contour::Contour;
-use crate::geometry::{Entity, MILLIMETRES};
+use crate::geometry::{Entity, MILLIMETRES, radius_of_curvature};
 use crate::machine::{Machine, Rotation};
 use crate::motion::Motion;
 use crate::profile::outline::{self, Outline, OutlineError};
@@ -273,7 +273,7 @@ impl Groove {
             super::part::point_as_turned(self.machine(), curves.profile(piece, angle).point * MILLIMETRES)
         };
         let profile = self.curves(0).map(place);
-        let radius = self.curves(0).map(|curves| MILLIMETRES / curves.profile(piece, angle).curvature);
+        let radius = self.curves(0).map(|curves| radius_of_curvature(curves.profile(piece, angle).curvature));
         let outer = self.curves(1).map(place);
         let added = outer.into_iter().flat_map(|outer| [(&OUTER_X, outer.x), (&OUTER_Y, outer.y)]);
         let added = row.added.iter().copied().chain(added).collect();

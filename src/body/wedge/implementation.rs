@@ -5,9 +5,9 @@ use crate::body::figures::with_subject;
 use crate::body::part::Part;
 use crate::body::{Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Request, exact};
 use crate::check::Measures;
-use crate::geometry::MILLIMETRES;
 use crate::geometry::boundary::{Boundary, BoundaryStretch};
 use crate::geometry::contour::{Contour, Segment, Vertex};
+use crate::geometry::{MILLIMETRES, radius_of_curvature};
 use crate::machine::Machine;
 use crate::motion::Motion;
 use crate::profile::boundary;
@@ -95,8 +95,8 @@ impl Wedge {
             curve: Some(contact.curve.point * MILLIMETRES),
             profile: Some(profile.point * MILLIMETRES),
             pressure_angle_deg: Some(contact.pressure_angle.to_degrees()),
-            curve_radius: Some(MILLIMETRES / contact.curve.curvature),
-            profile_radius: Some(MILLIMETRES / profile.curvature),
+            curve_radius: Some(radius_of_curvature(contact.curve.curvature)),
+            profile_radius: Some(radius_of_curvature(profile.curvature)),
             by_travel: true,
             added: std::iter::once((&TRAVEL, x_mm)).chain(position).chain(rates).chain(force).collect(),
             ..Row::default()

@@ -744,3 +744,55 @@ fn the_schema_has_every_key() {
     assert_eq!(schema["properties"]["follower"]["properties"]["roller"]["allOf"][0], either);
     assert_eq!(schema["properties"]["cam"]["additionalProperties"], false);
 }
+
+/// Misspellings of a key as people make them: a letter too few, too many, wrong or in the wrong place, other capitals and signs, the last word shortened.
+fn misspellings(path: &str) -> Vec<String> {
+    let (table, name) = path.rsplit_once('.').unwrap_or(("", path));
+    let letters: Vec<char> = name.chars().collect();
+    let middle = letters.len() / 2;
+    let replaced = |at: usize, by: &[char]| -> String {
+        letters[..at].iter().chain(by).chain(&letters[(at + 1).min(letters.len())..]).collect()
+    };
+    let mut swapped = letters.clone();
+    swapped.swap(middle - 1, middle);
+    let (front, last) = name.rsplit_once('_').map_or(("", name), |(front, last)| (front, last));
+    let shortened = |length: usize| {
+        let short: String = last.chars().take(length).collect();
+        if front.is_empty() { short } else { format!("{front}_{short}") }
+    };
+    let mut all = vec![
+        replaced(middle, &[]),
+        replaced(middle, &[letters[middle], letters[middle]]),
+        replaced(middle, &['q']),
+        swapped.into_iter().collect(),
+        format!("{name}s"),
+        name.to_uppercase(),
+        name.replace('_', "-"),
+    ];
+    if last.len() > 5 {
+        all.extend([shortened(3), shortened(4)]);
+    }
+    all.into_iter().map(|name| if table.is_empty() { name } else { format!("{table}.{name}") }).collect()
+}
+
+#[test]
+fn misspelt_keys_are_answered_with_the_key_that_was_meant() {
+    let keys: Vec<String> = every_key().into_iter().filter(|key| !key.contains('[') && last_letters(key) > 3).collect();
+    let (mut asked, mut wrong) = (0, Vec::new());
+    for key in &keys {
+        for typed in misspellings(key).into_iter().filter(|typed| !every_key().contains(typed)) {
+            asked += 1;
+            let answer = message(&[&format!("{typed}=1")]);
+            if !answer.contains(&format!("`{key}`")) {
+                let said = answer.split("did you mean").nth(1).unwrap_or("nothing").trim().to_owned();
+                wrong.push(format!("{typed}: {said}"));
+            }
+        }
+    }
+    // A shortened word can be that of two keys.
+    assert!(asked > 1000 && wrong.len() * 50 < asked, "{} of {asked}:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+fn last_letters(key: &str) -> usize {
+    key.rsplit('.').next().map_or(0, |name| name.chars().count())
+}

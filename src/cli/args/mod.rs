@@ -66,7 +66,7 @@ pub(super) enum Command {
     /// The cam moves the bottom of the air buffers so that the air force equals the inertia force of the bed.
     #[command(after_help = help::ROTARY)]
     Rotary(DeferredArgs<RotaryArgs>),
-    /// Wedge cam of a press: a plate on the bed, by equation (18)
+    /// Linear cam of a press: a plate on the bed, by equation (18)
     ///
     /// The plate rides on the bed and moves the bottom through a bell crank with a roller on each flank.
     #[command(after_help = help::TRANSLATING)]
@@ -436,7 +436,7 @@ pub(super) struct TradeArgs {
     pub(super) residual: Option<f64>,
 
     /// Largest error of the acceleration that the advice keeps, as a share of the motion's largest, e.g. 2%
-    /// [default: 5% for a motion program]
+    /// [default: 5%, that of --accuracy standard]
     #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     pub(super) acceleration: Option<f64>,
 

@@ -339,7 +339,7 @@ fn words(found: &ShaftResults<'_>, shaft_figures: &ShaftFigures) -> Vec<String> 
 }
 
 fn notes(found: &ShaftResults<'_>) -> Vec<String> {
-    let mut notes = Vec::new();
+    let mut notes: Vec<String> = found.spectrum.fewer.iter().cloned().collect();
     let carried = found.carried.as_ref();
     if carried.is_some() && found.machine.data.drive_at.is_none() {
         notes.push("twist is not modelled: shaft.drive_at, the place where the torque enters, is not given".to_owned());

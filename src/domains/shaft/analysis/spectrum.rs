@@ -16,6 +16,8 @@ pub(super) struct CriticalSpeeds {
     pub(super) modes: Vec<Mode>,
     /// Order of the load polynomials; none of the paper's method.
     pub(super) order: Option<usize>,
+    /// Why there are fewer than were asked for.
+    pub(super) fewer: Option<String>,
     /// The first critical speed of forward whirl by the exact method, rad/s: what a speed is held against.
     pub(super) forward: f64,
 }
@@ -28,11 +30,11 @@ impl CriticalSpeeds {
         };
         match asked.solver {
             CriticalSpeedSolver::Exact { order } => {
-                let found = as_many(shaft, asked, order)?;
+                let (found, fewer) = as_many(shaft, asked, order)?;
                 let speeds: Vec<f64> = found.modes.iter().map(|mode| mode.speed).collect();
                 let whirl = if order.is_some() { Whirl::Planar } else { asked.whirl };
                 let forward = forward(whirl, speeds.first().copied().unwrap_or(f64::NAN))?;
-                Ok(Self { speeds, modes: found.modes, order: Some(found.order), forward })
+                Ok(Self { speeds, modes: found.modes, order: Some(found.order), fewer, forward })
             }
             CriticalSpeedSolver::Paper { .. } if asked.modes.is_some_and(|modes| modes > 1) => {
                 Err(Refusal::new("--solver paper finds the first critical speed only")
@@ -40,7 +42,8 @@ impl CriticalSpeeds {
             }
             CriticalSpeedSolver::Paper { stations } => {
                 let found = paper::first_critical(shaft, stations)?;
-                Ok(Self { speeds: vec![found.speed], modes: Vec::new(), order: None, forward: first_forward(shaft)? })
+                let forward = first_forward(shaft)?;
+                Ok(Self { speeds: vec![found.speed], modes: Vec::new(), order: None, fewer: None, forward })
             }
         }
     }
@@ -58,16 +61,21 @@ fn first_forward(shaft: &Shaft) -> Result<f64, Refusal> {
     Ok(found.unwrap_or(f64::NAN))
 }
 
-/// As many modes as are requested, or, where no number is given, as many as there are up to the usual ones.
-fn as_many(shaft: &Shaft, asked: &ShaftOptions, order: Option<usize>) -> Result<exact::Modes, Refusal> {
-    if let Some(count) = asked.modes {
-        return Ok(exact::modes(shaft, asked.whirl, count, order)?);
-    }
-    let mut count = USUAL;
+/// As many modes as there are up to the requested or else the usual number, and why there are fewer than requested.
+fn as_many(
+    shaft: &Shaft,
+    asked: &ShaftOptions,
+    order: Option<usize>,
+) -> Result<(exact::Modes, Option<String>), Refusal> {
+    let mut count = asked.modes.unwrap_or(USUAL);
+    let mut fewer = None;
     loop {
         match exact::modes(shaft, asked.whirl, count, order) {
-            Err(ShaftError::NoSuchMode { .. } | ShaftError::ModeTooHigh { .. }) if count > 1 => count -= 1,
-            found => return Ok(found?),
+            Err(why @ (ShaftError::NoSuchMode { .. } | ShaftError::ModeTooHigh { .. })) if count > 1 => {
+                fewer = fewer.or_else(|| asked.modes.map(|_| why.to_string()));
+                count -= 1;
+            }
+            found => return Ok((found?, fewer)),
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::refusal::Refusal;
 #[non_exhaustive]
 pub enum ShaftError {
     /// A massless shaft has only the modes its discs make; a thin disc in forward whirl has none by turning.
-    #[error("the shaft has {exist} critical speeds: number {asked} does not exist")]
+    #[error("the shaft has {exist} critical speed{}: number {asked} does not exist", if *exist == 1 { "" } else { "s" })]
     NoSuchMode {
         /// The number asked for, from 1.
         asked: usize,

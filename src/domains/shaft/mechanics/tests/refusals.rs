@@ -105,7 +105,7 @@ fn modes_that_there_are_not() {
     let one = bare.with_discs(vec![disc(0.3, 5.0, 0.0, 0.0)]).expect("in order");
     let told = modes(&one, Whirl::Planar, 3, None).expect_err("one mass, one mode");
     assert_eq!(told, ShaftError::NoSuchMode { asked: 3, exist: 1 });
-    assert_eq!(told.to_string(), "the shaft has 1 critical speeds: number 3 does not exist");
+    assert_eq!(told.to_string(), "the shaft has 1 critical speed: number 3 does not exist");
     // On springs of 1e-3 N/m the third mode stands at 1e5 times the first.
     let soft = uniform(springs(&[0.0, 1.0], 1e-3), Beam::Euler);
     assert!(modes(&soft, Whirl::Planar, 2, None).is_ok());
