@@ -37,6 +37,9 @@ fn nothing_keeps(rows: &[TradeRow], limits: TradeLimits) -> String {
     let Some(least) = rows.iter().min_by(|a, b| limits.left(a).total_cmp(&limits.left(b))) else {
         return "nothing was measured".into();
     };
+    if !limits.left(least).is_finite() {
+        return format!("no setting leaves a finite force: limit {}", limits.words());
+    }
     let checks = match least.failed.as_slice() {
         [] => String::new(),
         failed => format!("; its check {} fails", failed.join(", ")),
@@ -124,7 +127,7 @@ pub(super) fn words(measured: &TradeMeasurement) -> Vec<String> {
                 format!("{:.0}", row.machining_s),
                 shown(row.law_error_mm),
                 shown(row.deviation_mm),
-                shown(row.residual_n),
+                or_dash(Some(row.residual_n).filter(|force| force.is_finite())),
                 or_dash(row.velocity_error_mm_per_rad),
                 or_dash(row.acceleration_share.map(|share| 100.0 * share)),
                 or_dash(row.acceleration_error_m_per_s2),

@@ -67,6 +67,85 @@ fn other_speeds_have_the_known_figures() {
     assert!(svg.contains("Residual force") && svg.contains("25 rpm"));
 }
 
+/// A report counts the cylinders, and gives area and volume of one and of all: they hold the bed at the end of the stroke together.
+#[test]
+fn reports_give_one_cylinder_and_all_of_them() {
+    let number = |of: &serde_json::Value, key: &str| of[key].as_f64().unwrap_or_else(|| panic!("no {key}: {of}"));
+    let conoid = ["conoid", "--rpm", "25,35", "--dry-run", "--json"];
+    for (args, section) in [
+        (&["rotary", "--dry-run", "--json"][..], "law"),
+        (&["translating", "--dry-run", "--json"], "law"),
+        (&conoid, "cylinders"),
+        (&["regimes", "--rpm", "25", "--dry-run", "--json"], "regimes"),
+        (&["regimes", "--without-cam", "--rpm", "25", "--dry-run", "--json"], "plain_buffers"),
+        (&["spring", "--dry-run", "--json"], "spring"),
+        (&["scatter", "--samples", "0", "--dry-run", "--json"], "scatter"),
+    ] {
+        let told = report(&run(0, args));
+        let told = &told[section];
+        let (count, bore, total) =
+            (number(told, "cylinders"), number(told, "bore_mm"), number(told, "piston_area_total_mm2"));
+        close(count * number(told, "piston_area_mm2"), total);
+        close(count * std::f64::consts::PI * bore * bore / 4.0, total);
+        // 21288.1 N at 2 at, 1 at above the air around.
+        assert!((1e-6 * total * 98_066.5 / 21_288.1 - 1.0).abs() < 1e-5, "{args:?}: {total}");
+    }
+    let words = run(0, &["rotary", "--dry-run"]).out;
+    assert!(
+        words.contains("2 cylinders, bore 371.747 mm each, piston area 108539 mm² each, 217078 mm² in all"),
+        "{words}"
+    );
+    let told = run(0, &["regimes", "--rpm", "25"]);
+    let row = &table(&file(&told, "dpi-regimes-25rpm.csv"))[0];
+    close(2.0 * of(row, "added_volume_each_mm3"), of(row, "added_volume_mm3"));
+}
+
+/// At 12 rpm a fixed bottom that is reset by the same rule has less residual force than the cam for 35 rpm.
+#[test]
+fn a_speed_at_which_a_fixed_bottom_is_better_warns() {
+    for rule in ["end", "half", "level"] {
+        let told = run(0, &["regimes", "--rpm", "12,30", "--reset", rule, "--dry-run"]);
+        assert!(told.out.contains("WARN  fixed_bottom") && told.out.contains("at 12 rpm"), "{rule}: {}", told.out);
+        for machine in ["dpi", "dpi-six-bar"] {
+            let near = run(0, &["regimes", machine, "--rpm", "30,34", "--reset", rule, "--dry-run"]);
+            assert!(near.out.contains("pass  fixed_bottom"), "{machine} {rule}: {}", near.out);
+        }
+    }
+    // By (7), as `camgen regimes --without-cam` has it.
+    let rows = |args: &[&str]| report(&run(0, &[args, &["--rpm", "20", "--dry-run", "--json"]].concat()));
+    for rule in ["end", "half", "level"] {
+        let cam = rows(&["regimes", "--reset", rule])["regimes"]["speeds"][0].clone();
+        let plain = rows(&["regimes", "--without-cam", "--reset", rule])["plain_buffers"]["speeds"][0].clone();
+        for (of_cam, of_plain) in
+            [("fixed_residual_max_n", "residual_max_n"), ("fixed_column_length_mm", "column_length_mm")]
+        {
+            close(cam[of_cam].as_f64().expect("a number"), plain[of_plain].as_f64().expect("a number"));
+        }
+    }
+}
+
+/// A speed at which the outline misses the last micrometre of air has no residual force, in words instead of `inf`.
+#[test]
+fn a_bottom_that_hits_the_piston_is_told_in_words() {
+    let told = run(1, &["rotary", "--rpm", "5000", "--dry-run"]).out;
+    assert!(!told.split(|c: char| !c.is_alphanumeric()).any(|word| word == "inf" || word == "NaN"), "{told}");
+    assert!(told.contains("the bottom hits the piston"), "{told}");
+}
+
+/// Equation (18) without keys of friction is solved without friction, and the report says so.
+#[test]
+fn a_plate_without_friction_keys_says_that_friction_is_omitted() {
+    let omitted = |sets: &[&str]| {
+        let told = run(0, &[&["translating", "--dry-run"], sets].concat()).out;
+        told.lines().find(|line| line.contains("friction is omitted")).map(str::to_owned)
+    };
+    assert_eq!(omitted(&[]), None);
+    let free = ["--set", "translating.friction_angle=0deg"];
+    assert!(omitted(&free).is_some_and(|line| line.contains("roller") && !line.contains("bell crank")));
+    let both = [&free[..], &["--set", "translating.efficiency=1"]].concat();
+    assert!(omitted(&both).is_some_and(|line| line.contains("roller") && line.contains("bell crank")));
+}
+
 /// A lead does not change what is left at other speeds, nor at the cam's own: nothing.
 #[test]
 fn a_lead_changes_the_column_only() {
@@ -156,7 +235,7 @@ fn the_drive_has_the_known_figures() {
         let set = format!("drive.bore={bore}");
         let refused = run(1, &["drive", "--set", &set]);
         assert!(
-            refused.out.contains(why) && refused.out.contains("a bore of 145.1935170851 mm closes it"),
+            refused.out.contains(why) && refused.out.contains("a bore of 145.1935170851 mm of each cylinder closes it"),
             "{}",
             refused.out
         );

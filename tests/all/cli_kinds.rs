@@ -274,6 +274,9 @@ fn trade_measures_a_ladder_and_advises() {
             );
         }
         assert!(report["advice"].as_str().is_some_and(|advice| advice.contains("cheapest")), "{report}");
+        // The advice keeps the default limit of the acceleration too: made with its flags the cam passes.
+        let advised = found.iter().find(|row| row["rank"] == 1).expect("an advice");
+        assert!(of(advised, "acceleration_share") <= 0.05, "{advised}");
         // The stages add up to the total.
         for row in found {
             let stages = ["law_us", "outline_us", "checks_us", "dxf_us", "svg_us", "step_us", "csv_us"];

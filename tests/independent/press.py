@@ -162,6 +162,33 @@ def press(rng):
     return Press(m)
 
 
+def cylinders(told, both, wrong):
+    """One cylinder and all of them, from the area that together carries the force (m²): a press built by the bore of one, as often as it is told, brakes the bed."""
+    count, bore = X(told["cylinders"]), X(told["bore_mm"]) / 1000
+    wrong.close(count * PI * bore**2 / 4, both, "area of all bores")
+    wrong.close(count * X(told["piston_area_mm2"]), 1e6 * both, "area of all pistons")
+    wrong.close(told["piston_area_total_mm2"], 1e6 * both, "total area")
+
+
+def fixed_bottom(p, n, rule, row, wrong, slack):
+    """A fixed bottom with its own reset by the same rule at a speed; returns its residual force."""
+    most, r = p.inertia(n, p.r), p.r
+    with_end = lambda force: bisect(lambda l: force - p.air(l, r), r * (1 + X(1e-12)), r * X(1e12))
+    worst = lambda l: largest(lambda x: abs(p.inertia(n, x) - p.air(l, x)), 0, r)[0]
+    own = X(row["fixed_column_length_mm"]) / 1000
+    if rule == "level":
+        for beside in (1 - X(1e-4), 1 + X(1e-4)):
+            if worst(own * beside) < worst(own) * (1 - X(1e-7)) - slack:
+                wrong.append(f"a fixed bottom at {n} rpm is not levelled")
+    else:
+        due = with_end(most)
+        due = with_end(most + worst(due) / 2) if rule == "half" else due
+        # A column many strokes long is a difference of near pressures.
+        wrong.close(own, due, "column of a fixed bottom", CLOSE * max(1.0, float(due / r)))
+    wrong.close(row["fixed_residual_max_n"], worst(own), "residual of a fixed bottom", 1e-9, 10 * slack)
+    return X(row["fixed_residual_max_n"])
+
+
 def regimes(binary, directory, number, rng):
     p, name, wrong = press(rng), f"regimes-{number}", Wrong()
     cut = p.rpm if rng.random() < 0.7 else p.rpm * X(rng.uniform(0.6, 1.2))
@@ -181,7 +208,8 @@ def regimes(binary, directory, number, rng):
     column, r = p.of_cam(cut), p.r
     wrong.close(told["column_length_mm"], 1000 * column, "column")
     wrong.close(told["cam_rpm"], cut, "cam_rpm")
-    seen = {}
+    cylinders(told, p.both, wrong)
+    seen, shares = {}, []
     for row in told["speeds"]:
         n = X(row["rpm"])
         if n not in speeds:
@@ -219,10 +247,12 @@ def regimes(binary, directory, number, rng):
         wrong.close(row["a_per_mm"], most / (p.p0 * p.both * r) / 1000, "a")
         added = (reset - column) * p.both * 1e9
         wrong.close(row["added_volume_mm3"], added, "added volume", CLOSE, 1e-11 * float(column * p.both * 1e9) * (10 if level else 1))
+        wrong.close(X(told["cylinders"]) * X(row["added_volume_each_mm3"]), row["added_volume_mm3"], "added volume of each")
         value, place = largest(lambda x: abs(left(reset)(x)), 0, r)
         if n == cut:
             value, place = X(0), X(0)
         slack = ROUNDING * float(max(most, p.inertia(cut, r)))
+        shares.append(value / fixed_bottom(p, n, rule, row, wrong, slack))
         wrong.close(row["residual_max_n"], value, "residual", 1e-8 if level else CLOSE, slack)
         wrong.close(row["residual_share"], value / most, "residual share", 1e-8 if level else CLOSE, slack / float(most))
         ends = abs(left(reset)(r))
@@ -255,6 +285,8 @@ def regimes(binary, directory, number, rng):
     verdict = checks["added_volume"]["verdict"]
     if (verdict == "fail") != below or got.returncode != int(below or too_long):
         wrong.append(f"added_volume {verdict}, exit {got.returncode}, though the shortest column is {'' if below else 'not '}shorter")
+    if abs(max(shares) - 1) > 1e-6 and (checks["fixed_bottom"]["verdict"] == "warn") != (max(shares) > 1):
+        wrong.append(f"fixed_bottom {checks['fixed_bottom']['verdict']}, though the largest share is {float(max(shares))}")
     if (checks["column"]["verdict"] == "fail") != too_long:
         wrong.append(f"column {checks['column']['verdict']}, though the longest is {float(longest)} m")
     wrong.close(checks["column"]["value"], 1000 * longest, "longest column", 1e-9 if rule == "level" else CLOSE)
@@ -321,6 +353,7 @@ def spring(binary, directory, number, rng):
     if got.returncode:
         return "spring refused", [f"refused: {got.stderr.strip()}"], words
     told = report["spring"]
+    cylinders(told, p.both, wrong)
     slack = ROUNDING * float(p.inertia(fastest, r))
     wrong.close(told["least_stiffness_n_per_mm"], least(p.rpm) / 1000, "least stiffness")
     wrong.close(told["residual_fixed_bottom_max_n"], plain, "fixed bottom", CLOSE, slack)
@@ -572,6 +605,8 @@ def drive(binary, directory, number, rng):
     tight = 1 + d.stroke / d.rest
     wrong.close(told["bore_mm"], 1000 * d.bore, "bore", 1e-12 * tight + CLOSE)
     wrong.close(told["piston_area_mm2"], d.area / 2 * 1e6, "area", 1e-12 * tight + CLOSE)
+    wrong.close(told["piston_area_total_mm2"], told["cylinders"] * X(told["piston_area_mm2"]), "total area of the drive")
+    wrong.close(told["cylinders"], 2, "cylinders of the drive")
     wrong.close(told["stroke_mm"], 1000 * d.stroke, "stroke")
     wrong.close(told["work_over_energy"], d.work / d.energy, "work over energy")
     wrong.close(told["end_force_n"], d.force(0.0), "end force", 1e-14 * tight + CLOSE)

@@ -10,6 +10,9 @@ usage: scatter.py CAMGEN_BINARY DIRECTORY [--count N] [--seed N] [--jobs N]
 """
 import csv
 import math
+import re
+import subprocess
+from pathlib import Path
 
 import cases
 import numpy as np
@@ -172,9 +175,10 @@ def one(binary, directory, number, rng):
     longer, early = rng.choice([0.0, rng.uniform(-0.02, 0.05) * column]), rng.choice([0.0, rng.uniform(0, 0.01) * column])
     true["column"], true["lead"] = longer, early
     words += ["--fault", f"column={1000 * longer!r}mm", "--fault", f"lead={1000 * early!r}mm"]
-    seed = rng.randrange(1 << 40)
+    braked_by_all(report["law"], m, cam, wrong)
+    seed, rule = rng.randrange(1 << 40), rng.choice(["none", "end", "end", "level"])
     samples = 40
-    asked = ["scatter", *m.sets(), *words, "--samples", str(samples), "--seed", str(seed), "--force"]
+    asked = ["scatter", *m.sets(), *words, "--samples", str(samples), "--seed", str(seed), "--reset", rule, "--force"]
     got, told = run(binary, asked, directory, name)
     size = float(m.inertia(m.rpm, m.r))
     largest = max(size, cam.unit) * 4
@@ -208,11 +212,51 @@ def one(binary, directory, number, rng):
     both = cam.residual(**{**true, "column": of_fault["column_with_port_mm"] / 1000, "lead": of_fault["lead_with_port_mm"] / 1000})
     for at in (0, -1):
         wrong.close(1 + both[at] / largest, 1, "screw and port leave nothing at the ends", 1e-9)
-    percentiles(part, cam, m, seed, samples, wrong, rounding)
-    settings(part, cam, m, column, wrong, rounding)
+    percentiles(part, cam, m, (seed, samples, rule), wrong, rounding)
+    settings(part, cam, m, column, rule, wrong, rounding)
+    card(binary, directory, name, asked, part, wrong)
     losses(binary, directory, name, m, cam, rng, wrong, rounding)
     levelled(binary, directory, name, m, rng, wrong, rounding)
     return "scatter", wrong, asked
+
+
+def braked_by_all(law, m, cam, wrong):
+    """A press built by the report: as many cylinders as it counts, each of its bore, hold the bed at the end of the stroke by the gas in them."""
+    each = math.pi * (law["bore_mm"] / 1000) ** 2 / 4
+    volume = each * cam.closed / (each * cam.column)
+    pressure = float(m.p0) * Gas(float(m.k), volume.min() * 0.99, 1.01).at(volume[-1])
+    force = law["cylinders"] * each * (pressure - float(m.p0))
+    wrong.close(force, cam.inertia[-1], "force of all cylinders at the end of the stroke", EXACT)
+    wrong.close(law["cylinders"] * law["piston_area_mm2"], law["piston_area_total_mm2"], "area of all pistons", 1e-12)
+    wrong.close(law["piston_area_mm2"], 1e6 * each, "area of a piston", 1e-12)
+
+
+def card(binary, directory, name, asked, part, wrong):
+    """The card of the hand wheel has the columns of the table, and names the rule."""
+    command = [binary, *asked, "--quiet", "--out", str(directory), "--name", name + "-wheel", "--overwrite", "--format", "svg"]
+    subprocess.run(command, capture_output=True, check=False)
+    drawing = (Path(directory) / f"{name}-wheel-card.svg").read_text()
+    texts = [re.sub("<[^>]*>", "", text).strip() for text in re.findall(r"<text[^>]*>(.*?)</text>", drawing, re.DOTALL)]
+    if not any(f"({part['reset']})" in text for text in texts):
+        wrong.append(f"the card does not name the rule {part['reset']}")
+    if not any(f"{part['cylinders']} cylinders" in text for text in texts):
+        wrong.append("the card does not count the cylinders")
+    if any(row["reset"] != part["reset"] for row in read_settings(directory, name)):
+        wrong.append("the table of the settings has another rule")
+    place = -1
+    for row in part["settings"]:
+        cells = [f"{row['v']:.2f}", f"{row['rpm']:.2f}", f"{row['column_mm']:.2f}", f"{row['residual_n']:.0f}"]
+        for cell in cells:
+            later = [i for i, text in enumerate(texts) if i > place and text == cell]
+            if not later:
+                wrong.append(f"the card has no {cell} for v = {row['v']}")
+                return
+            place = later[0]
+
+
+def read_settings(directory, name):
+    with open(Path(directory) / f"{name}-settings.csv", newline="") as file:
+        return list(csv.DictReader(file))
 
 
 def drawn(m, seed, samples):
@@ -225,8 +269,9 @@ def drawn(m, seed, samples):
                    closing=1 + at["closing_pressure"], air=1 - abs(at["air_lost"]), column=at["column"], lead=at["lead"]), at["phase"], at["screw"]
 
 
-def percentiles(part, cam, m, seed, samples, wrong, rounding):
+def percentiles(part, cam, m, draws, wrong, rounding):
     """The presses that the command draws, each with a phase error by differences of the bottom along the crank."""
+    seed, samples, rule = draws
     coarse = slice(0, None, 20)
     at = Cam.__new__(Cam)
     at.__dict__.update(cam.__dict__)
@@ -259,8 +304,9 @@ def percentiles(part, cam, m, seed, samples, wrong, rounding):
         with_phase = lambda values: float((np.abs(values) + np.abs(by_phase * phase)).max())
         built.append(with_phase(at.residual(**true)))
         reset.append(with_phase(at.residual(**{**true, "column": end(at, true) + screw})))
-        plain.append(float(np.abs(fixed.residual(**{**true, "column": end(fixed, true) + screw})).max()))
-    for body, rule, sizes in (("cam", "none", built), ("cam", "end", reset), ("fixed-bottom", "end", plain)):
+        own = true["column"] if rule == "none" else end(fixed, true) + screw
+        plain.append(float(np.abs(fixed.residual(**{**true, "column": own})).max()))
+    for body, rule, sizes in (("cam", "none", built), ("cam", "end", reset), ("fixed-bottom", "none" if rule == "none" else "end", plain)):
         sizes.sort()
         for row in part["percentiles"]:
             if (row["body"], row["reset"]) == (body, rule):
@@ -269,8 +315,9 @@ def percentiles(part, cam, m, seed, samples, wrong, rounding):
                 wrong.close(row["residual_n"], sizes[rank - 1], f"P{row['percentile']:.0f} {body} {rule}", 5e-6, 10 * rounding)
 
 
-def settings(part, cam, m, column, wrong, rounding):
-    """The level settings over v: what the cam leaves there, and that no column near the fixed bottom's leaves less."""
+def settings(part, cam, m, column, rule, wrong, rounding):
+    """The settings over v by a rule: what cam and fixed bottom leave, nothing at the end of the stroke by `end`, least by `level`, the columns of v = 1 by `none`."""
+    first = next(row for row in part["settings"] if row["v"] == 1.0)
     for row in part["settings"][::5]:
         true = dict(mass=row["v"], speed=1.0, ambient=1.0, kappa=float(m.k), closing=1.0, air=1.0, column=row["column_mm"] / 1000 - column, lead=0.0)
         wrong.close(row["residual_n"], abs(scan(cam.residual(**true))), "residual of a setting", 10 * EXACT, 10 * rounding)
@@ -283,8 +330,21 @@ def settings(part, cam, m, column, wrong, rounding):
 
         own = row["fixed_column_mm"] / 1000
         wrong.close(row["fixed_residual_n"], left(own), "residual of a fixed bottom", 10 * EXACT, 10 * rounding)
-        if min(left(own * (1 - 1e-4)), left(own * (1 + 1e-4))) < row["fixed_residual_n"] * (1 - LEVELLED) - rounding:
-            wrong.append(f"a fixed bottom at v = {row['v']} is not levelled")
+        wrong.close(part["cylinders"] * row["added_volume_each_mm3"], row["added_volume_mm3"], "volume of a setting", 1e-12)
+        if rule == "level":
+            if min(left(own * (1 - 1e-4)), left(own * (1 + 1e-4))) < row["fixed_residual_n"] * (1 - LEVELLED) - rounding:
+                wrong.append(f"a fixed bottom at v = {row['v']} is not levelled")
+            beside = [abs(scan(cam.residual(**{**true, "column": true["column"] + by * column}))) for by in (-1e-4, 1e-4)]
+            if min(beside) < row["residual_n"] * (1 - LEVELLED) - rounding:
+                wrong.append(f"the cam at v = {row['v']} is not levelled")
+        elif rule == "end":
+            left(own)
+            ends = [cam.residual(**true)[-1], fixed.residual(**{**true, "column": 0.0})[-1]]
+            for force in ends:
+                wrong.close(1 + force / (cam.inertia[-1] * max(1.0, row["v"])), 1, "a setting leaves nothing at the end", 1e-8)
+        else:
+            wrong.close(row["column_mm"], 1000 * column, "column that is not reset", 1e-12)
+            wrong.close(own, first["fixed_column_mm"] / 1000, "fixed column that is not reset", 1e-12)
 
 
 def losses(binary, directory, name, m, cam, rng, wrong, rounding):
@@ -468,8 +528,8 @@ def under_a_linkage(binary, directory, number, rng):
     true, words = fault(rng, k)
     true["column"], true["lead"] = rng.uniform(-0.02, 0.05) * column, 0.0
     words += ["--fault", f"column={1000 * true['column']!r}mm"]
-    seed, samples = rng.randrange(1 << 40), 25
-    asked = ["scatter", "dpi-crank-slider", *sets, *words, "--samples", str(samples), "--seed", str(seed), "--force"]
+    seed, samples, rule = rng.randrange(1 << 40), 25, rng.choice(["end", "level"])
+    asked = ["scatter", "dpi-crank-slider", *sets, *words, "--samples", str(samples), "--seed", str(seed), "--reset", rule, "--force"]
     got, told = run(binary, asked, directory, name)
     here = residual(true, dense)
     if told is None:
@@ -503,10 +563,10 @@ def under_a_linkage(binary, directory, number, rng):
         reach = lambda at: residual({**true, "column": at}, dead, fixed)[0]
         end = bisected(reach, -(fixed - x_dead - abs(true["lead"])) * 0.999, 50 * fixed)
         plain.append(float(np.abs(residual({**true, "column": end + screw}, stations, fixed)).max()))
-    for body, rule, sizes in (("cam", "none", built), ("fixed-bottom", "end", plain)):
+    for body, of_body, sizes in (("cam", "none", built), ("fixed-bottom", "end", plain)):
         sizes.sort()
         for row in part["percentiles"]:
-            if (row["body"], row["reset"]) == (body, rule):
+            if (row["body"], row["reset"]) == (body, of_body):
                 rank = math.ceil(row["percentile"] / 100 * samples - 1e-9)
                 wrong.close(row["residual_n"], sizes[rank - 1], f"P{row['percentile']:.0f} {body} under a linkage", 1e-4, 10 * rounding)
     for row in part["settings"][::6]:
@@ -515,7 +575,11 @@ def under_a_linkage(binary, directory, number, rng):
         of_fixed = lambda length: abs(scan(residual({**true, "column": 0.0}, dense, length)))
         own = row["fixed_column_mm"] / 1000
         wrong.close(row["fixed_residual_n"], of_fixed(own), "residual of a fixed bottom under a linkage", 2e-4, 10 * rounding)
-        if min(of_fixed(own * (1 - 1e-3)), of_fixed(own * (1 + 1e-3))) < row["fixed_residual_n"] * (1 - 2e-4) - rounding:
+        if rule == "end":
+            ends = [residual(true, dead)[0], residual({**true, "column": 0.0}, dead, own)[0]]
+            for force in ends:
+                wrong.close(1 + force / (both * p0 * loading * a.max() * max(1.0, row["v"])), 1, "a setting leaves nothing at the dead point", 1e-8)
+        elif min(of_fixed(own * (1 - 1e-3)), of_fixed(own * (1 + 1e-3))) < row["fixed_residual_n"] * (1 - 2e-4) - rounding:
             wrong.append(f"a fixed bottom at v = {row['v']} is not levelled under a linkage")
     return "linkage", wrong, asked
 

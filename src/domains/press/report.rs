@@ -1,5 +1,7 @@
 //! What the cams of a press report.
 
+use super::buffer::{CYLINDERS, bore_of, total_area};
+use crate::geometry::MILLIMETRES;
 use crate::report::sheet::rounded;
 use crate::report::{Finding, OutlineMeasures, Rolled, Section, Verdict, Weight, shown};
 use serde::{Deserialize, Serialize};
@@ -53,6 +55,48 @@ impl WedgeMeasures {
     }
 }
 
+/// The cylinders at an end of the bed: how many, the sizes of one, and the area of all.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct CylinderMeasures {
+    pub cylinders: u32,
+    /// Of one cylinder, as the bore.
+    pub piston_area_mm2: f64,
+    pub bore_mm: f64,
+    pub piston_area_total_mm2: f64,
+}
+
+impl CylinderMeasures {
+    /// Of the area of one piston, m².
+    #[must_use]
+    pub fn new(piston_area: f64) -> Self {
+        const SQUARE: f64 = MILLIMETRES * MILLIMETRES;
+        Self {
+            cylinders: CYLINDERS,
+            piston_area_mm2: SQUARE * piston_area,
+            bore_mm: MILLIMETRES * bore_of(piston_area),
+            piston_area_total_mm2: SQUARE * total_area(piston_area),
+        }
+    }
+
+    /// The count with the bore of each.
+    #[must_use]
+    pub fn bore_words(&self) -> String {
+        format!("{} cylinders, bore {} mm each", self.cylinders, shown(self.bore_mm))
+    }
+
+    /// The count with the sizes of one and of all.
+    #[must_use]
+    pub fn words(&self) -> String {
+        format!(
+            "{}, piston area {} mm² each, {} mm² in all",
+            self.bore_words(),
+            shown(self.piston_area_mm2),
+            shown(self.piston_area_total_mm2)
+        )
+    }
+}
+
 /// The law of the press: the air and the motion of the bottom of the cylinders.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "the names say it, with their units")]
@@ -61,8 +105,8 @@ pub struct AirLaw {
     pub dx_max_mm: f64,
     pub dx_max_at_x_mm: f64,
     pub column_length_mm: f64,
-    pub piston_area_mm2: f64,
-    pub bore_mm: f64,
+    #[serde(flatten)]
+    pub cylinders: CylinderMeasures,
     /// The slope dΔx/dx at the start of the reversal; c − 1 for a disc cam.
     pub start_slope: f64,
     /// Jump of the bottom's velocity at the start of the reversal.
@@ -130,6 +174,10 @@ pub struct Equation18 {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steps: Option<usize>,
     pub efficiency_model: String,
+    #[serde(default)]
+    pub friction_angle_deg: f64,
+    #[serde(default)]
+    pub efficiency: f64,
     /// The direction of the bed in which the forces balance.
     pub balance: String,
     /// Where the law of the slope changes.
@@ -149,13 +197,15 @@ impl AirLaw {
     /// The section `law`.
     #[must_use]
     pub fn section(&self) -> Section {
-        let mut words = vec![format!(
-            "Δx {} mm at x = {} mm, air column {} mm, bore {} mm",
-            shown(self.dx_max_mm),
-            shown(self.dx_max_at_x_mm),
-            shown(self.column_length_mm),
-            shown(self.bore_mm)
-        )];
+        let mut words = vec![
+            format!(
+                "Δx {} mm at x = {} mm, air column {} mm",
+                shown(self.dx_max_mm),
+                shown(self.dx_max_at_x_mm),
+                shown(self.column_length_mm)
+            ),
+            self.cylinders.words(),
+        ];
         if self.velocity_jump_mm_per_rad != 0.0 {
             words.push(format!(
                 "its velocity jumps by {:.2} mm/rad of crank at the {} of the reversal",
@@ -171,6 +221,7 @@ impl AirLaw {
         }
         if let Some(solved) = &self.equation_18 {
             words.push(solved.words(self.start_slope));
+            words.extend(solved.omitted_friction());
             let then = |at: &SlopeBreak| format!("{} from x = {:.3} mm", at.then, at.x_mm);
             if !solved.breaks.is_empty() {
                 let breaks: Vec<String> = solved.breaks.iter().map(then).collect();
@@ -180,6 +231,7 @@ impl AirLaw {
         let figures = vec![
             format!("air column {:.3} mm", self.column_length_mm),
             format!("Δx {:.3} mm at x = {:.2} mm", self.dx_max_mm, self.dx_max_at_x_mm),
+            self.cylinders.bore_words(),
         ];
         Section::new("law", self).with_words(words).with_figures(figures)
     }
@@ -189,6 +241,14 @@ impl AirLaw {
 const ROUNDING_MM: f64 = 1e-9;
 
 impl Equation18 {
+    /// Names the friction that the machine file does not give.
+    fn omitted_friction(&self) -> Option<String> {
+        let roller = (self.friction_angle_deg == 0.0).then_some("at the roller (translating.friction_angle is 0)");
+        let crank = (self.efficiency == 1.0).then_some("in the bell crank (translating.efficiency is 1)");
+        let omitted: Vec<&str> = roller.into_iter().chain(crank).collect();
+        (!omitted.is_empty()).then(|| format!("friction is omitted {}", omitted.join(" and ")))
+    }
+
     fn words(&self, start_slope: f64) -> String {
         let how = match (self.stations, self.tolerance_mm) {
             (Some(stations), _) => format!("{stations} stations"),
@@ -240,15 +300,25 @@ pub struct ResidualByDirection {
     pub residual_return_at_x_mm: f64,
 }
 
+/// In the place of a residual force that is not finite.
+const UNBOUNDED: &str = "without bound (the bottom hits the piston)";
+
 impl ForceMeasures {
+    fn residual_words(&self) -> String {
+        if self.residual_max_n.is_finite() {
+            format!("{} N ({} %)", shown(self.residual_max_n), shown(100.0 * self.residual_share))
+        } else {
+            UNBOUNDED.into()
+        }
+    }
+
     /// The section `force`.
     #[must_use]
     pub fn section(&self) -> Section {
         let mut words = vec![format!(
-            "inertia {} N; inertia less air {} N ({} %) with this cam, {} N with a fixed bottom",
+            "inertia {} N; inertia less air {} with this cam, {} N with a fixed bottom",
             shown(self.inertia_max_n),
-            shown(self.residual_max_n),
-            shown(100.0 * self.residual_share),
+            self.residual_words(),
             shown(self.residual_fixed_bottom_max_n)
         )];
         words.push(match self.torque_max_nm {
@@ -261,7 +331,11 @@ impl ForceMeasures {
             None => format!("each roller at most {:.1} N along the normal", self.roller_force_max_n),
         });
         let mut figures = vec![
-            format!("inertia {:.0} N, residual {:.2} N", self.inertia_max_n, self.residual_max_n),
+            if self.residual_max_n.is_finite() {
+                format!("inertia {:.0} N, residual {:.2} N", self.inertia_max_n, self.residual_max_n)
+            } else {
+                format!("inertia {:.0} N, {UNBOUNDED}", self.inertia_max_n)
+            },
             format!("a fixed bottom would leave {:.0} N", self.residual_fixed_bottom_max_n),
         ];
         if let Some(both) = &self.by_direction {

@@ -9,6 +9,7 @@ use crate::domains::press::buffer::drive::{
 use crate::domains::press::cams;
 use crate::domains::press::checks::closing;
 use crate::domains::press::machine::{DriveData, DriveMachine};
+use crate::domains::press::report::CylinderMeasures;
 use crate::geometry::MILLIMETRES;
 use crate::numeric::extremum;
 use crate::report::plot::{Plot, PlotCurve, PlotPanel};
@@ -99,8 +100,8 @@ const COLUMNS: &[ListedColumn<DriveRow>] = &[
 /// The section `drive`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct DriveFigures {
-    bore_mm: f64,
-    piston_area_mm2: f64,
+    #[serde(flatten)]
+    cylinders: CylinderMeasures,
     stroke_mm: f64,
     work_over_energy: f64,
     end_force_n: f64,
@@ -344,8 +345,7 @@ fn figures(machine: &DriveMachine, (drive, closes): (&Drive, bool), step: f64, n
         }
     });
     DriveFigures {
-        bore_mm: MILLIMETRES * drive.bore(),
-        piston_area_mm2: MILLIMETRES * MILLIMETRES * drive.piston_area,
+        cylinders: CylinderMeasures::new(drive.piston_area),
         stroke_mm: MILLIMETRES * of.stroke(),
         work_over_energy: drive.work(of.stroke()) / of.energy(),
         end_force_n: drive.force(of.stroke()),
@@ -385,8 +385,8 @@ fn slowest(drive_figures: &DriveFigures) -> String {
 fn words(drive_figures: &DriveFigures) -> Vec<String> {
     let mut lines = vec![
         format!(
-            "bore {} mm, stroke {} mm, force at its end {} N, work over the bed's energy {}",
-            shown(drive_figures.bore_mm),
+            "{}; stroke {} mm, force of all at its end {} N, work over the bed's energy {}",
+            drive_figures.cylinders.words(),
             shown(drive_figures.stroke_mm),
             shown(drive_figures.end_force_n),
             shown(drive_figures.work_over_energy)

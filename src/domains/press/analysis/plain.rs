@@ -11,7 +11,9 @@ use crate::domains::press::buffer::regime::Reset;
 use crate::domains::press::buffer::{Cylinder, PlainBuffer};
 use crate::domains::press::checks::column;
 use crate::domains::press::machine::{Press, only_under_a_yoke};
+use crate::domains::press::report::CylinderMeasures;
 use crate::domains::press::scatter::fault::FrozenBuffer;
+use crate::domains::press::scatter::reset::ScrewRule;
 use crate::domains::press::scatter::settings::{FixedBottom, extremes_of_fixed};
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
@@ -37,12 +39,14 @@ struct PlainRow {
     rpm: f64,
     a_per_mm: f64,
     column_length_mm: f64,
+    /// Of all cylinders.
     added_volume_mm3: f64,
     residual_max_n: f64,
     residual_share: f64,
     residual_at_mm: f64,
     end_residual_n: f64,
     end_pressure_pa: f64,
+    added_volume_each_mm3: f64,
 }
 
 impl PlainRow {
@@ -61,13 +65,15 @@ const COLUMNS: &[ListedColumn<PlainRow>] = &[
     ("residual_at_mm", |row| row.residual_at_mm),
     ("end_residual_n", |row| row.end_residual_n),
     ("end_pressure_pa", |row| row.end_pressure_pa),
+    ("added_volume_each_mm3", |row| row.added_volume_each_mm3),
 ];
 
-/// A pair of cylinders for an end pressure at the design speed, and the bottoms of a cam that would balance them.
+/// The cylinders for an end pressure at the design speed, and the bottoms of a cam that would balance them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 struct FamilyRow {
     end_pressure_pa: f64,
-    bore_mm: f64,
+    #[serde(flatten)]
+    cylinders: CylinderMeasures,
     /// By (7): of a fixed bottom, and of a cam that brings it back.
     column_length_mm: f64,
     residual_max_n: f64,
@@ -80,7 +86,7 @@ struct FamilyRow {
 
 const FAMILY_COLUMNS: &[ListedColumn<FamilyRow>] = &[
     ("end_pressure_pa", |row| row.end_pressure_pa),
-    ("bore_mm", |row| row.bore_mm),
+    ("bore_mm", |row| row.cylinders.bore_mm),
     ("column_length_mm", |row| row.column_length_mm),
     ("residual_max_n", |row| row.residual_max_n),
     ("residual_at_mm", |row| row.residual_at_mm),
@@ -88,6 +94,9 @@ const FAMILY_COLUMNS: &[ListedColumn<FamilyRow>] = &[
     ("dx_max_at_x_mm", |row| row.dx_max_at_x_mm),
     ("matched_column_length_mm", |row| row.matched_column_length_mm),
     ("matched_dx_max_mm", |row| row.matched_dx_max_mm),
+    ("cylinders", |row| f64::from(row.cylinders.cylinders)),
+    ("piston_area_mm2", |row| row.cylinders.piston_area_mm2),
+    ("piston_area_total_mm2", |row| row.cylinders.piston_area_total_mm2),
 ];
 
 /// A place of figure 4.
@@ -111,13 +120,14 @@ const FAMILY_CURVES: &[ListedColumn<FamilyPlace>] = &[
 #[derive(Debug, Serialize)]
 struct PlainBuffers<'a> {
     reset: &'static str,
-    bore_mm: f64,
+    #[serde(flatten)]
+    cylinders: CylinderMeasures,
     speeds: &'a [PlainRow],
     end_pressures: &'a [FamilyRow],
 }
 
 /// The buffers of a press with fixed bottoms, without any cam: their column at speeds of the main shaft (rpm) by a rule for the end of the stroke,
-/// and the pairs of cylinders for other end pressures.
+/// and the cylinders for other end pressures.
 ///
 /// ```
 /// use camgen::domains::press::analysis::plain;
@@ -148,7 +158,7 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
     let trials = trial_bottoms::trials(machine);
     let section = PlainBuffers {
         reset: reset.word(),
-        bore_mm: MILLIMETRES * cylinder.bore(),
+        cylinders: CylinderMeasures::new(cylinder.piston_area),
         speeds: &rows,
         end_pressures: &family,
     };
@@ -169,7 +179,7 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
         sections: vec![Section::new("plain_buffers", &section).with_words(words)],
-        measures: std::iter::once(volume(&resets, CUBIC * 2.0 * cylinder.piston_area * own))
+        measures: std::iter::once(volume(&resets, CUBIC * cylinder.volume(own)))
             .chain(column::measure(&columns, machine, |press, rpm| {
                 Some(column_by(&frozen_at(press, &cylinder, rpm), reset))
             }))
@@ -213,17 +223,32 @@ fn notes(machine: &Machine) -> Vec<String> {
     idle.chain(of_cam).collect()
 }
 
+/// A fixed bottom with its own reset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct FixedSetting {
+    /// Column, m.
+    pub(super) column: f64,
+    /// Largest residual force, N.
+    pub(super) residual: f64,
+}
+
+/// A fixed bottom set by a rule of `camgen regimes` for the loading A of a speed.
+pub(super) fn left_by_reset(frozen: &FrozenBuffer, reset: Reset) -> FixedSetting {
+    let column = column_by(frozen, reset);
+    FixedSetting { column, residual: FixedBottom::new(frozen).left(column, 1.0) }
+}
+
 /// Column of a fixed bottom by a rule, m, for the loading A of a speed: `half` and `level` are those of `camgen regimes`.
 fn column_by(frozen: &FrozenBuffer, reset: Reset) -> f64 {
-    let (stroke, exponent, load) = (frozen.path.stroke(), frozen.exponent, frozen.end_load());
+    let fixed = FixedBottom::new(frozen);
     match reset {
-        Reset::End => column_for(stroke, load, exponent),
+        Reset::End => fixed.column(1.0, ScrewRule::End),
         Reset::Half => {
-            let (_, worst) = PlainBuffer::new(frozen.path.loading(), exponent, stroke).largest_residual();
+            let worst = fixed.left(fixed.column(1.0, ScrewRule::End), 1.0) / frozen.unit_force;
             // The air of `end` is too weak in the middle: half of that is put on at its end.
-            column_for(stroke, load + 0.5 * worst, exponent)
+            column_for(frozen.path.stroke(), frozen.end_load() + 0.5 * worst, frozen.exponent)
         }
-        Reset::Level => FixedBottom::new(frozen).level(1.0).0,
+        Reset::Level => fixed.column(1.0, ScrewRule::Level),
     }
 }
 
@@ -247,13 +272,14 @@ fn at_speed(press: &Press, cylinder: &Cylinder, rpm: f64, reset: Reset) -> Plain
         rpm,
         a_per_mm: frozen.path.loading() / MILLIMETRES,
         column_length_mm: MILLIMETRES * column,
-        added_volume_mm3: CUBIC * 2.0 * cylinder.piston_area * (column - own),
+        added_volume_mm3: CUBIC * cylinder.volume(column - own),
         residual_max_n: value.abs(),
         residual_share: value.abs() / press.largest_inertia(rpm),
         residual_at_mm: MILLIMETRES * at,
         // By (7) the air is the inertia there, to its rounding.
         end_residual_n: if reset == Reset::End { 0.0 } else { frozen.unit_force * end },
         end_pressure_pa: cylinder.ambient_pressure * (1.0 + air),
+        added_volume_each_mm3: CUBIC * cylinder.piston_area * (column - own),
     }
 }
 
@@ -293,7 +319,7 @@ fn of_pressure(press: &Press, end: f64) -> FamilyRow {
     let ((at, left), (dx_at, dx)) = (plain.largest_residual(), returns.largest_displacement());
     FamilyRow {
         end_pressure_pa: end,
-        bore_mm: MILLIMETRES * cylinder.bore(),
+        cylinders: CylinderMeasures::new(cylinder.piston_area),
         column_length_mm: MILLIMETRES * plain.column,
         residual_max_n: cylinder.unit_force() * left,
         residual_at_mm: MILLIMETRES * at,
@@ -319,16 +345,17 @@ fn family_curve(press: &Press, end: f64) -> Vec<FamilyPlace> {
 }
 
 fn words(found: &PlainBuffers<'_>) -> Vec<String> {
-    let mut lines = vec![format!("fixed bottoms without a cam, bore {:.3} mm; reset: {}", found.bore_mm, found.reset)];
+    let mut lines = vec![format!("fixed bottoms without a cam; reset: {}; {}", found.reset, found.cylinders.words())];
     lines.push(format!(
-        "{:>8} {:>11} {:>13} {:>11} {:>8} {:>9} {:>10} {:>9}",
-        "rpm", "column/mm", "volume/cm³", "left/N", "left/%", "at x/mm", "end/N", "p_end/at"
+        "{:>8} {:>11} {:>13} {:>13} {:>11} {:>8} {:>9} {:>10} {:>9}",
+        "rpm", "column/mm", "V each/cm³", "V all/cm³", "left/N", "left/%", "at x/mm", "end/N", "p_end/at"
     ));
     lines.extend(found.speeds.iter().map(|row| {
         format!(
-            "{:>8} {:>11.3} {:>13} {:>11.2} {:>8.3} {:>9.3} {:>10} {:>9.4}",
+            "{:>8} {:>11.3} {:>13} {:>13} {:>11.2} {:>8.3} {:>9.3} {:>10} {:>9.4}",
             shown(row.rpm),
             row.column_length_mm,
+            unsigned_zero(1e-3 * row.added_volume_each_mm3, 1),
             unsigned_zero(1e-3 * row.added_volume_mm3, 1),
             row.residual_max_n,
             100.0 * row.residual_share,
@@ -340,13 +367,13 @@ fn words(found: &PlainBuffers<'_>) -> Vec<String> {
     lines.push("cylinders for other end pressures at the design speed, and the bottom of a cam with the returning and the matched column:".into());
     lines.push(format!(
         "{:>8} {:>9} {:>11} {:>11} {:>9} {:>9} {:>9} {:>12} {:>11}",
-        "p_end/at", "bore/mm", "column/mm", "left/N", "at x/mm", "Δx/mm", "at x/mm", "matched/mm", "its Δx/mm"
+        "p_end/at", "each Ø/mm", "column/mm", "left/N", "at x/mm", "Δx/mm", "at x/mm", "matched/mm", "its Δx/mm"
     ));
     lines.extend(found.end_pressures.iter().map(|row| {
         format!(
             "{:>8.3} {:>9.2} {:>11.3} {:>11.2} {:>9.3} {:>9.3} {:>9.3} {:>12.3} {:>11.3}",
             row.end_pressure_pa / TECHNICAL_ATMOSPHERE,
-            row.bore_mm,
+            row.cylinders.bore_mm,
             row.column_length_mm,
             row.residual_max_n,
             row.residual_at_mm,

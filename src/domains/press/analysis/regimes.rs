@@ -1,17 +1,22 @@
 //! One cam at other speeds: the column is reset, or air is added, and a residual force is left. Equations (14) and (15), figure 5.
 
 use super::at_speeds::{ColumnReset, CurveAxis, ForcePlace, force_panels, unsigned_zero, volume};
+use super::plain::{self, FixedSetting};
 use crate::analysis::{Analysis, Picture, places};
 use crate::body::Kind;
 use crate::document::{Input, NamedChoice};
 use crate::domains::press::balance::reversal_of_bed;
+use crate::domains::press::buffer::CYLINDERS;
 use crate::domains::press::buffer::crank_law::CrankLaw;
 use crate::domains::press::buffer::regime::{self, Regime, Reset};
 use crate::domains::press::cams;
 use crate::domains::press::checks::column;
+use crate::domains::press::checks::fixed_bottom::{self, Rivals};
 use crate::domains::press::machine::Press;
 use crate::domains::press::machine::PressCams;
 use crate::domains::press::motion::Transition;
+use crate::domains::press::report::CylinderMeasures;
+use crate::domains::press::scatter::fault::FrozenBuffer;
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::refusal::{Refusal, WorkBound};
@@ -35,6 +40,7 @@ struct SpeedRow {
     rpm: f64,
     a_per_mm: f64,
     column_length_mm: f64,
+    /// Of all cylinders.
     added_volume_mm3: f64,
     residual_max_n: f64,
     residual_share: f64,
@@ -44,11 +50,19 @@ struct SpeedRow {
     end_pressure_pa: f64,
     crank_torque_max_nm: f64,
     camshaft_torque_max_nm: f64,
+    added_volume_each_mm3: f64,
+    /// A fixed bottom with its own reset by the same rule.
+    fixed_column_length_mm: f64,
+    fixed_residual_max_n: f64,
 }
 
 impl SpeedRow {
     fn reset(&self) -> ColumnReset {
         ColumnReset { rpm: self.rpm, column_mm: self.column_length_mm, added_mm3: self.added_volume_mm3 }
+    }
+
+    fn rivals(&self) -> Rivals {
+        Rivals { rpm: self.rpm, cam: self.residual_max_n, fixed: self.fixed_residual_max_n }
     }
 }
 
@@ -65,6 +79,9 @@ const COLUMNS: &[ListedColumn<SpeedRow>] = &[
     ("end_pressure_pa", |row| row.end_pressure_pa),
     ("crank_torque_max_nm", |row| row.crank_torque_max_nm),
     ("camshaft_torque_max_nm", |row| row.camshaft_torque_max_nm),
+    ("added_volume_each_mm3", |row| row.added_volume_each_mm3),
+    ("fixed_column_length_mm", |row| row.fixed_column_length_mm),
+    ("fixed_residual_max_n", |row| row.fixed_residual_max_n),
 ];
 
 /// The section `regimes`.
@@ -73,6 +90,8 @@ struct Regimes<'a> {
     cam_rpm: f64,
     reset: &'static str,
     column_length_mm: f64,
+    #[serde(flatten)]
+    cylinders: CylinderMeasures,
     speeds: &'a [SpeedRow],
 }
 
@@ -98,13 +117,25 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
     let all: Vec<(f64, Regime)> =
         speeds.iter().map(|rpm| (*rpm, regime::reset(&design, &cylinder, *rpm, reset))).collect();
     let lobes = f64::from(PressCams::of(machine).lobes);
-    let rows: Vec<SpeedRow> = all.iter().map(|(rpm, regime)| at_speed((press, &design), *rpm, regime, lobes)).collect();
+    let rows: Vec<SpeedRow> = all
+        .iter()
+        .map(|(rpm, regime)| {
+            let fixed = plain::left_by_reset(&FrozenBuffer::of_law(&press.bottom_law(*rpm), &cylinder), reset);
+            at_speed((press, &design), *rpm, (regime, fixed), lobes)
+        })
+        .collect();
     let curves: Vec<ForcePlace> = all.iter().flat_map(|(rpm, regime)| curve(&design, *rpm, regime)).collect();
     let along = CurveAxis::of(&design);
     let columns: Vec<(f64, f64)> = rows.iter().map(|row| (row.column_length_mm / MILLIMETRES, row.rpm)).collect();
     let resets: Vec<ColumnReset> = rows.iter().map(SpeedRow::reset).collect();
-    let regimes =
-        Regimes { cam_rpm, reset: reset.word(), column_length_mm: MILLIMETRES * design.column(), speeds: &rows };
+    let rivals: Vec<Rivals> = rows.iter().map(SpeedRow::rivals).collect();
+    let regimes = Regimes {
+        cam_rpm,
+        reset: reset.word(),
+        column_length_mm: MILLIMETRES * design.column(),
+        cylinders: CylinderMeasures::new(cylinder.piston_area),
+        speeds: &rows,
+    };
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs(KIND.keys));
     inputs.extend([
@@ -120,7 +151,8 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
         sections: std::iter::once(Section::new(KIND.command, &regimes).with_words(words(&regimes)))
             .chain(reversal_of_bed(machine))
             .collect(),
-        measures: std::iter::once(volume(&resets, CUBIC * 2.0 * cylinder.piston_area * design.column()))
+        measures: std::iter::once(volume(&resets, CUBIC * cylinder.volume(design.column())))
+            .chain([fixed_bottom::measure(&rivals)])
             .chain(column::measure(&columns, machine, |press, rpm| Some(press.bottom_law(rpm).column())))
             .collect(),
         notes: notes(machine),
@@ -158,7 +190,12 @@ const NOT_MODELLED: &[&str] = &[
     "Elasticity and play between cam and bottom.",
 ];
 
-fn at_speed((press, design): (&Press, &CrankLaw), rpm: f64, regime: &Regime, lobes: f64) -> SpeedRow {
+fn at_speed(
+    (press, design): (&Press, &CrankLaw),
+    rpm: f64,
+    (regime, fixed): (&Regime, FixedSetting),
+    lobes: f64,
+) -> SpeedRow {
     let residual_at = match design {
         CrankLaw::Yoke(_) => regime.residual_at,
         CrankLaw::Linkage(_) => design.bed(design.where_decelerated(regime.residual_at))[0],
@@ -176,6 +213,9 @@ fn at_speed((press, design): (&Press, &CrankLaw), rpm: f64, regime: &Regime, lob
         end_pressure_pa: regime.end_pressure,
         crank_torque_max_nm: regime.crank_torque_max(),
         camshaft_torque_max_nm: lobes * regime.camshaft_torque_max(),
+        added_volume_each_mm3: CUBIC * regime.added_volume / f64::from(CYLINDERS),
+        fixed_column_length_mm: MILLIMETRES * fixed.column,
+        fixed_residual_max_n: fixed.residual,
     }
 }
 
@@ -197,21 +237,38 @@ fn curve(design: &CrankLaw, rpm: f64, regime: &Regime) -> Vec<ForcePlace> {
 
 fn words(regimes: &Regimes<'_>) -> Vec<String> {
     let mut lines = vec![format!(
-        "cam for {} rpm, column {:.3} mm there; reset: {}",
-        regimes.cam_rpm, regimes.column_length_mm, regimes.reset
+        "cam for {} rpm, column {:.3} mm there; reset: {}; {}",
+        regimes.cam_rpm,
+        regimes.column_length_mm,
+        regimes.reset,
+        regimes.cylinders.words()
     )];
     lines.push(format!(
-        "{:>8} {:>11} {:>8} {:>13} {:>11} {:>8} {:>9} {:>10} {:>9} {:>11} {:>11}",
-        "rpm", "column/mm", "λ", "volume/cm³", "left/N", "left/%", "at x/mm", "end/N", "p_end/at", "crank/Nm", "cam/Nm"
+        "{:>8} {:>11} {:>8} {:>12} {:>12} {:>11} {:>10} {:>8} {:>9} {:>10} {:>9} {:>11} {:>11}",
+        "rpm",
+        "column/mm",
+        "λ",
+        "V each/cm³",
+        "V all/cm³",
+        "left/N",
+        "fixed/N",
+        "left/%",
+        "at x/mm",
+        "end/N",
+        "p_end/at",
+        "crank/Nm",
+        "cam/Nm"
     ));
     lines.extend(regimes.speeds.iter().map(|row| {
         format!(
-            "{:>8} {:>11.3} {:>8.5} {:>13} {:>11.2} {:>8.3} {:>9.3} {:>10} {:>9.4} {:>11.2} {:>11.2}",
+            "{:>8} {:>11.3} {:>8.5} {:>12} {:>12} {:>11.2} {:>10.2} {:>8.3} {:>9.3} {:>10} {:>9.4} {:>11.2} {:>11.2}",
             row.rpm,
             row.column_length_mm,
             row.lambda,
+            unsigned_zero(1e-3 * row.added_volume_each_mm3, 1),
             unsigned_zero(1e-3 * row.added_volume_mm3, 1),
             row.residual_max_n,
+            row.fixed_residual_max_n,
             100.0 * row.residual_share,
             row.residual_at_mm,
             unsigned_zero(row.end_residual_n, 3),

@@ -10,6 +10,7 @@ use crate::domains::press::buffer::spring_body::SpringBody;
 use crate::domains::press::cams;
 use crate::domains::press::checks::{buckling, column, spring_coils, spring_stress, surge};
 use crate::domains::press::machine::{Press, PressCams};
+use crate::domains::press::report::CylinderMeasures;
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::refusal::{Refusal, WorkBound};
@@ -94,6 +95,8 @@ const CURVES_OF_A_LINKAGE: &[ListedColumn<SpringRow>] = &[
 /// The section `spring`.
 #[derive(Debug, Serialize)]
 struct Springs<'a> {
+    #[serde(flatten)]
+    cylinders: CylinderMeasures,
     least_stiffness_n_per_mm: f64,
     residual_fixed_bottom_max_n: f64,
     settings: &'a [SpringSet],
@@ -143,6 +146,7 @@ pub fn analysis(
     };
     let bodies = bodies_of(machine, &sets);
     let springs = Springs {
+        cylinders: CylinderMeasures::new(cylinder.piston_area),
         least_stiffness_n_per_mm: least / MILLIMETRES,
         residual_fixed_bottom_max_n: spring::plain_residual(&braked, &cylinder, press.design_rpm).value,
         settings: &rows,
@@ -246,7 +250,7 @@ fn bodies_of(machine: &Machine, sets: &[(f64, SpringBuffer)]) -> Option<(Vec<Spr
 fn section_of_bodies(rows: &[SpringBodyRow]) -> Section {
     let mut words = vec![format!(
         "{:>10} {:>10} {:>9} {:>9} {:>8} {:>10} {:>9} {:>9} {:>9}",
-        "N/mm each", "force/N", "wire/mm", "coil/mm", "coils", "stress/MPa", "surge/Hz", "solid/mm", "free/mm"
+        "N/mm each", "N each", "wire/mm", "coil/mm", "coils", "stress/MPa", "surge/Hz", "solid/mm", "free/mm"
     )];
     words.extend(rows.iter().map(|row| {
         format!(
@@ -341,8 +345,9 @@ fn words(springs: &Springs<'_>, press: &Press) -> Vec<String> {
     let faster = spring::least_stiffness(&braked_by(press), fastest) / MILLIMETRES;
     let faster = (fastest > design).then(|| format!(", at {} rpm more than {faster:.4}", shown(fastest)));
     let mut lines = vec![
+        format!("{}; a spring under the bottom of each", springs.cylinders.words()),
         format!(
-            "at the design speed of {} rpm more than {:.4} N/mm are needed{}; a fixed bottom leaves {:.2} N there",
+            "at the design speed of {} rpm more than {:.4} N/mm each are needed{}; a fixed bottom leaves {:.2} N there",
             shown(design),
             springs.least_stiffness_n_per_mm,
             faster.unwrap_or_default(),
@@ -350,7 +355,7 @@ fn words(springs: &Springs<'_>, press: &Press) -> Vec<String> {
         ),
         format!(
             "{:>10} {:>8} {:>10} {:>9} {:>9} {:>11} {:>9} {:>9} {:>11}",
-            "N/mm each", "rpm", "travel/mm", "air/mm", "left/mm", "residual/N", "at x/mm", "screw/mm", "spring/N"
+            "N/mm each", "rpm", "travel/mm", "air/mm", "left/mm", "residual/N", "at x/mm", "screw/mm", "N each"
         ),
     ];
     lines.extend(springs.settings.iter().map(|row| {

@@ -1,9 +1,10 @@
 //! Speed against accuracy of the cams of a press.
 
-use super::drive;
+use super::drive::{self, DriveSolver};
 use crate::analysis::Analysis;
 use crate::body::Kind;
 use crate::domains::press::cams;
+use crate::domains::press::checks::closing;
 use crate::domains::press::conoid::Conoid;
 use crate::domains::press::machine::DriveMachine;
 use crate::domains::press::machine::exact_on;
@@ -12,14 +13,14 @@ use crate::domains::press::scatter::{self, reset::ScrewRule};
 use crate::domains::press::wedge::LAW_TOLERANCE;
 use crate::domains::press::wedge::Wedge;
 use crate::machine::Machine;
-use crate::pipeline::Spec;
+use crate::pipeline::{Judged, Spec};
 use crate::profile::outline::SegmentKind;
 use crate::refusal::Refusal;
 use crate::report::{Speeds, failed, shown};
 use crate::trade::solver::{self, SolverRow, SolverTask};
 use crate::trade::{
-    self, COMMAND, LeftOver, SettingLadder, TradeLaw, TradeLimits, TradeProduct, TradeRun, TradeSetting, TradeTask,
-    flags, ladder, of_disc,
+    self, ACCELERATION, COMMAND, LeftOver, SettingLadder, TradeLaw, TradeLimits, TradeProduct, TradeRun, TradeSetting,
+    TradeTask, flags, ladder, of_disc,
 };
 use crate::write::number::shortest;
 use std::time::Duration;
@@ -54,12 +55,12 @@ const LAW_LADDER_TOLERANCE: f64 = 1e-6;
 /// Places at which two motions are compared.
 const PLACES: u32 = 360;
 
-/// What the advice keeps; what is `None` has a default or no limit.
+/// What the advice keeps; what is `None` has a default.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct PressTradeLimits {
     /// Largest residual force, N; by default a ten-thousandth of the largest inertia.
     pub residual: Option<f64>,
-    /// Largest error of the acceleration over its largest.
+    /// Largest error of the acceleration over its largest; by default that of `--accuracy standard`.
     pub acceleration: Option<f64>,
 }
 
@@ -123,8 +124,10 @@ fn of_press(
     run: TradeRun<'_>,
 ) -> Result<Analysis, Refusal> {
     let inertia = machine.press()?.largest_inertia(rpm);
-    let limits =
-        TradeLimits { residual: Some(limits.residual.unwrap_or(SHARE * inertia)), acceleration: limits.acceleration };
+    let limits = TradeLimits {
+        residual: Some(limits.residual.unwrap_or(SHARE * inertia)),
+        acceleration: Some(limits.acceleration.unwrap_or(ACCELERATION)),
+    };
     trade::analysis(
         &TradeTask { kind, cam, machine, rpm: Some(rpm), settings, limits, inputs: machine.inputs(cam), others },
         run,
@@ -219,7 +222,12 @@ pub fn drive(machine: &DriveMachine, clock: &dyn Fn() -> Duration) -> Result<Ana
         error: ("error", "", "largest error of the crank's speed by the paper's sections"),
         limit: DRIVE_SHARE,
     };
-    solver::analysis(task, &rows, |_| Ok(Vec::new()))
+    // No step makes a machine close that does not.
+    let failing = |_| {
+        let made = drive::analysis(machine, DriveSolver::Energy, STEPS[0].to_radians()).map_err(Refusal::of)?;
+        Ok(if Judged::new(made).passed() { Vec::new() } else { vec![closing::CHECK.name.to_owned()] })
+    };
+    solver::analysis(task, &rows, failing)
 }
 
 /// The plate: all outlines with the finest law, then every law at 1 µm. Every law is solved once a round.

@@ -1,6 +1,6 @@
 //! The air buffer: cylinder to pressure, force and sizing, equations (1)–(15) and (26)–(28) of the paper.
 //!
-//! Two cylinders at each end of the bed brake it over its overrun x; the air follows p·vᵏ = const. All pressures are
+//! [`CYLINDERS`] cylinders at each end of the bed brake it over its overrun x; the air follows p·vᵏ = const. All pressures are
 //! absolute. Knows the bed's overrun, not the angles of any cam.
 
 pub mod bottom_law;
@@ -17,6 +17,21 @@ pub mod spring_body;
 use crate::report::Shaft;
 use crank_law::CrankLaw;
 use std::f64::consts::PI;
+
+/// Cylinders at each end of the bed, whose pistons brake it together.
+pub const CYLINDERS: u32 = 2;
+
+/// Area of all pistons at an end of the bed, m², from that of one.
+#[must_use]
+pub fn total_area(piston_area: f64) -> f64 {
+    f64::from(CYLINDERS) * piston_area
+}
+
+/// Bore of a cylinder, m, from the area of its piston.
+#[must_use]
+pub fn bore_of(piston_area: f64) -> f64 {
+    (4.0 * piston_area / PI).sqrt()
+}
 
 /// The bed and the crank that reverses it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,10 +72,10 @@ impl Bed {
     }
 }
 
-/// A pair of cylinders sized at the design speed.
+/// The cylinders at an end of the bed, all alike, sized at the design speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cylinder {
-    /// Area F of one piston, m².
+    /// Area F of the piston of one cylinder, m².
     pub piston_area: f64,
     /// Polytropic exponent k.
     pub exponent: f64,
@@ -72,14 +87,14 @@ pub struct Cylinder {
 }
 
 impl Cylinder {
-    /// Sizes the pair so that the air of the end pressure holds the bed at x = r at the design speed,
+    /// Sizes the cylinders so that the air of the end pressure holds the bed at x = r at the design speed,
     /// equations (3), (4) and (13): A = (q − 1)/r.
     #[must_use]
     pub fn sized(bed: &Bed, design_rpm: f64, exponent: f64, ambient_pressure: f64, end_pressure: f64) -> Self {
         Self::sized_for(bed, bed.crank_radius, (design_rpm, exponent), (ambient_pressure, end_pressure))
     }
 
-    /// The cylinder for a bed with this largest deceleration over the square of the crank speed, m: A = (q − 1)/a.
+    /// The cylinders for a bed with this largest deceleration over the square of the crank speed, m: A = (q − 1)/a.
     #[must_use]
     pub fn sized_for(
         bed: &Bed,
@@ -87,15 +102,22 @@ impl Cylinder {
         (design_rpm, exponent): (f64, f64),
         (ambient_pressure, end_pressure): (f64, f64),
     ) -> Self {
-        let piston_area = bed.inertia(design_rpm, deceleration) / (2.0 * (end_pressure - ambient_pressure));
+        let piston_area =
+            bed.inertia(design_rpm, deceleration) / (f64::from(CYLINDERS) * (end_pressure - ambient_pressure));
         let design_loading = (end_pressure / ambient_pressure - 1.0) / deceleration;
         Self { piston_area, exponent, ambient_pressure, design_loading, design_rpm }
     }
 
-    /// Bore `D_a`, m.
+    /// Bore `D_a` of one cylinder, m.
     #[must_use]
     pub fn bore(&self) -> f64 {
-        (4.0 * self.piston_area / PI).sqrt()
+        bore_of(self.piston_area)
+    }
+
+    /// Volume of all cylinders, m³, over a length, m.
+    #[must_use]
+    pub fn volume(&self, length: f64) -> f64 {
+        total_area(self.piston_area) * length
     }
 
     /// A = m ω²/(2 p0 F) of equation (11) at a speed, 1/m: grows with the square of the speed.
@@ -105,7 +127,7 @@ impl Cylinder {
         self.design_loading * ratio * ratio
     }
 
-    /// Force of the pair of pistons for a pressure ratio p/p0, N, against the ambient pressure behind them.
+    /// Force of all pistons for a pressure ratio p/p0, N, against the ambient pressure behind them.
     #[must_use]
     pub fn force(&self, pressure_ratio: f64) -> f64 {
         self.unit_force() * (pressure_ratio - 1.0)
@@ -126,7 +148,7 @@ impl Cylinder {
     /// 2 p0 F, N: what every dimensionless force is multiplied by.
     #[must_use]
     pub fn unit_force(&self) -> f64 {
-        2.0 * self.ambient_pressure * self.piston_area
+        self.ambient_pressure * total_area(self.piston_area)
     }
 }
 

@@ -212,7 +212,7 @@ pub fn reset(design: &CrankLaw, cylinder: &Cylinder, rpm: f64, reset: Reset) -> 
         loading,
         column: design.column() + curve.longer * design.column(),
         length_ratio: 1.0 + curve.longer,
-        added_volume: curve.longer * design.column() * 2.0 * cylinder.piston_area,
+        added_volume: cylinder.volume(curve.longer * design.column()),
         share,
         end_pressure: cylinder.ambient_pressure * (1.0 + curve.end_rise),
         residual: residual * unit_force,

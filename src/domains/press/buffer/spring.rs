@@ -18,7 +18,7 @@
 
 use super::bottom_law::{ColumnRule, SERIES_LIMIT, column_for, g_divided_difference, g_minus_one};
 use super::crank_law::{CrankLaw, LinkageLaw};
-use super::{Bed, Cylinder};
+use super::{Bed, CYLINDERS, Cylinder};
 use crate::domains::press::bed_motion::StrokeEnd;
 use crate::numeric::extremum::{self, Extremum};
 use crate::numeric::root;
@@ -99,7 +99,7 @@ pub struct SpringBuffer {
 /// Smallest stiffness `c_min` = P_max/(2 r), N/m: with that or less the spring alone takes the whole stroke.
 #[must_use]
 pub fn least_stiffness(braked: &BrakedBed, rpm: f64) -> f64 {
-    braked.inertia(rpm) / (2.0 * braked.stroke())
+    braked.inertia(rpm) / (f64::from(CYLINDERS) * braked.stroke())
 }
 
 /// g(z)/g(Q) − 1 for 0 ≤ z ≤ Q.
@@ -196,7 +196,7 @@ pub fn set_for(braked: &BrakedBed, cylinder: &Cylinder, stiffness: f64, rpm: f64
         residual: 0.0,
         residual_at: 0.0,
         screw: column_at(cylinder.design_rpm).map(|design| column - design),
-        spring_force_max: 0.5 * inertia,
+        spring_force_max: inertia / f64::from(CYLINDERS),
         braked: *braked,
         exponent: k,
         unit_force: inertia / end_rise,
@@ -244,7 +244,7 @@ impl SpringBuffer {
         1.0 + self.rise(x)
     }
 
-    /// Force of the air of the pair of cylinders at overrun x in [0, r], N.
+    /// Force of the air of all cylinders at overrun x in [0, r], N.
     #[must_use]
     pub fn air(&self, x: f64) -> f64 {
         self.unit_force * self.rise(x)

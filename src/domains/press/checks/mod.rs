@@ -8,6 +8,7 @@ pub mod closing;
 pub mod column;
 pub mod compensator;
 pub mod contact_life;
+pub mod fixed_bottom;
 pub mod half_loop;
 pub mod losses;
 pub mod residual;
@@ -36,6 +37,7 @@ pub(super) const CHECKS: &[Added<&Check>] = &[
             &compensator::CHECK,
             &contact_life::CHECK,
             &added_volume::CHECK,
+            &fixed_bottom::CHECK,
             &column::CHECK,
             &closing::CHECK,
             &scatter::CHECK,

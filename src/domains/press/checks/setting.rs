@@ -1,6 +1,8 @@
 //! Whether a cam leaves less than a fixed bottom at the forme, the speed and the weather of a machine.
 
 use crate::check::{Check, CheckExplanation, Measure};
+use crate::document::NamedChoice;
+use crate::domains::press::scatter::reset::ScrewRule;
 use crate::report::{Bound, shown};
 
 /// The check.
@@ -8,23 +10,24 @@ pub const CHECK: Check = Check::on_analysis(
     "setting",
     "1",
     "The one variable v of forme, speed and weather, against the range in which the cam with its screw reset leaves less than a fixed bottom with \
-     its own reset.",
+     its own reset, both by `--reset`.",
     CheckExplanation {
         bound: Bound::AtLeast,
-        formula: "v = (n/n_c)² (m/m_c)/(p0'/p0); the limit is where both level settings leave the same",
+        formula: "v = (n/n_c)² (m/m_c)/(p0'/p0); the limit is where both settings by the rule of `--reset` leave the same",
         usual: "camgen's own rule: v within that range",
         change: "a cam that is cut for a speed nearer to this one (--rpm), or a fixed bottom",
     },
 );
 
-/// The measure of a variable v and the bounds of its useful range.
+/// The measure of a variable v and the bounds of its useful range by a rule.
 #[must_use]
-pub fn measure(variable: f64, [least, most]: [Option<f64>; 2]) -> Measure {
+pub fn measure(variable: f64, [least, most]: [Option<f64>; 2], rule: ScrewRule) -> Measure {
+    let fixed = format!("a fixed bottom with its own reset ({}) leaves less", rule.word());
     if let Some(most) = most.filter(|most| variable > *most) {
-        let note = format!("above v = {} a fixed bottom with its own reset leaves less", shown(most));
+        let note = format!("above v = {} {fixed}", shown(most));
         return CHECK.measure(variable, least).kept(false).noted(note);
     }
     let below = least.filter(|least| variable < *least);
-    let note = below.map(|least| format!("below v = {} a fixed bottom with its own reset leaves less", shown(least)));
+    let note = below.map(|least| format!("below v = {} {fixed}", shown(least)));
     CHECK.measure(variable, least).kept(below.is_none()).noted(note)
 }

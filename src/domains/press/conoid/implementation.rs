@@ -13,7 +13,7 @@ use crate::domains::press::motion::{Reversal, ReversalState};
 use crate::domains::press::picture::not_modelled_of;
 use crate::geometry::boundary::{Boundary, BoundaryStretch};
 use crate::geometry::contour::{Contour, Vertex};
-use crate::geometry::{ChainTolerance, CurvePoint, Entity, MILLIMETRES};
+use crate::geometry::{ChainTolerance, CurvePoint, Entity, MILLIMETRES, radius_of_curvature};
 use crate::machine::{Machine, Rotation};
 use crate::motion::{Jet, Motion, Piece};
 use crate::numeric::parallel;
@@ -152,8 +152,8 @@ impl Conoid {
             curve: Some(turned(contact.centre.xy())),
             profile: Some(cut.map_or(nowhere, |frame| turned(frame.point))),
             pressure_angle_deg: Some(in_plane.pressure_angle.to_degrees()),
-            curve_radius: Some(MILLIMETRES / in_plane.curve.curvature),
-            profile_radius: Some(cut.map_or(f64::NAN, |frame| MILLIMETRES / frame.curvature)),
+            curve_radius: Some(radius_of_curvature(in_plane.curve.curvature)),
+            profile_radius: Some(cut.map_or(f64::NAN, |frame| radius_of_curvature(frame.curvature))),
             force: Some(ForceRow { path: force, torque: force * lift[1][0], contact: None }),
             added: [bed, self.balance_row(section, &state).columns()].concat(),
             surface: Some(SurfaceRow {
@@ -162,7 +162,7 @@ impl Conoid {
                 lift_per_z: lift[0][1],
                 contact: Vector3::new(touch.x, touch.y, MILLIMETRES * contact.point.z),
                 axial_angle_deg: libm::asin(-contact.normal.z).to_degrees(),
-                principal_radius: MILLIMETRES / self.curvatures_of(&lift).0,
+                principal_radius: radius_of_curvature(self.curvatures_of(&lift).0),
                 axial_force: -force * lift[0][1],
             }),
             ..Row::default()

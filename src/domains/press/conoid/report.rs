@@ -7,6 +7,7 @@ use crate::body::{DrawingEvidence, flank_of};
 use crate::domains::press::balance::reversal_of_bed;
 use crate::domains::press::machine::{PressCams, Shift};
 use crate::domains::press::motion::Reversal;
+use crate::domains::press::report::CylinderMeasures;
 use crate::domains::press::scatter::other_cams;
 use crate::geometry::MILLIMETRES;
 use crate::numeric::parallel;
@@ -120,6 +121,8 @@ pub(super) fn sections(conoid: &Conoid, found: &DrawingEvidence<'_>) -> Vec<Sect
     let outlines = parts.map(Outlines::new);
     let mut sections = vec![ConoidMeasures::new(conoid, found).section()];
     sections.extend(reversal_of_bed(&conoid.machine));
+    let cylinders = CylinderMeasures::new(conoid.cylinder.piston_area);
+    sections.push(Section::new("cylinders", &cylinders).with_words(vec![cylinders.words()]));
     sections.extend([
         Section::new("sections", &all).with_words(words),
         SurfaceMeasures::new(conoid, found, &errors).section(),
@@ -130,8 +133,8 @@ pub(super) fn sections(conoid: &Conoid, found: &DrawingEvidence<'_>) -> Vec<Sect
     sections.extend(wheel::section(conoid));
     let laws: Vec<_> =
         conoid.speeds.iter().zip(&conoid.sections).map(|(rpm, of)| (*rpm, of.law().bottom_law)).collect();
-    let sampling = PressCams::of(&conoid.machine).scatter;
-    sections.extend(other_cams::of_conoid(&sampling, &conoid.cylinder, conoid.data.shift, &laws));
+    let cams = PressCams::of(&conoid.machine);
+    sections.extend(other_cams::of_conoid(cams, &conoid.cylinder, conoid.data.shift, &laws));
     sections
 }
 

@@ -6,7 +6,7 @@ use crate::domains::press::buffer::Cylinder;
 use crate::domains::press::buffer::crank_law::CrankLaw;
 use crate::domains::press::columns::{self, BalanceRow, ColumnValues};
 use crate::domains::press::motion::{Reversal, ReversalState, Transition};
-use crate::domains::press::report::AirLaw;
+use crate::domains::press::report::{AirLaw, CylinderMeasures};
 use crate::geometry::MILLIMETRES;
 use crate::load::Load;
 use crate::motion::{Jet, Motion};
@@ -17,7 +17,7 @@ use crate::table::{LoadState, TurnAngles};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// The pair of cylinders whose bottom the cam moves.
+/// The cylinders whose bottoms the cam moves.
 #[derive(Debug, Clone)]
 pub struct AirBuffer {
     cylinder: Cylinder,
@@ -49,7 +49,7 @@ impl AirBuffer {
         &self.reversal
     }
 
-    /// The pair of cylinders.
+    /// The cylinders.
     #[must_use]
     pub fn cylinder(&self) -> &Cylinder {
         &self.cylinder
@@ -109,15 +109,14 @@ impl LoadState for PressState {
     }
 }
 
-/// The figures of a pair of cylinders under a law; slope and jump as they are where the law starts.
+/// The figures of the cylinders under a law; slope and jump as they are where the law starts.
 #[must_use]
 pub(crate) fn air_law(cylinder: &Cylinder, law: &CrankLaw, (dx_max_at_x, dx_max): (f64, f64)) -> AirLaw {
     AirLaw {
         dx_max_mm: MILLIMETRES * dx_max,
         dx_max_at_x_mm: MILLIMETRES * dx_max_at_x,
         column_length_mm: MILLIMETRES * law.column(),
-        piston_area_mm2: MILLIMETRES * MILLIMETRES * cylinder.piston_area,
-        bore_mm: MILLIMETRES * cylinder.bore(),
+        cylinders: CylinderMeasures::new(cylinder.piston_area),
         start_slope: law.start_slope(),
         velocity_jump_mm_per_rad: 0.0,
         jumps_at_end: false,
@@ -126,7 +125,7 @@ pub(crate) fn air_law(cylinder: &Cylinder, law: &CrankLaw, (dx_max_at_x, dx_max)
     }
 }
 
-/// The force balance of a pair of cylinders under a law in a state; outside the reversal nothing is to balance.
+/// The force balance of the cylinders under a law in a state; outside the reversal nothing is to balance.
 #[must_use]
 pub(crate) fn balance_row(cylinder: &Cylinder, law: &CrankLaw, state: &ReversalState) -> BalanceRow {
     let forces = if state.reversing {

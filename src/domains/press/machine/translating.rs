@@ -1,4 +1,4 @@
-//! The cam plate that rides on the bed.
+//! The linear cam of a press: a plate that rides on the bed.
 
 use crate::document::Presence::{Default, Optional, Required};
 use crate::document::range::LONGEST;
@@ -90,7 +90,7 @@ const PLATE_HEIGHT: Field<f64> = Field::quantity(
 /// `[translating]`.
 pub(super) const SECTION: KeySection = KeySection {
     path: "translating",
-    about: "the cam plate that rides on the bed",
+    about: "the linear cam of a press, a plate that rides on the bed",
     occurs: Occurrence::Optional,
     cams: &[TRANSLATING],
     keys: &[

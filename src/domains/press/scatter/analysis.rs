@@ -19,6 +19,7 @@ use crate::domains::press::buffer::Cylinder;
 use crate::domains::press::cams;
 use crate::domains::press::checks::{column, half_loop, losses, scatter, setting};
 use crate::domains::press::machine::PressCams;
+use crate::domains::press::report::CylinderMeasures;
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::refusal::Refusal;
@@ -40,9 +41,8 @@ pub(super) fn cam_of(machine: &Machine, rpm: f64) -> Result<(FrozenBuffer, Cylin
 pub fn left_in_practice(machine: &Machine, rpm: f64) -> Option<(f64, ScrewRule)> {
     let (cam, _) = cam_of(machine, rpm).ok()?;
     let cams = PressCams::of(machine);
-    let samples = monte_carlo::draw(&cam, &cams.scatter, cams.losses.bed_friction).ok()?;
-    let [force, ..] = monte_carlo::percentile(&samples.reset, 0.95)?;
-    Some((force, cams.scatter.rule))
+    let left = monte_carlo::left_in_practice(&cam, &cams.scatter, cams.losses.bed_friction).ok()??;
+    Some((left.reset, cams.scatter.rule))
 }
 
 /// What the bands leave together and each alone.
@@ -85,7 +85,8 @@ fn fault_of(cam: &FrozenBuffer, typed: &TypedFault, cylinder: &Cylinder) -> Resu
         end_pressure_pa: cylinder.ambient_pressure * end_air,
         column_end_mm: MILLIMETRES * end,
         screw_end_mm: MILLIMETRES * (end - fault.column),
-        added_volume_end_mm3: CUBIC * 2.0 * cylinder.piston_area * end,
+        added_volume_end_mm3: CUBIC * cylinder.volume(end),
+        added_volume_end_each_mm3: CUBIC * cylinder.piston_area * end,
         residual_end_n: after_end.value,
         residual_end_at_mm: MILLIMETRES * after_end.at,
         column_level_mm: MILLIMETRES * level,
@@ -145,8 +146,8 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
     let bands = bands_of(&cam, sampling, true)?;
     let samples = monte_carlo::draw(&cam, sampling, PressCams::of(machine).losses.bed_friction)?;
     let percentiles = tables::percentiles(&samples, sampling.rule);
-    let settings = tables::settings(&cam, rpm, cylinder.piston_area)?;
-    let useful = settings::useful(&cam)?;
+    let settings = tables::settings(&cam, &cylinder, rpm, sampling.rule)?;
+    let useful = settings::useful(&cam, sampling.rule);
     let fault = typed.is_any().then(|| fault_of(&cam, &typed, &cylinder)).transpose()?;
     let losses = PressCams::of(machine).losses;
     let reversal = LossyReversal::new(&cam, &typed.fault, &losses)?;
@@ -155,6 +156,7 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
     let report = ScatterReport {
         cam_rpm: rpm,
         column_length_mm: MILLIMETRES * cam.column,
+        cylinders: CylinderMeasures::new(cylinder.piston_area),
         reset: sampling.rule.word(),
         distribution: sampling.distribution.word(),
         samples: sampling.samples,
@@ -164,11 +166,12 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
         losses: lost,
         bands,
         percentiles: &percentiles,
-        useful: UsefulRange::of(useful, rpm),
+        useful: UsefulRange::new(useful, rpm, sampling.rule),
         settings: &settings,
     };
     let column = column::measure_of_analysis(&[(cam.column, rpm)], machine);
-    let measures = column.into_iter().chain(measures_of(&report, typed.fault.variable(), useful)).collect();
+    let measures =
+        column.into_iter().chain(measures_of(&report, typed.fault.variable(), (useful, sampling.rule))).collect();
     Ok(Analysis {
         kind: &KIND,
         machine: machine.name().to_owned(),
@@ -178,15 +181,15 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
         measures,
         notes: machine.idle_key_notes(KIND.keys, KIND.noun),
         picture: Picture::CurvesWithCard(
-            plot::of(machine.name(), rpm, (&places, &settings, &samples), &percentiles),
-            card::of(press, machine.name(), rpm, cam.column, &settings, &report.useful),
+            plot::of(machine.name(), rpm, (&places, &settings, &samples), &percentiles, sampling.rule),
+            card::of(press, machine.name(), &report),
         ),
         mechanism: None,
         document: None,
         tables: vec![
             tables::of_parameters(&report.bands.parameters),
             tables::of_percentiles(&percentiles),
-            tables::of_settings(&settings),
+            tables::of_settings(&settings, sampling.rule),
             tables::of_places(&places),
         ],
         by: &[],
@@ -197,14 +200,18 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
 }
 
 /// What checks judge, in their order.
-fn measures_of(report: &ScatterReport<'_>, variable: f64, useful: [Option<f64>; 2]) -> Vec<Measure> {
+fn measures_of(
+    report: &ScatterReport<'_>,
+    variable: f64,
+    (useful, rule): ([Option<f64>; 2], ScrewRule),
+) -> Vec<Measure> {
     let lost = report.losses.as_ref().map(|lost| {
         let fixed = lost.residual_fixed_bottom_n().unwrap_or(report.residual_fixed_bottom_max_n);
         [half_loop::measure(lost.half_loop_n, fixed), losses::measure(lost.residual_n(), fixed)]
     });
     std::iter::once(scatter::measure(report.percentiles))
         .chain(lost.into_iter().flatten())
-        .chain([setting::measure(variable, useful)])
+        .chain([setting::measure(variable, useful, rule)])
         .collect()
 }
 

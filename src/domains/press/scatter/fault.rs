@@ -223,6 +223,20 @@ impl FrozenBuffer {
         self.unit_force * at.iter().map(size).fold(0.0, f64::max)
     }
 
+    /// Largest size of the residual force of a fixed bottom under a yoke over the stroke, N, without the phase error.
+    ///
+    /// Its air has the length L (w + t) with w = 1 − u/(A L), so that the force is concave in u, with its top at
+    /// w + t = (π τ κ s^κ/(M A L))^(1/(κ+1)).
+    #[must_use]
+    pub fn largest_of_fixed(&self, fault: &Fault) -> f64 {
+        let ([s, t], kappa, column) = (self.air(fault), fault.exponent, self.path.loading() * self.column);
+        let scale = fault.ambient * fault.closing * kappa / (fault.square * column);
+        let top = libm::exp((libm::log(scale) + kappa * libm::log(s)) / (kappa + 1.0)) - t;
+        let left = |load: f64| self.residual(fault, load, 1.0 - load / column).abs();
+        let loads = [0.0, (column * (1.0 - top)).clamp(0.0, self.end_load()), self.end_load()];
+        loads.map(left).into_iter().fold(0.0, f64::max)
+    }
+
     /// Refuses a machine whose column is used up.
     pub(super) fn fits(&self, fault: &Fault) -> Result<(), ScatterError> {
         let [s, t] = self.air(fault);

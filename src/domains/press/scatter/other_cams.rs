@@ -5,12 +5,14 @@
 
 use super::analysis::bands_of;
 use super::fault::{FrozenBuffer, Station};
-use super::monte_carlo::Sampling;
+use super::monte_carlo::{self, Sampling};
 use super::parameter::{HalfWidths, Parameter};
-use super::propagation::{self, Corners, Estimate};
+use super::propagation::{self, Corners};
+use super::section::Percentiles;
+use crate::document::NamedChoice;
 use crate::domains::press::buffer::Cylinder;
 use crate::domains::press::buffer::crank_law::CrankLaw;
-use crate::domains::press::machine::Shift;
+use crate::domains::press::machine::{PressCams, Shift};
 use crate::report::{Section, shown};
 use serde::Serialize;
 
@@ -22,9 +24,8 @@ struct SpeedScatter {
     worst_strong_n: f64,
     linear_bound_n: f64,
     sigma_n: f64,
-    p95_as_built_n: f64,
-    p95_reset_n: f64,
-    p95_fixed_bottom_n: f64,
+    #[serde(flatten)]
+    left: Percentiles,
 }
 
 /// The section's values for a conoid.
@@ -32,6 +33,7 @@ struct SpeedScatter {
 struct ConoidScatter {
     /// Parameters that the shift follows.
     followed: Vec<&'static str>,
+    reset: &'static str,
     speeds: Vec<SpeedScatter>,
 }
 
@@ -55,29 +57,27 @@ fn without(half_widths: &HalfWidths, parameters: &[Parameter]) -> HalfWidths {
 
 /// The section of a conoid with the laws of its sections at their speeds, rpm; `None` where a band reaches a press that cannot be.
 #[must_use]
-pub fn of_conoid(sampling: &Sampling, cylinder: &Cylinder, shift: Shift, laws: &[(f64, CrankLaw)]) -> Option<Section> {
+pub fn of_conoid(cams: &PressCams, cylinder: &Cylinder, shift: Shift, laws: &[(f64, CrankLaw)]) -> Option<Section> {
     let followed = followed(shift);
-    let sampling = Sampling { half_widths: without(&sampling.half_widths, followed), ..*sampling };
+    let sampling = Sampling { half_widths: without(&cams.scatter.half_widths, followed), ..cams.scatter };
     let at = |(rpm, law): &(f64, CrankLaw)| {
         let cam = FrozenBuffer::of_law(law, cylinder);
         let bands = bands_of(&cam, &sampling, false).ok()?;
-        let Estimate { as_built, reset, fixed } =
-            propagation::estimate(&cam, &sampling.half_widths, sampling.distribution);
+        let left = monte_carlo::left_in_practice(&cam, &sampling, cams.losses.bed_friction).ok().flatten();
         Some(SpeedScatter {
             rpm: *rpm,
             worst_weak_n: bands.worst_weak_n,
             worst_strong_n: bands.worst_strong_n,
             linear_bound_n: bands.linear_bound_n,
             sigma_n: bands.sigma_n,
-            p95_as_built_n: as_built,
-            p95_reset_n: reset,
-            p95_fixed_bottom_n: fixed,
+            left: left.into(),
         })
     };
     let mut speeds: Vec<SpeedScatter> = laws.iter().map(at).collect::<Option<_>>()?;
     // A conoid for one speed has two sections of it.
     speeds.dedup_by(|next, before| next.rpm == before.rpm);
-    let values = ConoidScatter { followed: followed.iter().map(|parameter| parameter.name()).collect(), speeds };
+    let followed = followed.iter().map(|parameter| parameter.name()).collect();
+    let values = ConoidScatter { followed, reset: sampling.rule.word(), speeds };
     let words = values.words();
     Some(Section::new("scatter", &values).with_words(words))
 }
@@ -87,13 +87,11 @@ impl ConoidScatter {
         let rounded = |force: f64| shown(force.round());
         let of = |at: &SpeedScatter| {
             format!(
-                "{:>6} rpm  all bands at once leave {} to {} N; P95 about {} N as built, {} N with the screw reset, {} N with a fixed bottom",
+                "{:>6} rpm  all bands at once leave {} to {} N{}",
                 shown(at.rpm),
                 rounded(at.worst_strong_n),
                 rounded(at.worst_weak_n),
-                rounded(at.p95_as_built_n),
-                rounded(at.p95_reset_n),
-                rounded(at.p95_fixed_bottom_n)
+                at.left.words(self.reset)
             )
         };
         let names = self.followed.join(", ").replace('_', " ");
@@ -129,7 +127,7 @@ struct WayScatter {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct PlateScatter {
     ways: Vec<WayScatter>,
-    p95_fixed_bottom_n: f64,
+    p95_fixed_bottom_n: Option<f64>,
 }
 
 /// A plate whose air has the length of its stations, in presses that differ.
@@ -233,7 +231,7 @@ pub fn of_plate(
     let plate = FrozenPlate { buffer, stations, half_widths, sampling };
     let values = PlateScatter {
         ways: vec![plate.of_way(0, "in"), plate.of_way(1, "back")],
-        p95_fixed_bottom_n: propagation::estimate(&buffer, &half_widths, sampling.distribution).fixed,
+        p95_fixed_bottom_n: monte_carlo::left_in_practice(&buffer, sampling, 0.0).ok().flatten().map(|left| left.fixed),
     };
     let words = values.words();
     Some(Section::new("scatter", &values).with_words(words))
@@ -253,7 +251,7 @@ impl PlateScatter {
                 rounded(way.p95_reset_n)
             )
         };
-        let fixed = format!("P95 of a fixed bottom without friction about {} N", rounded(self.p95_fixed_bottom_n));
-        self.ways.iter().map(of).chain([fixed]).collect()
+        let fixed = |force: f64| format!("P95 of a fixed bottom without friction {} N", rounded(force));
+        self.ways.iter().map(of).chain(self.p95_fixed_bottom_n.map(fixed)).collect()
     }
 }

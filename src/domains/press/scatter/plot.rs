@@ -2,7 +2,9 @@
 
 use super::monte_carlo::Samples;
 use super::parameter::Parameter;
+use super::reset::ScrewRule;
 use super::tables::{PercentileRow, PlaceRow, SettingRow};
+use crate::document::NamedChoice;
 use crate::geometry::MILLIMETRES;
 use crate::report::plot::{self, Plot, PlotCurve, PlotPanel};
 use crate::report::shown;
@@ -20,6 +22,7 @@ pub(super) fn of(
     rpm: f64,
     (places, settings, samples): (&[PlaceRow], &[SettingRow], &Samples),
     percentiles: &[PercentileRow],
+    rule: ScrewRule,
 ) -> Plot {
     let braking = || places.iter().filter(|place| !place.back);
     let effect = |(index, parameter): (usize, Parameter)| {
@@ -31,7 +34,7 @@ pub(super) fn of(
     if !samples.as_built.is_empty() {
         own.push(("largest residual force of a press, N".to_owned(), distributions(samples, percentiles)));
     }
-    own.push(("v = (n/n_c)² (m/m_c) (p0/p0')".to_owned(), residuals(settings)));
+    own.push(("v = (n/n_c)² (m/m_c) (p0/p0')".to_owned(), residuals(settings, rule)));
     own.push(("v = (n/n_c)² (m/m_c) (p0/p0')".to_owned(), columns(settings)));
     Plot {
         title: format!("{machine}: what is left of the cam for {} rpm in practice", shown(rpm)),
@@ -71,10 +74,10 @@ fn distributions(samples: &Samples, percentiles: &[PercentileRow]) -> PlotPanel 
 }
 
 /// What both leave over the variable.
-fn residuals(settings: &[SettingRow]) -> PlotPanel {
+fn residuals(settings: &[SettingRow], rule: ScrewRule) -> PlotPanel {
     let of = |value: fn(&SettingRow) -> f64| settings.iter().map(|row| [row.v, value(row)]).collect();
     PlotPanel {
-        name: "Residual force with the screw levelled, N".into(),
+        name: format!("Residual force, reset of the screw: {}, N", rule.word()),
         curves: vec![
             curve("cam", 0, true, of(|row| row.residual_n)),
             curve("fixed bottom", plot::GREY, false, of(|row| row.fixed_residual_n)),

@@ -2,7 +2,7 @@
 
 use super::bed_path::BedPath;
 use super::error::ScatterError;
-use super::fault::{Fault, FrozenBuffer, Station};
+use super::fault::{Fault, FrozenBuffer};
 use super::monte_carlo::Distribution;
 use super::parameter::{HalfWidths, Parameter};
 use super::reset::ScrewRule;
@@ -202,61 +202,6 @@ pub fn linear_bound(cam: &FrozenBuffer, half_widths: &HalfWidths) -> f64 {
         .sum()
 }
 
-/// What 95 % of all presses stay below, N, to first order.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Estimate {
-    /// The cam as built.
-    pub as_built: f64,
-    /// The cam after the end setting of its screw.
-    pub reset: f64,
-    /// A fixed bottom after the end setting of its screw.
-    pub fixed: f64,
-}
-
 /// Standard deviations from the mean that 95 % of a normal quantity stay within on both sides, and below on one.
 pub(super) const BOTH_SIDES: f64 = 1.96;
 pub(super) const ONE_SIDE: f64 = 1.645;
-
-/// Steps of the braking half at which the estimate looks.
-const COARSE: u32 = 20;
-
-/// The estimate: what is left as built is largest at the end of the stroke, after a reset where its deviation is largest, and of a fixed bottom where it is
-/// without any difference.
-#[must_use]
-pub fn estimate(cam: &FrozenBuffer, half_widths: &HalfWidths, distribution: Distribution) -> Estimate {
-    let fixed = cam.with_fixed_bottom();
-    // Root mean squares: the air is lost in one direction only.
-    let deviation = |buffer: &FrozenBuffer, at: &Station, end: Option<&Station>| {
-        let effect = |parameter: Parameter| {
-            let own = parameter.effect(buffer, at);
-            let by_screw = |end: &Station| Parameter::Column.effect(buffer, at) / Parameter::Column.effect(buffer, end);
-            match (parameter, end) {
-                (Parameter::Screw, None) => 0.0,
-                (Parameter::Screw | Parameter::Phase, _) | (_, None) => own,
-                (_, Some(end)) => own - by_screw(end) * parameter.effect(buffer, end),
-            }
-        };
-        let square = |(parameter, half_width): (Parameter, &f64)| {
-            let force = half_width * effect(parameter);
-            force * force * distribution.variance(Parameter::Mass)
-        };
-        libm::sqrt(Parameter::ALL.into_iter().zip(half_widths).map(square).sum())
-    };
-    let angles = || (0..=COARSE).map(|step| cam.path.reach() * f64::from(step) / f64::from(COARSE));
-    let end = cam.station_of_cam(cam.path.dead());
-    let largest = angles().map(|at| deviation(cam, &cam.station_of_cam(at), Some(&end))).fold(0.0, f64::max);
-    let none = Fault::none(cam.exponent);
-    let left = |at: &Station| fixed.residual(&none, at.load, at.length);
-    let mut worst = (0.0, fixed.station_of_fixed_bottom(0.0));
-    for at in angles().map(|at| fixed.station_of_fixed_bottom(at)) {
-        if left(&at).abs() > worst.0 {
-            worst = (left(&at).abs(), at);
-        }
-    }
-    let end_of_fixed = fixed.station_of_fixed_bottom(cam.path.dead());
-    Estimate {
-        as_built: BOTH_SIDES * deviation(cam, &cam.station_of_cam(cam.path.peak()), None),
-        reset: BOTH_SIDES * largest,
-        fixed: worst.0 + ONE_SIDE * deviation(&fixed, &worst.1, Some(&end_of_fixed)),
-    }
-}

@@ -1,7 +1,10 @@
 //! The section `scatter` of a report.
 
 use super::propagation::ParameterBand;
+use super::reset::ScrewRule;
 use super::tables::{ParameterRow, PercentileRow, SettingRow};
+use crate::document::NamedChoice;
+use crate::domains::press::report::CylinderMeasures;
 use crate::report::{Section, shown};
 use serde::Serialize;
 
@@ -19,7 +22,9 @@ pub struct FaultReport {
     /// ΔL of the rules, from the column of the cam; the screw is turned by `screw_end_mm`, from where it is.
     pub column_end_mm: f64,
     pub screw_end_mm: f64,
+    /// Of all cylinders.
     pub added_volume_end_mm3: f64,
+    pub added_volume_end_each_mm3: f64,
     pub residual_end_n: f64,
     pub residual_end_at_mm: f64,
     pub column_level_mm: f64,
@@ -95,10 +100,11 @@ impl LossReport {
     }
 }
 
-/// The range in which the cam leaves less than a fixed bottom with its own setting.
+/// The range in which the cam leaves less than a fixed bottom, each with its own setting by a rule.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it, with their units")]
 pub struct UsefulRange {
+    pub reset: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub v_min: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -112,22 +118,23 @@ pub struct UsefulRange {
 impl UsefulRange {
     /// For the bounds of v of a cam that is cut for a speed, rpm.
     #[must_use]
-    pub fn of([least, most]: [Option<f64>; 2], rpm: f64) -> Self {
+    pub fn new([least, most]: [Option<f64>; 2], rpm: f64, rule: ScrewRule) -> Self {
         let speed = |variable: f64| rpm * libm::sqrt(variable);
-        Self { v_min: least, rpm_min: least.map(speed), v_max: most, rpm_max: most.map(speed) }
+        Self { reset: rule.word(), v_min: least, rpm_min: least.map(speed), v_max: most, rpm_max: most.map(speed) }
     }
 
     /// A sentence.
     #[must_use]
     pub fn words(&self) -> String {
         let at = |v: Option<f64>, rpm: Option<f64>| v.zip(rpm).map(|(v, rpm)| format!("v = {v:.2} ({rpm:.1} rpm)"));
+        let rule = format!("than the cam, the screws of both reset by the rule {}", self.reset);
         match (at(self.v_min, self.rpm_min), at(self.v_max, self.rpm_max)) {
             (Some(least), Some(most)) => {
-                format!("with the screw reset the cam leaves less than a fixed bottom from {least} to {most} only")
+                format!("below {least} and above {most} a fixed bottom has less residual force {rule}")
             }
-            (Some(least), None) => format!("below {least} a fixed bottom with its own reset leaves less than the cam"),
-            (None, Some(most)) => format!("above {most} a fixed bottom with its own reset leaves less than the cam"),
-            (None, None) => "at every speed the cam leaves less than a fixed bottom with its own reset".into(),
+            (Some(least), None) => format!("below {least} a fixed bottom has less residual force {rule}"),
+            (None, Some(most)) => format!("above {most} a fixed bottom has less residual force {rule}"),
+            (None, None) => format!("at no speed has a fixed bottom less residual force {rule}"),
         }
     }
 }
@@ -197,6 +204,8 @@ pub fn rows(bands: &[ParameterBand]) -> Vec<ParameterRow> {
 pub struct ScatterReport<'a> {
     pub cam_rpm: f64,
     pub column_length_mm: f64,
+    #[serde(flatten)]
+    pub cylinders: CylinderMeasures,
     pub reset: &'static str,
     pub distribution: &'static str,
     pub samples: u32,
@@ -218,9 +227,10 @@ impl ScatterReport<'_> {
     #[must_use]
     pub fn section(&self) -> Section {
         let mut words = vec![format!(
-            "cam for {} rpm, column {} mm; a fixed bottom leaves {} N",
+            "cam for {} rpm, column {} mm, {}; a fixed bottom leaves {} N",
             shown(self.cam_rpm),
             shown(self.column_length_mm),
+            self.cylinders.bore_words(),
             shown(self.residual_fixed_bottom_max_n)
         )];
         words.extend(self.fault.iter().flat_map(FaultReport::words));
@@ -228,16 +238,18 @@ impl ScatterReport<'_> {
         words.extend(self.bands.words());
         words.extend(self.drawn());
         words.push(self.useful.words());
+        words.push(format!("settings by the rule {}:", self.reset));
         words.push(format!(
-            "{:>6} {:>9} {:>10} {:>13} {:>9} {:>11} {:>9}",
-            "v", "rpm", "column/mm", "volume/cm³", "left/N", "fixed/mm", "left/N"
+            "{:>6} {:>9} {:>10} {:>12} {:>12} {:>9} {:>11} {:>9}",
+            "v", "rpm", "column/mm", "V each/cm³", "V all/cm³", "left/N", "fixed/mm", "left/N"
         ));
         words.extend(self.settings.iter().filter(|row| (20.0 * row.v).round() % 2.0 == 0.0).map(|row| {
             format!(
-                "{:>6} {:>9.3} {:>10.2} {:>13.0} {:>9.1} {:>11.2} {:>9.1}",
+                "{:>6} {:>9.3} {:>10.2} {:>12.0} {:>12.0} {:>9.1} {:>11.2} {:>9.1}",
                 shown(row.v),
                 row.rpm,
                 row.column_mm,
+                1e-3 * row.added_volume_each_mm3,
                 1e-3 * row.added_volume_mm3,
                 row.residual_n,
                 row.fixed_column_mm,

@@ -1,9 +1,10 @@
-//! The short section `scatter` in the report of a cam of a press: what is left of its balance in practice, without draws.
+//! The short section `scatter` in the report of a cam of a press: what is left of its balance in practice.
 
 use super::analysis::{bands_of, cam_of};
-use super::propagation::{self, Estimate};
+use super::monte_carlo::{self, LeftInPractice};
 use super::report::{BandsReport, UsefulRange};
 use super::settings;
+use crate::document::NamedChoice;
 use crate::domains::press::machine::PressCams;
 use crate::machine::Machine;
 use crate::refusal::Refusal;
@@ -21,11 +22,44 @@ const TOLERANCE: f64 = 1e-6;
 struct CamScatter {
     #[serde(flatten)]
     bands: BandsReport,
-    /// To first order.
-    p95_as_built_n: f64,
-    p95_reset_n: f64,
-    p95_fixed_bottom_n: f64,
+    reset: &'static str,
+    #[serde(flatten)]
+    left: Percentiles,
     useful: UsefulRange,
+}
+
+/// P95 of the draws of `camgen scatter`, N; `None` where they are too few, or a drawn press cannot be.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub(super) struct Percentiles {
+    p95_as_built_n: Option<f64>,
+    p95_reset_n: Option<f64>,
+    p95_fixed_bottom_n: Option<f64>,
+}
+
+impl From<Option<LeftInPractice>> for Percentiles {
+    fn from(left: Option<LeftInPractice>) -> Self {
+        Self {
+            p95_as_built_n: left.map(|left| left.as_built),
+            p95_reset_n: left.map(|left| left.reset),
+            p95_fixed_bottom_n: left.map(|left| left.fixed),
+        }
+    }
+}
+
+impl Percentiles {
+    /// After the bounds of all bands; nothing where no press was drawn.
+    pub(super) fn words(&self, rule: &str) -> String {
+        let (Some(built), Some(reset), Some(fixed)) = (self.p95_as_built_n, self.p95_reset_n, self.p95_fixed_bottom_n)
+        else {
+            return String::new();
+        };
+        let rounded = |force: f64| shown(force.round());
+        let reset = match rule {
+            "none" => String::new(),
+            rule => format!(", {} N with the screw reset ({rule})", rounded(reset)),
+        };
+        format!("; P95 {} N as built{reset}, {} N with a fixed bottom", rounded(built), rounded(fixed))
+    }
 }
 
 /// The section for a cam that is cut for a speed, rpm; `None` where a band reaches a press that cannot be: `camgen scatter` says
@@ -39,14 +73,13 @@ pub fn of_cam(machine: &Machine, rpm: f64) -> Option<Section> {
 
 fn values(machine: &Machine, rpm: f64) -> Result<CamScatter, Refusal> {
     let (cam, _) = cam_of(machine, rpm)?;
-    let sampling = PressCams::of(machine).scatter;
-    let Estimate { as_built, reset, fixed } = propagation::estimate(&cam, &sampling.half_widths, sampling.distribution);
+    let PressCams { scatter: sampling, losses, .. } = PressCams::of(machine);
+    let least = settings::least_useful(&cam, sampling.rule, TOLERANCE);
     Ok(CamScatter {
-        bands: bands_of(&cam, &sampling, false)?,
-        p95_as_built_n: as_built,
-        p95_reset_n: reset,
-        p95_fixed_bottom_n: fixed,
-        useful: UsefulRange::of([settings::least_useful(&cam, TOLERANCE)?, None], rpm),
+        bands: bands_of(&cam, sampling, false)?,
+        reset: sampling.rule.word(),
+        left: monte_carlo::left_in_practice(&cam, sampling, losses.bed_friction).ok().flatten().into(),
+        useful: UsefulRange::new([least, None], rpm, sampling.rule),
     })
 }
 
@@ -55,7 +88,7 @@ impl CamScatter {
         let ranked = self.bands.ranked();
         let named = ranked.iter().take(NAMED).map(|row| {
             format!(
-                "a band of {} of {} leaves {} N, {} N with the screw reset",
+                "a band of {} of {} leaves {} N, {} N with the screw reset to the end",
                 row.half_width_words(),
                 row.parameter.replace('_', " "),
                 shown(row.residual_n.abs().round()),
@@ -66,12 +99,10 @@ impl CamScatter {
         let rounded = |force: f64| shown(force.round());
         let together = [
             format!(
-                "all bands at once leave {} to {} N; P95 about {} N as built, {} N with the screw reset, {} N with a fixed bottom",
+                "all bands at once leave {} to {} N{}",
                 rounded(self.bands.worst_strong_n),
                 rounded(self.bands.worst_weak_n),
-                rounded(self.p95_as_built_n),
-                rounded(self.p95_reset_n),
-                rounded(self.p95_fixed_bottom_n)
+                self.left.words(self.reset)
             ),
             format!("{}; `camgen scatter` reports the rest", self.useful.words()),
         ];

@@ -3,6 +3,8 @@
 use super::bed_path::BedPath;
 use super::error::ScatterError;
 use super::fault::{Fault, FrozenBuffer};
+use super::reset::ScrewRule;
+use crate::domains::press::buffer::bottom_law::column_for;
 use crate::numeric::extremum::Extremum;
 use crate::numeric::root;
 
@@ -11,11 +13,11 @@ use crate::numeric::root;
 pub struct Setting {
     /// v.
     pub variable: f64,
-    /// ΔL of the cam's buffer, m, levelled.
+    /// ΔL of the cam's buffer, m.
     pub column: f64,
     /// What it leaves where that is largest, N, signed, and the overrun, m.
     pub residual: Extremum,
-    /// Column of a fixed bottom for the same v, m, levelled.
+    /// Column of a fixed bottom for the same v, m.
     pub fixed_column: f64,
     /// What the fixed bottom leaves, N, at least 0.
     pub fixed_residual: f64,
@@ -25,6 +27,10 @@ pub struct Setting {
 const PLACES: u32 = 180;
 /// Halvings of the air at the end of the stroke, and doublings of the column, in which a fixed bottom is bracketed.
 const REACH: i32 = 200;
+
+/// Steps of v, each this many times the one before, in which the end of the useful range is searched, and how many.
+const STEP: f64 = 1.25;
+const STEPS: i32 = 20;
 
 /// A fixed bottom in the place of a cam.
 #[derive(Debug, Clone)]
@@ -81,9 +87,27 @@ impl<'a> FixedBottom<'a> {
         [extreme(-1.0), extreme(1.0)]
     }
 
-    /// The column that leaves least at a variable v, m, and what it leaves, N.
+    /// The column by a rule at a variable v, m: that of (7) at v = 1 without a reset, that of (7) at v, or the one that leaves least.
     #[must_use]
-    pub fn level(&self, variable: f64) -> (f64, f64) {
+    pub fn column(&self, variable: f64, rule: ScrewRule) -> f64 {
+        let by_end =
+            |variable: f64| column_for(self.cam.path.stroke(), variable * self.cam.end_load(), self.cam.exponent);
+        match rule {
+            ScrewRule::None => by_end(1.0),
+            ScrewRule::End => by_end(variable),
+            ScrewRule::Level => self.level(variable),
+        }
+    }
+
+    /// What a column (m) leaves at a variable v, N, at least 0.
+    #[must_use]
+    pub fn left(&self, column: f64, variable: f64) -> f64 {
+        let [least, largest] = self.extremes(column, variable);
+        largest.value.max(-least.value)
+    }
+
+    /// The column that leaves least at a variable v, m.
+    fn level(&self, variable: f64) -> f64 {
         let beyond = |octave: f64| self.cam.path.stroke() * (1.0 + libm::exp2(octave));
         let sum = |octave: f64| {
             let [least, largest] = self.extremes(beyond(octave), variable);
@@ -92,9 +116,46 @@ impl<'a> FixedBottom<'a> {
         // A short column stops the bed early, a long one hardly brakes it.
         let low = (1..REACH).map(|octave| f64::from(-octave)).find(|octave| sum(*octave) < 0.0).unwrap_or(-1.0);
         let high = (1..REACH).map(f64::from).find(|octave| sum(*octave) > 0.0).unwrap_or(1.0);
-        let column = beyond(root::bracketed(sum, low, high, 0.0).unwrap_or(0.0));
-        let [least, largest] = self.extremes(column, variable);
-        (column, largest.value.max(-least.value))
+        beyond(root::bracketed(sum, low, high, 0.0).unwrap_or(0.0))
+    }
+
+    /// The settings of both by a rule for a variable v.
+    ///
+    /// # Errors
+    /// When no column balances the end.
+    pub fn setting(&self, variable: f64, rule: ScrewRule) -> Result<Setting, ScatterError> {
+        let cam = self.cam;
+        let fault = Fault { square: variable, ..Fault::none(cam.exponent) };
+        // At v = 1 the cam is in the machine it was cut for.
+        let (column, residual) = if variable == 1.0 {
+            (0.0, Extremum { at: 0.0, value: 0.0 })
+        } else {
+            let column = cam.setting(&fault, rule)?;
+            (column, cam.worst(&fault.with_column(column))?)
+        };
+        let fixed_column = self.column(variable, rule);
+        Ok(Setting { variable, column, residual, fixed_column, fixed_residual: self.left(fixed_column, variable) })
+    }
+
+    /// What the cam leaves more, each with its own setting by a rule, N.
+    fn more(&self, variable: f64, rule: ScrewRule) -> Result<f64, ScatterError> {
+        let setting = self.setting(variable, rule)?;
+        Ok(setting.residual.value.abs() - setting.fixed_residual)
+    }
+
+    /// Where the cam begins to leave more, on a side of v = 1.
+    fn bound(&self, side: f64, rule: ScrewRule, tolerance: f64) -> Option<f64> {
+        let mut inside = 1.0;
+        for step in 1..=STEPS {
+            let outside = libm::pow(STEP, side * f64::from(step));
+            // Where the air would be used up no press can run, and the range is not bounded by a comparison.
+            if self.more(outside, rule).ok()? > 0.0 {
+                let more = |v: f64| self.more(v, rule).unwrap_or(f64::NAN);
+                return root::bracketed(more, inside, outside, tolerance).ok();
+            }
+            inside = outside;
+        }
+        None
     }
 }
 
@@ -114,64 +175,15 @@ pub fn extremes_of_fixed(cam: &FrozenBuffer, column: f64, variable: f64) -> [Ext
     [pick(|next, best| next < best), pick(|next, best| next > best)]
 }
 
-fn at_variable(cam: &FrozenBuffer, variable: f64) -> Fault {
-    Fault { square: variable, ..Fault::none(cam.exponent) }
+/// The least v at which the cam leaves less than a fixed bottom, each with its own setting by a rule, to a tolerance; `None` where it does at every
+/// one.
+#[must_use]
+pub fn least_useful(cam: &FrozenBuffer, rule: ScrewRule, tolerance: f64) -> Option<f64> {
+    FixedBottom::new(cam).bound(-1.0, rule, tolerance)
 }
 
-/// The setting for a variable v.
-///
-/// # Errors
-/// When no column balances the end.
-pub fn setting(fixed: &FixedBottom<'_>, variable: f64) -> Result<Setting, ScatterError> {
-    let cam = fixed.cam;
-    let fault = at_variable(cam, variable);
-    // At v = 1 the cam is in the machine it was cut for.
-    let column = if variable == 1.0 { 0.0 } else { cam.level_reset(&fault)? };
-    let residual =
-        if variable == 1.0 { Extremum { at: 0.0, value: 0.0 } } else { cam.worst(&fault.with_column(column))? };
-    let (fixed_column, fixed_residual) = fixed.level(variable);
-    Ok(Setting { variable, column, residual, fixed_column, fixed_residual })
-}
-
-/// Steps of v, each this many times the one before, in which the end of the useful range is searched, and how many.
-const STEP: f64 = 1.25;
-const STEPS: i32 = 20;
-
-/// What the cam leaves more than a fixed bottom, each with its own level setting, N.
-fn more(fixed: &FixedBottom<'_>, variable: f64) -> Result<f64, ScatterError> {
-    let setting = setting(fixed, variable)?;
-    Ok(setting.residual.value.abs() - setting.fixed_residual)
-}
-
-/// Where the cam begins to leave more than a fixed bottom, on a side of v = 1.
-fn bound(fixed: &FixedBottom<'_>, side: f64, tolerance: f64) -> Result<Option<f64>, ScatterError> {
-    let mut inside = 1.0;
-    for step in 1..=STEPS {
-        let outside = libm::pow(STEP, side * f64::from(step));
-        // Where the air would be used up no press can run, and the range is not bounded by a comparison.
-        let Ok(beyond) = more(fixed, outside) else { return Ok(None) };
-        if beyond > 0.0 {
-            let more = |v: f64| more(fixed, v).unwrap_or(f64::NAN);
-            return Ok(root::bracketed(more, inside, outside, tolerance).ok());
-        }
-        inside = outside;
-    }
-    Ok(None)
-}
-
-/// The least v at which the cam leaves less than a fixed bottom, to a tolerance; `None` where it does at every one.
-///
-/// # Errors
-/// When no column balances the end.
-pub fn least_useful(cam: &FrozenBuffer, tolerance: f64) -> Result<Option<f64>, ScatterError> {
-    bound(&FixedBottom::new(cam), -1.0, tolerance)
-}
-
-/// The range of v in which the cam leaves less than a fixed bottom, each with its own level setting; `None` on a side where it always does.
-///
-/// # Errors
-/// When no column balances the end.
-pub fn useful(cam: &FrozenBuffer) -> Result<[Option<f64>; 2], ScatterError> {
-    let fixed = FixedBottom::new(cam);
-    Ok([bound(&fixed, -1.0, 0.0)?, bound(&fixed, 1.0, 0.0)?])
+/// The range of v in which the cam leaves less than a fixed bottom, each with its own setting by a rule; `None` on a side where it always does.
+#[must_use]
+pub fn useful(cam: &FrozenBuffer, rule: ScrewRule) -> [Option<f64>; 2] {
+    [-1.0, 1.0].map(|side| FixedBottom::new(cam).bound(side, rule, 0.0))
 }

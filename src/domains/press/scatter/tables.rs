@@ -4,13 +4,14 @@ use super::bed_path::BedPath;
 use super::error::ScatterError;
 use super::fault::{FrozenBuffer, STEPS};
 use super::losses::LossyReversal;
-use super::monte_carlo::{Samples, percentile};
+use super::monte_carlo::{Samples, has_percentile, percentile};
 use super::parameter::{HalfWidths, Parameter};
 use super::propagation::{Corners, ParameterBand};
 use super::reset::ScrewRule;
-use super::settings::{self, FixedBottom, Setting};
+use super::settings::{FixedBottom, Setting};
 use crate::analysis::Listing;
 use crate::document::NamedChoice;
+use crate::domains::press::buffer::Cylinder;
 use crate::geometry::MILLIMETRES;
 use crate::report::shown;
 use crate::table::{ListedColumn, Table, WordColumn};
@@ -133,10 +134,7 @@ pub fn percentiles(samples: &Samples, rule: ScrewRule) -> Vec<PercentileRow> {
     lists.push((FIXED, of_fixed, &samples.fixed));
     let rows = lists.into_iter().flat_map(|(body, reset, sorted)| {
         [50.0, 95.0, 99.0].into_iter().filter_map(move |share| {
-            // A percentile has at least one press beyond it.
-            #[expect(clippy::cast_precision_loss, reason = "at most a million")]
-            let beyond = (1.0 - share / 100.0) * sorted.len() as f64;
-            if beyond < 1.0 - 1e-9 {
+            if !has_percentile(sorted.len(), share / 100.0) {
                 return None;
             }
             let [residual_n, low_n, high_n] = percentile(sorted, share / 100.0)?;
@@ -163,11 +161,13 @@ pub struct SettingRow {
     pub rpm: f64,
     /// L.
     pub column_mm: f64,
+    /// To all cylinders.
     pub added_volume_mm3: f64,
     pub residual_n: f64,
     pub residual_at_mm: f64,
     pub fixed_column_mm: f64,
     pub fixed_residual_n: f64,
+    pub added_volume_each_mm3: f64,
 }
 
 const SETTINGS: &[ListedColumn<SettingRow>] = &[
@@ -179,6 +179,7 @@ const SETTINGS: &[ListedColumn<SettingRow>] = &[
     ("residual_at_mm", |row| row.residual_at_mm),
     ("fixed_column_mm", |row| row.fixed_column_mm),
     ("fixed_residual_n", |row| row.fixed_residual_n),
+    ("added_volume_each_mm3", |row| row.added_volume_each_mm3),
 ];
 
 /// Variables of the table: 0.2, 0.25 … 1.3.
@@ -186,32 +187,40 @@ fn variables() -> impl Iterator<Item = f64> {
     (4..=26).map(|twentieths| f64::from(twentieths) / 20.0)
 }
 
-/// The settings for the variables v, with the speed of the main shaft at the mass and weather that the cam was cut for.
+/// The settings by a rule for the variables v, with the speed of the main shaft (rpm) at the mass and weather that the cam was cut for.
 ///
 /// # Errors
 /// When no column balances an end.
-pub fn settings(cam: &FrozenBuffer, rpm: f64, piston_area: f64) -> Result<Vec<SettingRow>, ScatterError> {
+pub fn settings(
+    cam: &FrozenBuffer,
+    cylinder: &Cylinder,
+    rpm: f64,
+    rule: ScrewRule,
+) -> Result<Vec<SettingRow>, ScatterError> {
     let fixed = FixedBottom::new(cam);
-    variables().map(|variable| Ok(row_of(&settings::setting(&fixed, variable)?, cam, (rpm, piston_area)))).collect()
+    variables().map(|variable| Ok(row_of(&fixed.setting(variable, rule)?, cam, cylinder, rpm))).collect()
 }
 
-fn row_of(setting: &Setting, cam: &FrozenBuffer, (rpm, piston_area): (f64, f64)) -> SettingRow {
+fn row_of(setting: &Setting, cam: &FrozenBuffer, cylinder: &Cylinder, rpm: f64) -> SettingRow {
     SettingRow {
         v: setting.variable,
         rpm: rpm * libm::sqrt(setting.variable),
         column_mm: MILLIMETRES * (cam.column + setting.column),
-        added_volume_mm3: CUBIC * 2.0 * piston_area * setting.column,
+        added_volume_mm3: CUBIC * cylinder.volume(setting.column),
         residual_n: setting.residual.value.abs(),
         residual_at_mm: MILLIMETRES * setting.residual.at,
         fixed_column_mm: MILLIMETRES * setting.fixed_column,
         fixed_residual_n: setting.fixed_residual,
+        added_volume_each_mm3: CUBIC * cylinder.piston_area * setting.column,
     }
 }
 
-/// The table of the settings.
+/// The table of the settings, with the rule that they are found by.
 #[must_use]
-pub fn of_settings(rows: &[SettingRow]) -> Listing {
-    ("-settings", Table::listed(SETTINGS, rows))
+pub fn of_settings(rows: &[SettingRow], rule: ScrewRule) -> Listing {
+    let words = rows.iter().map(|_| rule.word().to_owned()).collect();
+    let more_words = vec![WordColumn { name: "reset", before: "added_volume_each_mm3", words }];
+    ("-settings", Table { more_words, ..Table::listed(SETTINGS, rows) })
 }
 
 /// A place of the reversal.

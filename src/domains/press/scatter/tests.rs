@@ -200,12 +200,62 @@ fn the_setting_for_a_lighter_forme_and_the_useful_range() {
         ("dpi-paper", 277.409_964_4, 491.146_933_0, 257.788_026_1, 4_473.082_741, 0.278_694_191_8),
     ] {
         let cam = cam(name);
-        let setting = settings::setting(&FixedBottom::new(&cam), 0.8).expect("a setting");
+        let setting = FixedBottom::new(&cam).setting(0.8, ScrewRule::Level).expect("a setting");
         near(1e3 * (cam.column + setting.column), column, name);
         near(setting.residual.value.abs(), left, name);
         near(1e3 * setting.fixed_column, fixed, name);
         near(setting.fixed_residual, of_fixed, name);
-        near(settings::useful(&cam).expect("a range")[0].expect("a lower end"), useful, name);
+        near(settings::useful(&cam, ScrewRule::Level)[0].expect("a lower end"), useful, name);
+    }
+}
+
+/// By `end` nothing is left at the end of the stroke, and the column of the fixed bottom is that of (7); without a reset both stay where they are.
+#[test]
+fn settings_follow_the_rule_of_the_screw() {
+    for name in ["dpi", "dpi-paper"] {
+        let cam = cam(name);
+        let rivals = FixedBottom::new(&cam);
+        let end_of = |setting: &settings::Setting| {
+            let fault = Fault { square: 0.8, ..Fault::none(1.35) }.with_column(setting.column);
+            cam.residual(&fault, cam.end_load(), cam.end_length())
+        };
+        let [none, end, level] = [ScrewRule::None, ScrewRule::End, ScrewRule::Level]
+            .map(|rule| rivals.setting(0.8, rule).expect("a setting"));
+        assert!(end_of(&end).abs() < 1e-6 && none.column == 0.0, "{name}: {end:?} {none:?}");
+        let worse = |setting: &settings::Setting| setting.residual.value.abs() > level.residual.value.abs();
+        assert!(worse(&none) && worse(&end), "{name}: {none:?} {end:?} {level:?}");
+        let by_7 = cam.path.stroke() / (1.0 - libm::pow(1.0 + 0.8 * cam.end_load(), -1.0 / 1.35));
+        near(end.fixed_column, by_7, "column by (7)");
+        near(none.fixed_column, cam.with_fixed_bottom().column, "column without a reset");
+        assert!(none.fixed_residual > end.fixed_residual && end.fixed_residual > level.fixed_residual, "{name}");
+    }
+}
+
+/// The report of a cam and `camgen scatter` have one figure: P95 found by bounds is that of all presses, to the last digit.
+#[test]
+fn p95_by_bounds_is_that_of_the_draws() {
+    let level = ["buffer.balance=level", "buffer.expansion_exponent=1.40"].map(str::to_owned);
+    let levelling = super::analysis::cam_of(&Machine::load("dpi", &level).expect("valid").0, 35.0).expect("a cam").0;
+    let linkage = Machine::load("dpi-six-bar", &[]).expect("valid").0;
+    let linkage = super::analysis::cam_of(&linkage, 35.0).expect("a cam").0;
+    for cam in [cam("dpi"), cam("dpi-paper"), levelling, linkage] {
+        for (rule, distribution, friction) in [
+            (ScrewRule::End, Distribution::Uniform, 0.0),
+            (ScrewRule::Level, Distribution::Normal, 0.0),
+            (ScrewRule::None, Distribution::Triangular, 480.0),
+        ] {
+            for samples in [20, 39, 700] {
+                let sampling = Sampling { distribution, ..sampling(samples, rule) };
+                let drawn = monte_carlo::draw(&cam, &sampling, friction).expect("drawn");
+                let left = monte_carlo::left_in_practice(&cam, &sampling, friction).expect("drawn").expect("enough");
+                let of = |sorted: &[f64]| percentile(sorted, 0.95).expect("samples")[0];
+                assert_eq!(
+                    [left.as_built, left.reset, left.fixed],
+                    [&drawn.as_built, &drawn.reset, &drawn.fixed].map(|sorted| of(sorted))
+                );
+            }
+        }
+        assert_eq!(monte_carlo::left_in_practice(&cam, &sampling(19, ScrewRule::End), 0.0).expect("drawn"), None);
     }
 }
 

@@ -18,9 +18,9 @@ use crate::domains::press::picture::not_modelled_of;
 use crate::domains::press::report::{
     AirLaw, Equation18, ForceMeasures, PlateMeasures, ResidualByDirection, SlopeBreak, WedgeMeasures,
 };
-use crate::geometry::MILLIMETRES;
 use crate::geometry::boundary::{Boundary, BoundaryStretch};
 use crate::geometry::contour::{Contour, Edge, Segment, Vertex};
+use crate::geometry::{MILLIMETRES, radius_of_curvature};
 use crate::machine::Machine;
 use crate::motion::{Jet, Motion};
 use crate::profile::boundary;
@@ -129,6 +129,8 @@ impl Wedge {
                 BottomMotion::Paper(_) => None,
             },
             efficiency_model: model.into(),
+            friction_angle_deg: self.mechanism().friction_angle.to_degrees(),
+            efficiency: self.mechanism().efficiency,
             balance: exact_on.into(),
             breaks: motion
                 .breaks()
@@ -192,8 +194,8 @@ impl Wedge {
             curve: Some(upper(contact.curve.point)),
             profile: Some(upper(profile.point)),
             pressure_angle_deg: Some(contact.pressure_angle.to_degrees()),
-            curve_radius: Some(MILLIMETRES / contact.curve.curvature),
-            profile_radius: Some(MILLIMETRES / profile.curvature),
+            curve_radius: Some(radius_of_curvature(contact.curve.curvature)),
+            profile_radius: Some(radius_of_curvature(profile.curvature)),
             added: [bed, wedge.columns(), balance.columns()].concat(),
             ..Row::default()
         }

@@ -5,7 +5,7 @@ use crate::refusal::Refusal;
 /// Each alone closes the machine, the other two as given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosingRemedies {
-    /// Bore, m.
+    /// Bore of each cylinder, m.
     pub bore: f64,
     /// Air column L, m; `None` where no column does that is longer than the stroke by more than rounding.
     pub column: Option<f64>,
@@ -16,7 +16,7 @@ pub struct ClosingRemedies {
 /// With as many digits as it takes to close within [`super::CLOSING`] when they are typed.
 impl std::fmt::Display for ClosingRemedies {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "a bore of {:.10} mm closes it, or ", 1e3 * self.bore)?;
+        write!(f, "a bore of {:.10} mm of each cylinder closes it, or ", 1e3 * self.bore)?;
         match self.column {
             Some(column) => write!(f, "an air column of {:.10} mm", 1e3 * column)?,
             None => write!(f, "no column longer than the stroke does")?,

@@ -1,6 +1,7 @@
 //! The machine of the drive-speed law except its bore, and the values with which it closes.
 
 use crate::domains::press::buffer::bottom_law::SERIES_LIMIT;
+use crate::domains::press::buffer::{CYLINDERS, total_area};
 use crate::numeric::root;
 use crate::refusal::Refusal;
 
@@ -69,7 +70,10 @@ impl BufferedBed {
     #[must_use]
     pub fn closing_area(&self) -> f64 {
         self.energy()
-            / (2.0 * self.ambient_pressure * self.column * compression(self.stroke() / self.column, self.exponent))
+            / (f64::from(CYLINDERS)
+                * self.ambient_pressure
+                * self.column
+                * compression(self.stroke() / self.column, self.exponent))
     }
 
     /// Column, m, with which buffers of a given piston area (m²) just take the bed's energy; `None` where it would exceed the
@@ -79,7 +83,7 @@ impl BufferedBed {
     #[must_use]
     pub fn closing_column(&self, piston_area: f64) -> Option<f64> {
         let (k, stroke) = (self.exponent, self.stroke());
-        let wanted = self.energy() / (2.0 * self.ambient_pressure * piston_area * stroke);
+        let wanted = self.energy() / (self.ambient_pressure * total_area(piston_area) * stroke);
         let excess = |log: f64| {
             let z = -libm::expm1(-log);
             let gas = if z < SERIES_LIMIT { compression(z, k) } else { compression_of_log(log, k) };

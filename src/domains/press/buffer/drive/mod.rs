@@ -23,6 +23,7 @@ use machine::not_positive;
 pub use sections::{NodeSpeed, SectionEnd, sections};
 
 use super::bottom_law::{SERIES_LIMIT, g_divided_difference, g_minus_one};
+use super::{bore_of, total_area};
 use crate::numeric::extremum::Extremum;
 use crate::numeric::{quadrature, root};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -117,7 +118,7 @@ impl Drive {
             return Ok(Self { misfit: 0.0, ..drive });
         }
         let remedies = ClosingRemedies {
-            bore: (4.0 * machine.closing_area() / PI).sqrt(),
+            bore: bore_of(machine.closing_area()),
             column: machine.closing_column(piston_area),
             ambient_pressure: machine.closing_pressure(piston_area),
         };
@@ -145,14 +146,14 @@ impl Drive {
         Ok(Self { machine, piston_area, misfit })
     }
 
-    /// Bore, m.
+    /// Bore of one cylinder, m.
     #[must_use]
     pub fn bore(&self) -> f64 {
-        (4.0 * self.piston_area / PI).sqrt()
+        bore_of(self.piston_area)
     }
 
     fn unit_force(&self) -> f64 {
-        2.0 * self.machine.ambient_pressure * self.piston_area
+        self.machine.ambient_pressure * total_area(self.piston_area)
     }
 
     /// Force of the pair of buffers at an overrun x in [0, x_e], N: equations (1) and (2).
