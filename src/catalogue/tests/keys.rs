@@ -319,6 +319,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("cut.depth_per_pass", "2 mm"),
     ("cut.overrun", "0.5 mm"),
     ("cut.clearance", "20 mm"),
+    ("cut.home", "-2 mm"),
     ("cut.direction", "conventional"),
     ("cut.compensation", "control"),
     ("output.units", "inch"),
