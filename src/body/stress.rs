@@ -46,7 +46,12 @@ fn power_of_pressure<'a>(
     }
     let modulus = contact_modulus(machine.cam.material?.class);
     force_at_start(force, curves)?;
-    let (bend, side) = (curves.roller_radius().map_or(0.0, |radius| 1.0 / radius), curves.metal_side());
+    // The flanks of a groove are farther from the roller's centre than its radius.
+    let bend = match machine.follower.shape.element() {
+        Element::Roller { radius } => radius.abs().recip(),
+        Element::Face => 0.0,
+    };
+    let side = curves.metal_side();
     // On an edge (undercut) the curvature means nothing; there the check `undercut` fails.
     let both = move |piece: usize, at: f64| {
         let contact = curves.contact(piece, at);
