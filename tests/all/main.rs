@@ -69,6 +69,7 @@ mod sheets;
 mod shop;
 mod size;
 mod solids;
+mod speeds;
 mod spline;
 mod spline_solids;
 mod stability;

@@ -140,7 +140,7 @@ impl Disc {
             DampingAgainst::Frame => "frame",
             DampingAgainst::Follower => "follower",
         };
-        let damped = if data.damping > 0.0 { format!(", damped against the {against}") } else { String::new() };
+        let damped = if data.damping > 0.0 { format!(", damped against the {against},") } else { String::new() };
         let deviation = size * found.deviation.value;
         let value = json!({
             "unit": unit,
