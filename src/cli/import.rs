@@ -92,13 +92,13 @@ fn as_stated(
         return Err(Failure("--as and --points-of contradict each other; give one of them".into()));
     }
     options.points_of = by_as.or(args.points_of).or(stated.of);
-    if args.ball.is_some() && options.points_of == Some(PointsOf::Centre) {
+    if args.ball.radius().is_some() && options.points_of == Some(PointsOf::Centre) {
         return Err(Failure(
             "--ball is the radius of a measuring ball, but the points are centres of the roller; leave one of them out"
                 .into(),
         ));
     }
-    if stated.is_polar && options.points_of.is_none() && args.ball.is_none() {
+    if stated.is_polar && options.points_of.is_none() && args.ball.radius().is_none() {
         return Err(Failure(format!(
             "`{}` has radii: whether of the profile or of the roller's centre is not stated; give --as profile or --as pitch",
             args.file.display()
