@@ -45,7 +45,10 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
             stated.is_polar |= args.taken_as.is_some() && !stated.has_names;
             let read = if stated.is_polar { measured::read_radii } else { measured::read };
             let points = read(&text).map_err(|why| Failure(format!("`{file}`: {why}")))?;
-            ImportSource::Points(as_stated(points, args, &mut options, stated)?, 1e3 * args.ball.radius().unwrap_or(0.0))
+            ImportSource::Points(
+                as_stated(points, args, &mut options, stated)?,
+                1e3 * args.ball.radius().unwrap_or(0.0),
+            )
         }
     };
     let analysis = import::analysis(&source, &options).map_err(|why| Failure(format!("`{file}`: {why}")))?;

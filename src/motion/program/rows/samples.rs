@@ -89,8 +89,16 @@ impl Program {
         let wishes = curve.wishes(rows.rounding)?;
         possible(quantity, positions)?;
         let turn = Turn::of(TAU, &mut rows, (false, None))?;
-        let whole =
-            ProgramContext { quantity, arc: None, arm: None, speed: None, at: 0.0, fill: TAU, by_travel: false };
+        let whole = ProgramContext {
+            quantity,
+            arc: None,
+            arm: None,
+            speed: None,
+            has_faulty_speed: false,
+            at: 0.0,
+            fill: TAU,
+            by_travel: false,
+        };
         Ok(curve::program(&turn, (0.0, 1), whole, &rows, wishes))
     }
 }
