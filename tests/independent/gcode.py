@@ -335,8 +335,9 @@ def fault_texts(text, control, random):
     def moved(line):
         return re.sub(r"\bX([-+]?[\d.]+)", lambda m: f"X{'+' if control == 'heidenhain' and float(m[1]) + shift >= 0 else ''}{float(m[1]) + shift:.4f}", line)
     yield "moved by 1.3 tolerances", "\n".join(moved(line) for line in lines) + "\n"
-    plunge = next(i for i, line in enumerate(lines) if re.search(r"Z-", line))
-    yield changed("not deep enough", plunge, lambda line: re.sub(r"Z-([\d.]+)", "Z-1.0", line)) if sum("Z-" in line for line in lines) == 1 else changed(
+    plunges = [i for i, line in enumerate(lines) if re.search(r"Z-.*F\d", line)]
+    plunge = plunges[0]
+    yield changed("not deep enough", plunge, lambda line: re.sub(r"Z-([\d.]+)", "Z-1.0", line)) if len(plunges) == 1 else changed(
         "a rapid plunge", plunge, lambda line: line.replace("G1", "G0").replace(re.search(r"F[\d.]+", line)[0], "FMAX" if control == "heidenhain" else ""))
 
 
