@@ -1,6 +1,5 @@
 //! The limits of a cam.
 
-use super::disc::CamData;
 use super::material::{CamMaterial, Material};
 use crate::document::Presence::{Default, Optional};
 use crate::document::cams::{MAKE, WITH_A_RATED_ROLLER};
@@ -300,16 +299,16 @@ pub(super) fn inputs(reader: &Reader<'_>, follower: &dyn Follower, moves: Quanti
 }
 
 /// The limits that hold, given or not, as a person would type them; those that are not checked without being given are left out.
-pub(super) fn usual(limits: &Limits, cam: &CamData) -> Vec<Input> {
+pub(super) fn usual(limits: &Limits, material: Option<CamMaterial>, bore_radius: Option<f64>) -> Vec<Input> {
     let quantity = |key: &Key, si: f64, unit| Input::quantity(&SECTION.path_of(key), si, unit);
     let (degrees, millimetres, megapascals) = (("deg", 1.0_f64.to_radians()), ("mm", 1e-3), ("MPa", 1e6));
     let angle = limits.pressure_angle;
     let angle_return = limits.pressure_angle_return.or(angle);
-    let stress = limits.contact_stress.or_else(|| customary_stress_of(&cam.material?));
+    let stress = limits.contact_stress.or_else(|| customary_stress_of(&material?));
     [
         angle.map(|angle| quantity(&PRESSURE_ANGLE.key, angle, degrees)),
         angle_return.map(|angle| quantity(&PRESSURE_ANGLE_RETURN.key, angle, degrees)),
-        Some(quantity(&WALL.key, limits.least_wall(cam.bore_radius), millimetres)),
+        Some(quantity(&WALL.key, limits.least_wall(bore_radius), millimetres)),
         Some(quantity(&SIZE.key, limits.largest_size(), millimetres)),
         stress.map(|stress| quantity(&CONTACT_STRESS.key, stress, megapascals)),
     ]

@@ -471,7 +471,7 @@ impl Machine {
     /// The limits that hold where the file gives none, as a person would type them.
     #[must_use]
     pub(crate) fn usual_limits(&self) -> Vec<Input> {
-        limits::usual(&self.limits, &self.cam)
+        limits::usual(&self.limits, self.cam.material, self.cam.bore_radius)
     }
 
     /// Every value of it, shared.

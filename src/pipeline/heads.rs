@@ -6,8 +6,10 @@
 use crate::body::Body;
 use crate::body::gauge::Gauge;
 use crate::body::points::PointTable;
+use crate::document::HeadingUnit;
 use crate::geometry::MILLIMETRES;
 use crate::reading::gauge::GaugeRows;
+use crate::reading::inspection::PLAIN_INCHES;
 use crate::reading::servo::ServoRows;
 use crate::units::LengthUnit;
 use crate::write::{gauge, inspection, points, servo};
@@ -68,8 +70,14 @@ pub(super) fn of_places(body: &dyn Body, text: &str, ball_radius: f64) -> Option
         found.insert(0, HeadLine { line: 1, text: mark });
         return contradiction(&found, &inspection::program_statements(body));
     }
+    let found = behind(text, "#");
+    if !text.lines().any(|line| line.starts_with("no,")) {
+        // Plain lines of numbers state their unit at most.
+        let inches = text.lines().any(|line| line.trim_end() == PLAIN_INCHES);
+        return contradiction(&found, &[format!("units: {}, degrees", if inches { "inches" } else { "mm" })]);
+    }
     let units = if text.contains("x_in,y_in") { LengthUnit::Inch } else { LengthUnit::Millimetre };
-    contradiction(&behind(text, "#"), &inspection::statements(body, units, units.of_mm(ball_radius)))
+    contradiction(&found, &inspection::statements(body, units, units.of_mm(ball_radius)))
 }
 
 /// What a table of points says that is not so: its figures are those of the table as it was read.
@@ -175,7 +183,23 @@ fn contradiction(found: &[HeadLine<'_>], expected: &[String]) -> Option<String> 
 fn same(key: &str, stated: &str, due: &str) -> bool {
     let share = if key.contains("error") { SAME_ERROR } else { SAME };
     let close = |(stated, due): (f64, f64)| (stated - due).abs() <= share * due.abs();
-    stated == due || stated.parse().ok().zip(due.parse().ok()).is_some_and(close)
+    stated == due
+        || stated.parse().ok().zip(due.parse().ok()).is_some_and(close)
+        || (key == "units" && same_units(stated, due))
+}
+
+/// Whether units, or the first of them, are those that are due, in whatever words.
+fn same_units(stated: &str, due: &str) -> bool {
+    let named = |text: &str| text.split(", ").map(HeadingUnit::of_word).collect::<Vec<_>>();
+    let (stated, due) = (named(stated), named(due));
+    let is = |(stated, due): (&Option<HeadingUnit>, &Option<HeadingUnit>)| match (stated, due) {
+        (
+            Some(HeadingUnit::Quantity { dimension, size, .. }),
+            Some(HeadingUnit::Quantity { dimension: own, size: due, .. }),
+        ) => dimension == own && (size - due).abs() <= SAME * due,
+        _ => false,
+    };
+    stated.len() <= due.len() && stated.iter().zip(&due).all(is)
 }
 
 fn told(line: usize, stated: &str, due: &str) -> String {

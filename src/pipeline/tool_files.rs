@@ -29,7 +29,8 @@ fn keeps_its_cutter(program: &CutterProgram) -> bool {
     };
     let cuts = program.moves.iter().filter(level).count();
     let kept = program.moves.iter().filter(level).filter(|moved| moved.side != CutterSide::Centre).count();
-    2 * kept >= cuts
+    // A cam that is turned under its tool has passes in the place of moves, and no tool is kept beside them.
+    program.turned.is_empty() && 2 * kept >= cuts
 }
 
 impl Cam {

@@ -322,12 +322,13 @@ impl TradeRow {
         self.law_us = least(|t| t.law);
         self.outline_us = least(|t| t.outline);
         self.dxf_us = least(|t| t.dxf);
-        self.checks_us = (least(|t| t.proof) - self.dxf_us).max(0.0);
+        let proof_us = least(|t| t.proof);
+        self.checks_us = (proof_us - self.dxf_us).max(0.0);
         self.svg_us = least(|t| t.svg.unwrap_or(0.0));
         self.step_us = self.step_us.map(|_| least(|t| t.step.unwrap_or(0.0)));
         self.csv_us = least(|t| t.csv.unwrap_or(0.0));
         let formats = self.svg_us + self.step_us.unwrap_or(0.0) + self.csv_us;
-        self.total_us = self.law_us + self.outline_us + self.dxf_us + self.checks_us + formats;
+        self.total_us = self.law_us + self.outline_us + proof_us + formats;
         self.total_low_us = least(RoundTimes::total);
         self.total_high_us = times.iter().map(RoundTimes::total).fold(0.0, f64::max);
     }

@@ -3,7 +3,7 @@
 
 use super::check::{Evidence, WrittenProgram};
 use super::program::ProgramFault;
-use super::safe_start::too_early;
+use super::safe_start::early_move;
 use crate::geometry::MILLIMETRES;
 use crate::machine::{Controller, CuttingData};
 use crate::reading::gcode::{CutterProgram, CuttingState, Spindle, ToolLength, TurnedPass};
@@ -48,7 +48,9 @@ pub(super) fn as_designed(evidence: &Evidence<'_>, written: &WrittenProgram) -> 
             return Err(ProgramFault::new(format!("in line {line} {fault}")));
         }
     }
-    too_early(program)?;
+    if let Some(why) = early_move(program) {
+        return Err(ProgramFault::new(why));
+    }
     feeds(evidence, &design, program)
 }
 

@@ -1,15 +1,12 @@
 //! Whether a program states what its moves rely on before they run: a control keeps the words of the program before.
 
-use super::program::ProgramFault;
 use crate::machine::Controller;
 use crate::reading::gcode::{CutterProgram, Unstated};
 
-/// Refuses a program with a move before what it relies on.
-pub(super) fn too_early(program: &CutterProgram) -> Result<(), ProgramFault> {
-    match program.early.iter().find(|(_, what)| is_refused(program, *what)) {
-        Some((line, what)) => Err(ProgramFault::new(format!("line {line} {}", fault(*what, program.control)))),
-        None => Ok(()),
-    }
+/// The first move of a program that runs before what it relies on is stated, if that is refused.
+pub(super) fn early_move(program: &CutterProgram) -> Option<String> {
+    let (line, what) = program.early.iter().find(|(_, what)| is_refused(program, *what))?;
+    Some(format!("line {line} {}", fault(*what, program.control)))
 }
 
 /// What the operator has to set before such a program is started, for a note.

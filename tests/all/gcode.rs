@@ -121,10 +121,16 @@ fn a_planted_fault_is_refused_for_its_own_reason() {
         ("G91", with(middle, Some(format!("G91\n{old}"))), "G91"),
         ("inches", with(plunge, Some(format!("G20\n{}", lines[plunge]))), "inch"),
         ("another plane", with(plunge, Some(format!("G18\n{}", lines[plunge]))), "plane"),
+        // To its home the cutter may not leave while it is kept.
+        (
+            "kept on a side to the end",
+            with(middle, Some(format!("G41 D1\n{old}"))),
+            "leaves for a place of the machine while it is kept beside its path",
+        ),
         (
             "kept on a side",
-            with(middle, Some(format!("G41 D1\n{old}"))),
-            "must be on its path|must be on the left|on the left",
+            with(middle, Some(format!("G41 D1\n{old}"))).replace("M9", "G40\nM9"),
+            "must be on its path",
         ),
         ("a hole in the cam", text.replace("M9", "G0 X-30 Y0\nG1 Z-500 F100\nG0 Z5\nM9"), "no pass begins there"),
         ("an end in the middle", with(middle, Some(format!("%\n{old}"))), "ends the program"),
@@ -193,7 +199,9 @@ fn a_program_that_a_control_reads_otherwise_is_refused() {
     for controller in [Controller::Fanuc, Controller::LinuxCnc, Controller::Sinumerik] {
         let text = program(&cam, request(controller, None));
         let word = if controller == Controller::Fanuc { "G41 D01" } else { "G41 D1" };
-        assert!(why(&text.replace(word, "G41"), None).contains("without a number of its radius"), "{controller:?}");
+        // On SINUMERIK D1 of the length holds for the radius as well.
+        let without = text.replace(word, "G41").replace("G0 D1 Z5.0", "G0 Z5.0");
+        assert!(why(&without, None).contains("without a number of its radius"), "{controller:?}");
         for line in ["G68 X0 Y0 R10", "G92 X1 Y0", "G51 X0 Y0 P2", "TRANS X10"] {
             let found = why(&text.replacen("G17", &format!("{line}\nG17"), 1), None);
             assert!(found.contains("not the profile that it says"), "{line}: {found}");
@@ -392,7 +400,7 @@ fn a_spindle_that_does_not_turn_or_a_wrong_depth_sense_or_tolerance_is_refused()
         (text.replace("S3000 M3", "S3000 M4"), "counter-clockwise"),
         (text.replace("S3000 M3", "S0 M3"), "stands"),
         (text.replacen("G1 Z-4.0", "M5\nG1 Z-4.0", 1), "stands"),
-        (text.replace("T3 M6\nS3000 M3", "S3000 M3\nT3 M6"), "stands"),
+        (text.replace("T3 M6\nG54\nS3000 M3", "S3000 M3\nT3 M6\nG54"), "stands"),
         (first, "7.9 mm at once"),
         (text.replacen("F300", "F900", 1), "as fast as cut.feed"),
         (text.replace("F100", "F300"), "as fast as cut.plunge_feed"),
@@ -795,9 +803,11 @@ fn a_move_before_what_it_relies_on_is_refused() {
         swapped.swap(at, at + 1);
         let found = why_refused(&cam, &(swapped.join("\n") + "\n"), cutter);
         assert!(found.contains("before X and Y are known"), "{controller:?}: {found}");
-        let lowered = if controller == Heidenhain { " Z+5.0 R0" } else { " Z5.0 " };
-        let slanted = lines[at].replacen(" R0", lowered, 1);
-        let slanted = if controller == Heidenhain { slanted } else { slanted + lowered };
+        // With the length of the tool, which the move down takes.
+        let slanted = match lines[at + 1].strip_prefix("G0") {
+            Some(lowered) => lines[at].to_owned() + lowered,
+            None => lines[at].replacen(" R0", " Z+5.0 R0", 1),
+        };
         let mut both = lines.clone();
         both[at] = &slanted;
         let found = why_refused(&cam, &(both.join("\n") + "\n"), cutter);
@@ -859,10 +869,14 @@ fn harmless_words_and_a_bare_path_are_taken() {
     // One that loses its bound in the middle is refused.
     let exact = program(&cam, request(Sinumerik, cutter)).replace("G642 CTOL=0.001", "G60");
     assert!(checked(&cam, &exact, cutter).is_ok_and(|found| found.0));
-    for words in ["G64", "G642", "G645", "COMPON"] {
+    for (words, why) in
+        [("G64", "without a bound"), ("G642", "without a bound"), ("G645", "without a bound"), ("COMPON", "not known")]
+    {
         let wrong = with_line(&exact, |line| line.starts_with("G2 "), |line| format!("{words}\n{line}"));
-        assert!(why_refused(&cam, &wrong, cutter).contains("without a bound"), "{words}");
+        assert!(why_refused(&cam, &wrong, cutter).contains(why), "{words}");
     }
+    let compressed = exact.replace("G60\n", "G60\nCOMPON\n");
+    assert!(why_refused(&cam, &compressed, cutter).contains("without a bound"));
     let kept = program(&cam, request(Heidenhain, None)).replacen(" RL F300", " RL F300 M120 LA10", 1);
     assert!(checked(&cam, &kept, None).is_ok_and(|found| found.0 && found.2.contains("M120")));
     let bare = self::cam("feeder", &["cut.depth=8mm"]);
@@ -872,9 +886,12 @@ fn harmless_words_and_a_bare_path_are_taken() {
     let end = text.find("M9").expect("a tail");
     let alone = format!("G17 G21 G40 G90 G91.1 G94\nG0 Z5.0\n{start}\n{}M30\n", &text[path..end]);
     let found = checked(&bare, &alone, cutter).expect("a program");
-    assert!(found.0 && found.2.contains("not stated, as set before the program: tool length, datum"), "{found:?}");
-    let across = alone.replace("G0 Z5.0\nG0 X", "G0 X");
+    assert!(found.0 && found.2.contains("not stated, as set before the program: datum, tool length"), "{found:?}");
+    let across = alone.replacen(&format!("G0 Z5.0\n{start}\n"), &format!("{start}\nG0 Z5.0\n"), 1);
+    assert_ne!(across, alone);
     assert!(why_refused(&bare, &across, cutter).contains("at a height that is not known"));
+    let never = alone.replacen("G0 Z5.0\n", "", 1);
+    assert!(why_refused(&bare, &never, cutter).contains("place that is not known"));
 }
 
 /// A path of lines alone is that of a cutter's centre where the control does not keep its cutter beside it.

@@ -80,9 +80,10 @@ fn every_line_is_judged(design: &str, make: &[&str], check: &[&str]) -> usize {
 fn an_altered_line_of_a_head_is_refused() {
     let servo = "servo-csv,servo-xyva,servo-twincat,servo-isg";
     let all = format!("points,gauge,inspect,{servo}");
-    assert!(every_line_is_judged("feeder", &["--format", &all], &[]) > 80);
-    assert!(every_line_is_judged("lever", &["--format", servo], &[]) > 30);
-    assert!(every_line_is_judged("wedge", &["--format", "points"], &[]) > 20);
+    // One or two alterations of each line that states something.
+    assert!(every_line_is_judged("feeder", &["--format", &all], &[]) >= 60);
+    assert!(every_line_is_judged("lever", &["--format", servo], &[]) >= 28);
+    assert!(every_line_is_judged("wedge", &["--format", "points"], &[]) >= 18);
 }
 
 #[test]
@@ -115,7 +116,34 @@ fn other_lines_of_a_head_are_remarks() {
         {
             std::fs::write(run.directory.path().join(name), other).expect("written");
             run = camgen_in(run.directory, &[&["check", name, "feeder"], more].concat());
-            assert_eq!(run.code, 0, "{name} {more:?}: {}{}", run.out, run.err);
+            // The rows of a list of places have the zone of the tolerance that it was made for.
+            if name == "cam-inspect.csv" && !more.is_empty() {
+                assert!(run.code == 1 && run.out.contains("the zone is not ±0.01 mm"), "{}{}", run.out, run.err);
+            } else {
+                assert_eq!(run.code, 0, "{name} {more:?}: {}{}", run.out, run.err);
+            }
+        }
+    }
+}
+
+/// Plain lines of places state their unit, in whatever word, or nothing.
+#[test]
+fn plain_lines_of_places_may_state_their_unit() {
+    for (units, own, others, wrong) in [
+        ("mm", "", &["", "# units: millimetres, degrees\n", "# measured by Bob: twice\n"][..], "# units: inch\n"),
+        ("inch", "# units: inches\n", &["# units: inches\n# units: inch\n"], "# units: inches\n# units: mm\n"),
+    ] {
+        let directory = tempfile::tempdir().expect("a directory");
+        let words = ["make", "feeder", "--name", "cam", "--out", ".", "--format", "inspect", "--units", units];
+        let mut run = camgen_in(directory, &words);
+        assert_eq!(run.code, 0, "{}", run.err);
+        let path = run.directory.path().join("cam-inspect.txt");
+        let text = std::fs::read_to_string(&path).expect("a file");
+        let rows = text.strip_prefix(own).expect("its unit").to_owned();
+        for (head, code) in others.iter().map(|head| (*head, 0)).chain([(own, 0), (wrong, 1)]) {
+            std::fs::write(&path, format!("{head}{rows}")).expect("written");
+            run = camgen_in(run.directory, &["check", "cam-inspect.txt", "feeder"]);
+            assert_eq!(run.code, code, "{head}: {}{}", run.out, run.err);
         }
     }
 }

@@ -14,12 +14,16 @@ fn import(content: &[u8], args: &[&str]) -> Run {
     camgen_in(directory, &[&["import", "old.csv"], args].concat())
 }
 
+/// A lift of 20 mm by a cycloid, at a share of the rise, or behind it at one of what is left of the return.
+fn cycloid(up: f64, left: f64) -> f64 {
+    let share = if up < 1.0 { up } else { left.clamp(0.0, 1.0) };
+    20.0 * (share - (TAU * share).sin() / TAU)
+}
+
 /// A lift of 20 mm up by a cycloid, a dwell, down, a dwell.
 fn lift(degree: u32) -> f64 {
-    let cycloid = |x: f64| x - (TAU * x).sin() / TAU;
     let degree = f64::from(degree % 360);
-    let share = if degree < 120.0 { degree / 120.0 } else { ((280.0 - degree) / 120.0).clamp(0.0, 1.0) };
-    20.0 * cycloid(share)
+    cycloid(degree / 120.0, (280.0 - degree) / 120.0)
 }
 
 fn table(head: &str, row: impl Fn(u32) -> String) -> String {
@@ -373,38 +377,53 @@ fn the_design_states_by_how_much_it_was_turned() {
     assert_eq!(number(&report(&import(plane.as_bytes(), &keyed))["import"]["turn_deg"]), 0.0);
 }
 
-/// Points of the mirror image and in another unit are no measurement of this cam.
+/// A head with what becomes of the points.
+type Placed<'a> = (&'a str, &'a dyn Fn(f64, f64) -> (f64, f64));
+
+/// Points of the mirror image and in another unit are no measurement of this cam; those that are turned are one.
 #[test]
 fn compare_refuses_points_in_another_frame() {
-    let directory = tempfile::tempdir().expect("a directory");
-    let place = |head: &str, of: &dyn Fn(f64, f64) -> (f64, f64)| {
+    // The mirror image of an even cam is the same cam, turned; of one that rises faster than it falls it is another.
+    let even: Lift = |degree| 45.0 + cycloid(degree / 120.0, (280.0 - degree) / 120.0);
+    let uneven: Lift = |degree| 45.0 + cycloid(degree / 90.0, (280.0 - degree) / 150.0);
+    let place = |radius: Lift, head: &str, of: &dyn Fn(f64, f64) -> (f64, f64)| {
         let row = |degree: u32| {
-            let angle = f64::from(degree).to_radians();
-            let radius = 45.0 + lift(degree);
-            let (x, y) = of(radius * angle.cos(), radius * angle.sin());
+            let degree = f64::from(degree);
+            let (sin, cos) = degree.to_radians().sin_cos();
+            let (x, y) = of(radius(degree) * cos, radius(degree) * sin);
             format!("{x},{y}\n")
         };
         std::iter::once(head.to_owned()).chain((0..360).map(row)).collect::<String>()
     };
-    let design = import(
-        place("x,y\n", &|x, y| (x, y)).as_bytes(),
-        &["--follower", "knife", "--fit", "none", "--json", "--dry-run"],
-    );
-    let design = report(&design)["import"]["design"].as_str().expect("a design").to_owned();
-    std::fs::write(directory.path().join("cam.toml"), design).expect("written");
-    let compared = |text: String| {
-        let own = tempfile::tempdir().expect("a directory");
-        std::fs::write(own.path().join("points.csv"), text).expect("written");
-        std::fs::copy(directory.path().join("cam.toml"), own.path().join("cam.toml")).expect("copied");
-        camgen_in(own, &["compare", "points.csv", "cam.toml", "--dry-run"])
+    let design = |radius: Lift| {
+        let as_is = place(radius, "x,y\n", &|x, y| (x, y));
+        let run = import(as_is.as_bytes(), &["--follower", "knife", "--fit", "none", "--json", "--dry-run"]);
+        (radius, report(&run)["import"]["design"].as_str().expect("a design").to_owned())
     };
-    assert_eq!(compared(place("x,y\n", &|x, y| (x, y))).code, 0);
-    for (text, part) in [
-        (place("x,y\n", &|x, y| (x, -y)), "the mirror image of this cam"),
-        (place("x,y\n", &|x, y| (x / 25.4, y / 25.4)), "this cam in inches"),
-        (place("x_in,y_in\n", &|x, y| (x, y)), "in millimetres, read as inches"),
-    ] {
-        let run = compared(text);
-        assert!(run.code == 2 && run.err.contains(part), "{part}: {}{}", run.out, run.err);
+    let (even, uneven) = (design(even), design(uneven));
+    let compared = |(radius, design): &(Lift, String), (head, of): Placed<'_>, fit: &str| {
+        let directory = tempfile::tempdir().expect("a directory");
+        fs::write(directory.path().join("cam.toml"), design).expect("written");
+        fs::write(directory.path().join("points.csv"), place(*radius, head, of)).expect("written");
+        camgen_in(directory, &["compare", "points.csv", "cam.toml", "--dry-run", "--fit", fit])
+    };
+    let (sin, cos) = 0.1_f64.sin_cos();
+    let turned = |x: f64, y: f64| (cos * x - sin * y, sin * x + cos * y);
+    let mirrored = |x: f64, y: f64| (x, -y);
+    let placed: [(&(Lift, String), Placed<'_>, &str); 7] = [
+        (&uneven, ("x,y\n", &|x, y| (x, y)), ""),
+        (&uneven, ("x,y\n", &turned), ""),
+        (&even, ("x,y\n", &turned), ""),
+        (&even, ("x,y\n", &mirrored), ""),
+        (&uneven, ("x,y\n", &mirrored), "the mirror image of this cam"),
+        (&uneven, ("x,y\n", &|x, y| (x / 25.4, y / 25.4)), "this cam in inches"),
+        (&uneven, ("x_in,y_in\n", &|x, y| (x, y)), "in millimetres, read as inches"),
+    ];
+    for fit in ["angle", "none", "centre"] {
+        for (of, points, part) in &placed {
+            let run = compared(of, *points, fit);
+            let code = if part.is_empty() { 0 } else { 2 };
+            assert!(run.code == code && run.err.contains(part), "{fit} {part}: {}{}", run.out, run.err);
+        }
     }
 }

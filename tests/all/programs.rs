@@ -306,8 +306,11 @@ fn a_heading_is_read_or_refused() {
         ("angle (deg),lift in furlongs", "", "names \"furlongs\""),
         ("angle (deg),lift (dm)", "", "in dm"),
         ("angle (deg),lift (feet)", "", "in ft"),
-        ("angle deg,lift 1/100 mm", "", "has a factor beside the unit"),
-        ("angle deg,lift mm x 100", "\nunit = \"mm\"", "has a factor beside the unit"),
+        ("angle deg,lift 1/100 mm", "", "has a factor, \"lift 1/100 mm\""),
+        ("angle deg,lift mm x 100", "\nunit = \"mm\"", "has a factor, \"lift mm x 100\""),
+        ("angle deg,lift .001in", "", "has a factor, \"lift .001in\""),
+        ("angle deg;lift x 0,01", "", "has a factor, \"lift x 0,01\""),
+        ("angle deg,lift counts", "", "says \"counts\", whose size is not known"),
         ("angle,velocity", "", "no position by its heading: velocity"),
     ] {
         let run = made(heading, keys, "10");

@@ -538,7 +538,8 @@ fn a_wrong_row_fails_with_its_number_and_line() {
 #[test]
 fn at_moves_rows_and_points() {
     let position = |keys: &str, rows: &str| {
-        let report = made(&run(&design(keys), ("lift.csv", rows)));
+        // Four rows of an uneven motion overshoot, which fails and is not asked here.
+        let report = report(&run(&design(keys), ("lift.csv", rows)));
         number(&report["motion"]["segments"][0]["from_deg"])
     };
     let rows = "30,0\n90,5\n180,8\n270,5\n";

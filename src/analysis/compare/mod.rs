@@ -199,10 +199,15 @@ fn refuse_other_frame(exact: &ExactProfile<'_>, points: &[Vector2<f64>], moved: 
     if found <= OFF {
         return Ok(());
     }
+    // Points that are only turned, where no angle is fitted: of a cam that is its own mirror image they are in no other frame.
+    let turned = rms(exact, &looked, &exact.fitted(&looked, ComparisonFit::Angle)).min(found);
+    if turned <= OFF {
+        return Ok(());
+    }
     for frame in &OTHER_FRAMES {
         let other: Vec<Vector2<f64>> = looked.iter().map(|point| point.component_mul(&frame.by)).collect();
         let best = rms(exact, &other, &exact.fitted(&other, ComparisonFit::Angle));
-        if best < BETTER * found {
+        if best < BETTER * turned {
             let what = format!(
                 "the points are {}: they are {} mm rms off it, and {} mm as they are read",
                 frame.what,

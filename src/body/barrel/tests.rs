@@ -119,7 +119,12 @@ fn pressure_and_life_are_those_of_the_formulas() {
     // Of the clearance, 1.5 µm a side of 10 mm, the pressure takes the roller.
     let curvature = sharpest - side.abs().recip() + barrel.roller.recip();
     let modulus = 210e9 / (2.0 * (1.0 - 0.3 * 0.3));
-    let due = (row.contact.expect("in touch") * modulus * curvature / (std::f64::consts::PI * 0.011)).sqrt();
+    // The line of contact is beside the roller's axis by the sine of the pressure angle, and leaves the cylinder there.
+    let lift = barrel.motion.jet(at.0, at.1);
+    let beside = |v: f64| side * libm::sin(barrel.path.pressure_angle(&lift, v));
+    let leaves = (0..50).fold(outer, |v, _| (barrel.outer.powi(2) - beside(v).powi(2)).sqrt());
+    let length = leaves - inner;
+    let due = (row.contact.expect("in touch") * modulus * curvature / (std::f64::consts::PI * length)).sqrt();
     assert!((stress.value / due - 1.0).abs() < 1e-9, "{stress:?} {due}");
     // Mean over the turns of the roller; the midpoint rule has kinks at the changes of flank.
     let (count, exponent) = (40_000, 10.0 / 3.0);

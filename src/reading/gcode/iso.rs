@@ -1,9 +1,9 @@
 //! Programs in words of a letter and a number: LinuxCNC, FANUC, SINUMERIK.
 
 use super::dialect::{behind_its_start, dialect, in_common_words, is_nothing, moves_the_profile};
-use super::machine_state::{MachineState, at_line};
+use super::machine_state::MachineState;
 use super::modal::{ModalWords, Situation, are_known, dwells, is_harmless, leaves, passed_over};
-use super::words::{Word, counted, of, without_comments, words};
+use super::words::{Word, at_line, counted, of, without_comments, words};
 use super::{CutterProgram, CutterSide, MoveKind, NO_MOVE, RADII};
 use crate::machine::Controller;
 use crate::refusal::Refusal;

@@ -2,8 +2,8 @@
 
 use super::cutting_state::{Spindle, ToolLength, whole};
 use super::dialect::{does_unseen_in_a_dialogue, moves_the_profile_of_a_dialogue};
-use super::machine_state::{MachineState, at_line};
-use super::words::unquoted;
+use super::machine_state::MachineState;
+use super::words::{at_line, unquoted};
 use super::{CutterProgram, CutterSide, MoveKind};
 use crate::machine::Controller;
 use crate::refusal::Refusal;

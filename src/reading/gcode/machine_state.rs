@@ -3,6 +3,7 @@
 use super::cutting_state::{CuttingFeed, CuttingState, Spindle};
 use super::path_mode::PathMode;
 use super::readiness::{PartMove, Readiness};
+use super::words::at_line;
 use super::{CutterMove, CutterProgram, CutterSide, FASTEST, MOST_MOVES, MoveKind, NO_MOVE, RADII};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
@@ -34,11 +35,6 @@ pub(super) struct MachineState {
     /// Whether the control may leave out parts of the profile.
     pub(super) leaves_out: bool,
     program: CutterProgram,
-}
-
-/// A refusal at a line.
-pub(super) fn at_line(line: usize, what: impl Into<String>) -> Refusal {
-    Refusal::new(what).at(format!("line {line}"))
 }
 
 impl MachineState {

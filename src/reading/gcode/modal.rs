@@ -4,9 +4,8 @@
 use super::CutterSide;
 use super::cutting_state::{CuttingState, Spindle, whole};
 use super::dialect::has_word;
-use super::machine_state::at_line;
 use super::tool_length::{LengthWords, ToolChange, of_another_kind};
-use super::words::{NAMED_TOOL, REFERENCE, Word, of, unquoted};
+use super::words::{NAMED_TOOL, REFERENCE, Word, at_line, of, unquoted};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
 use crate::units::LengthUnit;

@@ -1,8 +1,7 @@
 //! Which length of the tool the control takes into account: by G43 and H, on SINUMERIK by D.
 
 use super::cutting_state::{ToolLength, whole};
-use super::machine_state::at_line;
-use super::words::{Word, of};
+use super::words::{Word, at_line, of};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
 

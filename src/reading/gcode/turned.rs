@@ -3,11 +3,10 @@
 
 use super::cutting_state::CuttingFeed;
 use super::dialect::{dialect, in_common_words, is_nothing, moves_the_profile};
-use super::machine_state::at_line;
 use super::modal::{ModalWords, Situation, are_known, dwells, leaves, passed_over};
 use super::path_mode::PathMode;
 use super::readiness::{PartMove, Readiness};
-use super::words::{Word, counted, of, without_comments, words};
+use super::words::{Word, at_line, counted, of, without_comments, words};
 use super::{CutterProgram, FASTEST};
 use crate::machine::Controller;
 use crate::refusal::Refusal;

@@ -1,6 +1,5 @@
 //! The words of a block: letters with their numbers.
 
-use super::machine_state::at_line;
 use crate::machine::Controller;
 use crate::refusal::Refusal;
 use crate::units::LengthUnit;
@@ -15,6 +14,11 @@ fn increment(units: LengthUnit) -> f64 {
         LengthUnit::Millimetre => 1e-3,
         LengthUnit::Inch => 1e-4,
     }
+}
+
+/// A refusal at a line.
+pub(super) fn at_line(line: usize, what: impl Into<String>) -> Refusal {
+    Refusal::new(what).at(format!("line {line}"))
 }
 
 /// G28, G30 and G53: to a reference point, or to a place of the machine.

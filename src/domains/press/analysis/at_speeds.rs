@@ -2,8 +2,13 @@
 
 use crate::analysis::PLACES;
 use crate::check::Measure;
+use crate::domains::press::buffer::bottom_law::column_for;
 use crate::domains::press::buffer::crank_law::CrankLaw;
+use crate::domains::press::buffer::regime::Reset;
 use crate::domains::press::checks::added_volume;
+use crate::domains::press::scatter::fault::FrozenBuffer;
+use crate::domains::press::scatter::reset::ScrewRule;
+use crate::domains::press::scatter::settings::FixedBottom;
 use crate::geometry::MILLIMETRES;
 use crate::report::plot::{PlotCurve, PlotPanel};
 use crate::report::shown;
@@ -11,6 +16,35 @@ use crate::table::ListedColumn;
 
 /// A volume of less than this share of the cylinders' is rounding.
 const NO_VOLUME: f64 = 1e-12;
+
+/// A fixed bottom with its own reset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct FixedSetting {
+    /// Column, m.
+    pub(super) column: f64,
+    /// Largest residual force, N.
+    pub(super) residual: f64,
+}
+
+/// A fixed bottom set by a rule of `camgen regimes` for the loading A of a speed.
+pub(super) fn left_by_reset(frozen: &FrozenBuffer, reset: Reset) -> FixedSetting {
+    let column = column_by(frozen, reset);
+    FixedSetting { column, residual: FixedBottom::new(frozen).left(column, 1.0) }
+}
+
+/// Column of a fixed bottom by a rule, m, for the loading A of a speed: `half` and `level` are those of `camgen regimes`.
+pub(super) fn column_by(frozen: &FrozenBuffer, reset: Reset) -> f64 {
+    let fixed = FixedBottom::new(frozen);
+    match reset {
+        Reset::End => fixed.column(1.0, ScrewRule::End),
+        Reset::Half => {
+            let worst = fixed.left(fixed.column(1.0, ScrewRule::End), 1.0) / frozen.unit_force;
+            // The air of `end` is too weak in the middle: half of that is put on at its end.
+            column_for(frozen.path.stroke(), frozen.end_load() + 0.5 * worst, frozen.exponent)
+        }
+        Reset::Level => fixed.column(1.0, ScrewRule::Level),
+    }
+}
 
 /// The forces at a place of the reversal and a speed.
 pub(super) struct ForcePlace {

@@ -1,20 +1,19 @@
 //! Buffers without a cam, sized alone: a fixed bottom at the design speed and at others, and what the end pressure chooses. Equations (3) to (9), figures
 //! 4 and 9.
 
-use super::at_speeds::{CURVES, ColumnReset, CurveAxis, ForcePlace, force_panels, unsigned_zero, volume};
+use super::at_speeds::{CURVES, ColumnReset, CurveAxis, ForcePlace, column_by, force_panels, unsigned_zero, volume};
 use super::regimes::KIND;
 use super::trial_bottoms::{self, TrialRow};
 use crate::analysis::{Analysis, Listing, Picture, places};
 use crate::document::{Input, NamedChoice};
-use crate::domains::press::buffer::bottom_law::{BottomLaw, ColumnRule, column_for};
+use crate::domains::press::buffer::bottom_law::{BottomLaw, ColumnRule};
 use crate::domains::press::buffer::regime::Reset;
 use crate::domains::press::buffer::{Cylinder, PlainBuffer};
 use crate::domains::press::checks::column;
 use crate::domains::press::machine::{Press, only_under_a_yoke};
 use crate::domains::press::report::CylinderMeasures;
 use crate::domains::press::scatter::fault::FrozenBuffer;
-use crate::domains::press::scatter::reset::ScrewRule;
-use crate::domains::press::scatter::settings::{FixedBottom, extremes_of_fixed};
+use crate::domains::press::scatter::settings::extremes_of_fixed;
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::refusal::{Refusal, WorkBound};
@@ -221,35 +220,6 @@ fn notes(machine: &Machine) -> Vec<String> {
     // The plate is that of figure 9.
     let idle = machine.idle_key_notes(KIND.keys, KIND.noun).into_iter().filter(|note| !note.contains("`translating."));
     idle.chain(of_cam).collect()
-}
-
-/// A fixed bottom with its own reset.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct FixedSetting {
-    /// Column, m.
-    pub(super) column: f64,
-    /// Largest residual force, N.
-    pub(super) residual: f64,
-}
-
-/// A fixed bottom set by a rule of `camgen regimes` for the loading A of a speed.
-pub(super) fn left_by_reset(frozen: &FrozenBuffer, reset: Reset) -> FixedSetting {
-    let column = column_by(frozen, reset);
-    FixedSetting { column, residual: FixedBottom::new(frozen).left(column, 1.0) }
-}
-
-/// Column of a fixed bottom by a rule, m, for the loading A of a speed: `half` and `level` are those of `camgen regimes`.
-fn column_by(frozen: &FrozenBuffer, reset: Reset) -> f64 {
-    let fixed = FixedBottom::new(frozen);
-    match reset {
-        Reset::End => fixed.column(1.0, ScrewRule::End),
-        Reset::Half => {
-            let worst = fixed.left(fixed.column(1.0, ScrewRule::End), 1.0) / frozen.unit_force;
-            // The air of `end` is too weak in the middle: half of that is put on at its end.
-            column_for(frozen.path.stroke(), frozen.end_load() + 0.5 * worst, frozen.exponent)
-        }
-        Reset::Level => fixed.column(1.0, ScrewRule::Level),
-    }
 }
 
 /// The buffer at a speed, without its column.

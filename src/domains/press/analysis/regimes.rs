@@ -1,7 +1,8 @@
 //! One cam at other speeds: the column is reset, or air is added, and a residual force is left. Equations (14) and (15), figure 5.
 
-use super::at_speeds::{ColumnReset, CurveAxis, ForcePlace, force_panels, unsigned_zero, volume};
-use super::plain::{self, FixedSetting};
+use super::at_speeds::{
+    ColumnReset, CurveAxis, FixedSetting, ForcePlace, force_panels, left_by_reset, unsigned_zero, volume,
+};
 use crate::analysis::{Analysis, Picture, places};
 use crate::body::Kind;
 use crate::document::{Input, NamedChoice};
@@ -120,7 +121,7 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
     let rows: Vec<SpeedRow> = all
         .iter()
         .map(|(rpm, regime)| {
-            let fixed = plain::left_by_reset(&FrozenBuffer::of_law(&press.bottom_law(*rpm), &cylinder), reset);
+            let fixed = left_by_reset(&FrozenBuffer::of_law(&press.bottom_law(*rpm), &cylinder), reset);
             at_speed((press, &design), *rpm, (regime, fixed), lobes)
         })
         .collect();

@@ -129,7 +129,7 @@ fn possible(quantity: Quantity, positions: &[f64]) -> Result<(), Refusal> {
     let (reach, unit) = if quantity == Quantity::Angle { (LARGEST_SWING, "rad") } else { (LONGEST, "m") };
     let size = positions.iter().fold(0.0_f64, |most, position| most.max(position.abs()));
     if size > reach {
-        let message = format!("the position reaches {size:.6e} {unit}; the largest possible is {reach:.6e} {unit}");
+        let message = format!("the position must be at most {reach:.6e} {unit}, and reaches {size:.6e} {unit}");
         return Err(Refusal::new(message).remedy("give positions in metres, or radians of a swing"));
     }
     let first = positions.first().copied().unwrap_or(0.0);
