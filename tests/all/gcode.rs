@@ -99,6 +99,8 @@ fn a_planted_fault_is_refused_for_its_own_reason() {
     let arcs: Vec<usize> =
         (0..lines.len()).filter(|at| lines[*at].starts_with("G2 ") || lines[*at].starts_with("G3 ")).collect();
     let middle = arcs[arcs.len() / 2];
+    // Where less than half of the moves follow: a program that keeps its cutter for more is one of the profile.
+    let late = arcs[3 * arcs.len() / 4];
     let with = |at: usize, line: Option<String>| {
         let kept = lines
             .iter()
@@ -129,7 +131,7 @@ fn a_planted_fault_is_refused_for_its_own_reason() {
         ),
         (
             "kept on a side",
-            with(middle, Some(format!("G41 D1\n{old}"))).replace("M9", "G40\nM9"),
+            with(late, Some(format!("G41 D1\n{}", lines[late]))).replace("M9", "G40\nM9"),
             "must be on its path",
         ),
         ("a hole in the cam", text.replace("M9", "G0 X-30 Y0\nG1 Z-500 F100\nG0 Z5\nM9"), "no pass begins there"),
