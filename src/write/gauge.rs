@@ -23,13 +23,21 @@ pub const FORMAT: Format = Format {
     of_analysis: None,
 };
 
+/// Statements as lines of a head, each behind the mark of a comment.
+pub(super) fn lines(mark: &str, statements: &[String]) -> String {
+    let mut head = String::new();
+    for statement in statements {
+        head.extend([mark, " ", statement, "\n"]);
+    }
+    head
+}
+
 /// A table under a mark.
 #[must_use]
 pub fn write(body: &dyn Body, table: &GaugeTable, mark: &str) -> Vec<u8> {
     let units = body.machine().units();
     let columns = COLUMNS.iter().find(|(_, of)| *of == units).map_or("", |(columns, _)| columns);
-    let statements: String =
-        statements(body, table.gauge, units).iter().map(|statement| format!("# {statement}\n")).collect();
+    let statements = lines("#", &statements(body, table.gauge, units));
     let mut text = format!("# {mark}\n{statements}{columns}\n");
     let lowest = table.rows.iter().map(|row| row[1]).fold(f64::INFINITY, f64::min);
     for [cam_deg, distance] in &table.rows {

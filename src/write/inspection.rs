@@ -1,6 +1,7 @@
 //! Lists of places for a measuring machine: a CSV file, the same places as plain lines of numbers and as a DMIS program (ISO 22093), which
 //! measuring programs import, and a sheet on which they are numbered.
 
+use super::gauge::lines;
 use super::number::{plain, shortest};
 use super::{Format, FormatSelection, Rendering, of_outlines, svg};
 use crate::body::Body;
@@ -51,13 +52,12 @@ pub fn write(body: &dyn Body, list: &InspectionList, mark: &str) -> Vec<Vec<u8>>
         LengthUnit::Millimetre => ("MM", DECIMALS),
         LengthUnit::Inch => ("INCH", DECIMALS + 2),
     };
-    let lines = |mark: &str, all: Vec<String>| all.iter().map(|line| format!("{mark} {line}\n")).collect::<String>();
-    let head = lines("#", statements(body, units, units.of_mm(list.ball_radius)));
+    let head = lines("#", &statements(body, units, units.of_mm(list.ball_radius)));
     let mut table = format!(
         "# {mark}\n{head}no,cam_deg,polar_deg,radius_{unit},x_{unit},y_{unit},normal_x,normal_y,ball_x_{unit},ball_y_{unit},lower_{unit},upper_{unit},\
          curvature_radius_{unit}\n"
     );
-    let head = lines("$$", program_statements(body));
+    let head = lines("$$", &program_statements(body));
     let mut program = format!("DMISMN/'{mark}',05.2\n{head}UNITS/{dmis},ANGDEC\n");
     // Numbers alone do not say what they are: lines in millimetres have no head, those in inches state them.
     let mut lines = if units == LengthUnit::Inch { read::PLAIN_INCHES.to_owned() + "\n" } else { String::new() };

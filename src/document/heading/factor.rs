@@ -142,9 +142,8 @@ fn number_length(rest: &[char]) -> usize {
     while let Some(letter) = rest.get(at) {
         let goes_on = match letter {
             c if c.is_ascii_digit() => true,
-            '.' | ',' => digit(at + 1),
+            '.' | ',' | '-' | '+' => digit(at + 1),
             'e' | '^' => digit(at + 1) || (matches!(rest.get(at + 1), Some('-' | '+')) && digit(at + 2)),
-            '-' | '+' => digit(at + 1),
             _ => false,
         };
         if !goes_on {

@@ -65,7 +65,7 @@ impl MachineState {
         let (early, sets_up) = self.readiness.found();
         let (path_tolerances, leaves_out) = (self.path_mode.used(), self.leaves_out);
         let side_at_end = self.side;
-        Ok(CutterProgram { side_at_end, control, early, sets_up, path_tolerances, leaves_out, ..self.program })
+        Ok(CutterProgram { side_at_end, control, path_tolerances, early, sets_up, leaves_out, ..self.program })
     }
 
     /// Whether the height is known in the coordinates of the part.

@@ -125,7 +125,7 @@ impl Readiness {
         self.length = taken.unwrap_or(self.length && !ends);
         self.sets_up |= taken == Some(true);
         let turns = words.contains(&('M', 3.0)) || words.contains(&('M', 4.0));
-        self.spindle = (self.spindle || turns) && !(words.contains(&('M', 5.0)) && !turns);
+        self.spindle = turns || (self.spindle && !words.contains(&('M', 5.0)));
     }
 
     fn code(&mut self, code: f64) {

@@ -138,10 +138,10 @@ struct Stationed {
 const ROUNDING: f64 = 1e-9;
 
 impl Stationed {
-    fn new(buffer: FrozenBuffer, is_cam: bool, friction: f64) -> Self {
+    fn new(buffer: &FrozenBuffer, is_cam: bool, friction: f64) -> Self {
         let at = if is_cam { buffer.stations_of_cam() } else { buffer.stations_of_fixed_bottom() };
         let phase = at.iter().map(|station| station.phase.abs()).fold(0.0, f64::max) * buffer.unit_force;
-        Self { buffer, at, phase, friction, is_cam }
+        Self { buffer: *buffer, at, phase, friction, is_cam }
     }
 
     /// The press after a reset whose screw is off by so much, m.
@@ -185,8 +185,8 @@ struct Rivals<'a> {
 
 impl<'a> Rivals<'a> {
     fn new(cam: &FrozenBuffer, sampling: &'a Sampling, friction: f64) -> Self {
-        let fixed = Stationed::new(cam.with_fixed_bottom(), false, friction);
-        Self { cam: Stationed::new(*cam, true, friction), fixed, sampling }
+        let fixed = Stationed::new(&cam.with_fixed_bottom(), false, friction);
+        Self { cam: Stationed::new(cam, true, friction), fixed, sampling }
     }
 
     /// The press of a sample with the cam as built, with the cam after its reset, and with the fixed bottom after its own.

@@ -244,11 +244,12 @@ fn unit_of_heading(
                 UnclearHeading::Counts(_) if what == "positions" => {
                     "set scale, the travel of one of them, with unit = \"mm\": scale = 0.001 of 1000 counts per millimetre"
                 }
-                UnclearHeading::Counts(_) => "write the angles in degrees, and correct the heading",
                 UnclearHeading::Factor(_) if what == "positions" => {
                     "scale says what they are multiplied with, with unit = \"mm\", e.g. scale = 0.01 for hundredths of a millimetre; or correct the heading"
                 }
-                UnclearHeading::Factor(_) => "write the angles in degrees, and correct the heading",
+                UnclearHeading::Counts(_) | UnclearHeading::Factor(_) => {
+                    "write the angles in degrees, and correct the heading"
+                }
             };
             table.fail(&TABLE, format!("the heading \"{heading}\" of the {what} {why}"), Some(help.into()));
             Err(())
