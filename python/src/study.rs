@@ -27,7 +27,8 @@ pub(crate) fn write_shard(
 ) -> PyResult<()> {
     let folder = crate::options::path("folder", folder)?;
     let output = Output { name, bytes: data.to_vec() };
-    let written = py.detach(|| if alone { write_all(&folder, &[output]) } else { write_beside_others(&folder, &output) });
+    let written =
+        py.detach(|| if alone { write_all(&folder, &[output]) } else { write_beside_others(&folder, &output) });
     written.map_err(|error| told("FilesError", error))
 }
 

@@ -147,11 +147,12 @@ mod tests {
         }
     }
 
+    type Change = fn(Jet) -> Jet;
+
     #[test]
     fn a_motion_that_contradicts_itself_is_refused() {
         assert_eq!(check(&Changed(|jet| jet)), Ok(()));
         assert_eq!(check(&EccentricCircle::new(0.01, 0.05)), Ok(()));
-        type Change = fn(Jet) -> Jet;
         let changes: [(Change, &str); 6] = [
             (|jet| Jet { s: jet.s + 0.002, ..jet }, "lowest"),
             (|jet| Jet { s: jet.s - 0.002, ..jet }, "lowest"),

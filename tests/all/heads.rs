@@ -21,9 +21,10 @@ fn altered(text: &str) -> Vec<String> {
 /// The lines of a head with where their statement begins, but for the mark of camgen and the settings of a drive.
 fn head(name: &str, text: &str) -> Vec<(usize, usize)> {
     let lines = text.lines().enumerate();
-    let begins = |line: &str| match name {
-        _ if name.ends_with(".st") => line.starts_with("   ").then_some(3),
-        _ if name.ends_with(".dmi") => line.strip_prefix("$$ ").map(|_| 3),
+    let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
+    let begins = |line: &str| match ending {
+        "st" => line.starts_with("   ").then_some(3),
+        "dmi" => line.strip_prefix("$$ ").map(|_| 3),
         _ if name.ends_with("-isg.txt") => line.find("# ").map(|at| at + 2),
         _ => line.strip_prefix("# ").map(|_| 2),
     };
@@ -106,11 +107,8 @@ fn other_lines_of_a_head_are_remarks() {
         let path = run.directory.path().join(name);
         let text = std::fs::read_to_string(&path).expect("a file");
         let needed = |line: &&str| ["gauge_follower", "interpolation", "closed"].iter().any(|word| line.contains(word));
-        let bare: String = text
-            .lines()
-            .filter(|line| !line.starts_with('#') || needed(line))
-            .map(|line| format!("{line}\n"))
-            .collect();
+        let bare: Vec<&str> = text.lines().filter(|line| !line.starts_with('#') || needed(line)).collect();
+        let bare = bare.join("\n") + "\n";
         for (other, more) in
             [(format!("# measured by Bob: twice\n{text}"), &[][..]), (bare, &[]), (text, &["--tolerance", "10um"])]
         {

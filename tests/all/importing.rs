@@ -294,7 +294,8 @@ fn the_lift_on_an_outline_is_exact() {
 /// Positions that turn back more often than a cam does.
 #[test]
 fn no_law_is_looked_for_in_noise() {
-    let noisy = |degree: u32| format!("{degree},{:.4}", lift(degree) + if degree % 2 == 0 { 0.1 } else { -0.1 });
+    let noisy =
+        |degree: u32| format!("{degree},{:.4}", lift(degree) + if degree.is_multiple_of(2) { 0.1 } else { -0.1 });
     let rows = table("deg,mm", noisy);
     let words =
         |more: &[&'static str]| [&ROLLER[..], &["--from", "table", "--deviation", "0.1um", "--dry-run"], more].concat();
