@@ -323,7 +323,8 @@ def main():
         sizes = [max(8, int(words.sizes * times * size)) for times in (1, 2, 4)]
         times, grows, codes = growth(sizes, prepared, words.directory, empty)
         total += 1
-        is_judged = times[2] >= JUDGED
+        # A size that is refused before it is read has no time to compare.
+        is_judged = times[2] >= JUDGED and (codes[0] == codes[2] or 2 not in (codes[0], codes[2]))
         judged += is_judged
         bad = (is_judged and grows > MOST_GROWTH) or not set(codes) <= {0, 1, 2}
         if is_judged:
