@@ -72,7 +72,8 @@ impl Program {
     /// let angles: Vec<f64> = (0..90).map(|row| f64::from(row).to_radians() * 4.0).collect();
     /// let lifts: Vec<f64> = angles.iter().map(|angle| 0.010 * (1.0 - angle.cos())).collect();
     /// let program = Program::through(Quantity::Length, (&angles, &lifts), SampleCurve::default())?;
-    /// assert!((program.jet(0, 1.0).s - 0.010 * (1.0 - 1.0_f64.cos())).abs() < 1e-9);
+    /// let piece = program.pieces().iter().position(|piece| piece.start <= 1.0 && 1.0 <= piece.end).expect("the rows cover the turn");
+    /// assert!((program.jet(piece, 1.0).s - 0.010 * (1.0 - 1.0_f64.cos())).abs() < 1e-9);
     /// // The same samples without the last third are a part of a turn.
     /// assert!(Program::through(Quantity::Length, (&angles[..60], &lifts[..60]), SampleCurve::default()).is_err());
     /// # Ok::<(), camgen::Refusal>(())
