@@ -3,8 +3,7 @@
 mod report;
 
 use super::{Analysis, Picture};
-use crate::body::disc::Disc;
-use crate::body::{Figures, Kind, needs_base_circle};
+use crate::body::{Figures, Kind, needs_base_circle, sized_disc};
 use crate::document::{Input, LengthOrAngle, cams};
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
@@ -165,7 +164,8 @@ fn of_cam(machine: &Machine, program: &Program, law: &'static Law, rpm: Option<f
     let program = program.with_law(law)?;
     let waves = program.harmonics(HARMONICS).waves;
     let harmonics = waves.iter().map(|[cosine, sine]| libm::hypot(*cosine, *sine)).collect();
-    let disc = Disc::of_motion(machine, Arc::new(program), rpm).ok()?;
+    let motion: Arc<dyn Motion> = Arc::new(program);
+    let disc = sized_disc(machine, &motion, rpm).ok()?;
     let jump = disc.jump().and_then(Result::ok).map_or(f64::NAN, |jump| jump.value);
     let most = |found: Option<f64>| found.unwrap_or(f64::NAN);
     Some(LawCamFigures {

@@ -6,7 +6,8 @@ use crate::follower::{Element, Follower, FollowerPlacement};
 use crate::geometry::MILLIMETRES;
 use crate::machine::{CamData, Limits};
 use crate::motion::{Jet, Motion, Piece};
-use crate::numeric::{extremum, root};
+use crate::numeric::extremum::{self, Extremum};
+use crate::numeric::root;
 
 /// Whole millimetres an automatic base radius is rounded up to, m; a millionth of a step is rounding noise.
 const BASE_STEP: f64 = 1e-3;
@@ -72,6 +73,12 @@ const FAR: f64 = 1e3;
 const HALVINGS: u32 = 60;
 /// Finer steps, of a tenth each, in which a base radius is rounded where the whole millimetre does not pass: to 1 nm.
 const FINER_STEPS: i32 = 6;
+
+/// Points of a curve that may be the sharpest one after another while the radius grows, and below which excess, a share, rounding decides.
+const SHARPEST_POINTS: u32 = 16;
+const SHARPNESS_NOISE: f64 = 1e-12;
+/// A radius larger than the one that the pressure angle requires in closed form by more than this share keeps it.
+const PRESSURE_NOISE: f64 = 1e-9;
 
 /// Rounds of solving each limit in turn. A limit may be violated again by the radius that another one needs only where it
 /// is not monotone in the radius; each round then starts above the last.
@@ -139,8 +146,13 @@ fn sampled(motion: &dyn Motion, follower: &dyn Follower) -> Option<SizeSamples> 
 impl SizeProblem<'_> {
     /// A quantity of the disc with a radius; NaN, which does not pass, where the follower does not reach.
     fn at(&self, radius: f64, excess: impl Fn(Curves<'_>) -> f64) -> f64 {
-        let follower = self.follower.sized(radius).filter(|follower| self.top <= follower.reach().1);
+        let follower = self.sized(radius);
         follower.map_or(f64::NAN, |follower| excess(Curves { motion: self.motion, follower: &*follower }))
+    }
+
+    /// The follower on a prime radius, m, if it reaches the largest lift.
+    fn sized(&self, radius: f64) -> Option<Box<dyn Follower>> {
+        self.follower.sized(radius).filter(|follower| self.top <= follower.reach().1)
     }
 
     fn pressure(&self, radius: f64) -> f64 {
@@ -154,24 +166,85 @@ impl SizeProblem<'_> {
         })
     }
 
-    fn curvature(&self, radius: f64) -> f64 {
-        self.at(radius, |curves| match curves.element() {
-            Element::Roller { radius: roller } => self.too_sharp(curves, roller),
+    /// By how much the curve is too sharp, and where most.
+    fn sharpest(&self, radius: f64) -> Extremum {
+        let Some(follower) = self.sized(radius) else { return Extremum { at: f64::NAN, value: f64::NAN } };
+        let curves = Curves { motion: self.motion, follower: &*follower };
+        match curves.element() {
+            Element::Roller { radius: roller } => self.sharpest_under_roller(curves, roller),
             // The profile under a face must not turn back on itself, nor have an edge.
-            Element::Face => (self.required.convex_radius - extremes::least_radius(curves).value) / radius,
+            Element::Face => {
+                let least = extremes::least_radius(curves);
+                Extremum { at: least.at, value: (self.required.convex_radius - least.value) / radius }
+            }
+        }
+    }
+
+    fn sharpest_under_roller(&self, curves: Curves<'_>, roller: f64) -> Extremum {
+        let motion = curves.motion;
+        let sharpest = |rolled: bool, least_radius: f64| {
+            let sharpest = extremes::convex_curvature_on(curves, |piece| motion.is_rolled(piece) == rolled);
+            Extremum { at: sharpest.at, value: sharpest.value * least_radius - 1.0 }
+        };
+        let rolled = sharpest(true, self.required.convex_radius);
+        if motion.is_rolled_throughout() {
+            return rolled;
+        }
+        let closing = sharpest(false, CLOSING_OVER_ROLLER * roller);
+        if rolled.value > closing.value || rolled.value.is_nan() { rolled } else { closing }
+    }
+
+    /// By how much the curve is too sharp at a cam angle of a piece.
+    fn sharpness_at(&self, radius: f64, piece: usize, angle: f64) -> f64 {
+        self.at(radius, |curves| match curves.element() {
+            Element::Roller { radius: roller } => {
+                let rolled = curves.motion.is_rolled(piece);
+                let least = if rolled { self.required.convex_radius } else { CLOSING_OVER_ROLLER * roller };
+                curves.metal_side() * curves.touch(piece, angle).curve.curvature * least - 1.0
+            }
+            Element::Face => (self.required.convex_radius - curves.face_radius(piece, angle).0) / radius,
         })
     }
 
-    /// By how much the curve of a roller is too sharp.
-    fn too_sharp(&self, curves: Curves<'_>, roller: f64) -> f64 {
-        let motion = curves.motion;
-        let sharpest =
-            |rolled: bool| extremes::convex_curvature_on(curves, |piece| motion.is_rolled(piece) == rolled).value;
-        let excess = sharpest(true) * self.required.convex_radius - 1.0;
-        if motion.is_rolled_throughout() {
-            return excess;
+    fn curvature(&self, radius: f64) -> f64 {
+        self.sharpest(radius).value
+    }
+
+    /// The first radius from `low` on at which the curve is nowhere too sharp. Every point is less sharp on a larger radius, so the radius that the sharpest
+    /// point needs is a lower bound; from there the next point is looked for, which takes a few searches along the curve in place of one for each step of a
+    /// root.
+    fn first_not_too_sharp(&self, low: f64) -> Result<f64, NoRadius> {
+        let passes_everywhere = self.required.convex_radius == 0.0 && self.motion.is_rolled_throughout();
+        if passes_everywhere && self.at(low, |_| 0.0) == 0.0 {
+            return Ok(low);
         }
-        worse(excess, sharpest(false) * CLOSING_OVER_ROLLER * roller - 1.0)
+        let mut radius = low;
+        for _ in 0..SHARPEST_POINTS {
+            let sharpest = self.sharpest(radius);
+            if sharpest.value <= 0.0 {
+                return Ok(radius);
+            }
+            if sharpest.value < SHARPNESS_NOISE {
+                if let Ok(passing) = passing_just_above(radius, |radius| self.curvature(radius)) {
+                    return Ok(passing);
+                }
+                break;
+            }
+            match self.needed_at(sharpest.at, radius) {
+                Some(needed) if needed > radius => radius = needed,
+                _ => break,
+            }
+        }
+        first_at_or_above(radius, |radius| self.curvature(radius))
+    }
+
+    /// The radius from `low` on that a cam angle needs, on each piece that ends or lies there.
+    fn needed_at(&self, angle: f64, low: f64) -> Option<f64> {
+        let pieces = self.motion.distinct().iter().enumerate();
+        let holding = pieces.filter(|(_, piece)| piece.start <= angle && angle <= piece.end);
+        holding
+            .filter_map(|(index, _)| first_at_or_above(low, |radius| self.sharpness_at(radius, index, angle)).ok())
+            .reduce(f64::max)
     }
 
     /// The worse of both limits; only one where that is clearly violated at one of the sampled lifts.
@@ -200,7 +273,7 @@ impl SizeProblem<'_> {
         if self.follower.element() != Element::Face {
             return None;
         }
-        let follower = self.follower.sized(radius).filter(|follower| self.top <= follower.reach().1)?;
+        let follower = self.sized(radius)?;
         let curves = Curves { motion: self.motion, follower: &*follower };
         let least = self.sampled.as_ref()?.lifts.iter().map(|(at, lift)| curves.face_radius_of(*at, lift).0);
         Some((self.required.convex_radius - least.fold(f64::INFINITY, f64::min)) / radius)
@@ -258,13 +331,17 @@ pub fn smallest(motion: &dyn Motion, follower: &dyn Follower, required: &SizeLim
 /// Both the pressure angle and the curvature fall as the radius grows under a follower that reaches everywhere, so each limit
 /// is a root in the radius.
 fn first_of_falling(least: f64, sizing: &SizeProblem<'_>) -> Result<f64, NoRadius> {
-    let (pressure, curvature) = (|radius: f64| sizing.pressure(radius), |radius: f64| sizing.curvature(radius));
-    let mut radius = sizing.by_pressure_angle().map_or(least, |by_angle| by_angle.max(least));
+    let pressure = |radius: f64| sizing.pressure(radius);
+    let by_angle = sizing.by_pressure_angle();
+    let mut radius = by_angle.map_or(least, |by_angle| by_angle.max(least));
     if !(radius <= LARGEST) {
         return Err(NoRadius);
     }
     for _ in 0..ROUNDS {
-        let sharp_enough = first_at_or_above(radius, curvature)?;
+        let sharp_enough = sizing.first_not_too_sharp(radius)?;
+        if by_angle.is_some_and(|by_angle| sharp_enough > by_angle * (1.0 + PRESSURE_NOISE)) {
+            return Ok(sharp_enough);
+        }
         radius = match passing_just_above(sharp_enough, pressure) {
             Ok(passing) => passing,
             Err(failing) => first_at_or_above(failing, pressure)?,

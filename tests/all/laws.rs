@@ -95,3 +95,54 @@ fn the_plot_of_sizes_has_limits_and_the_chosen_cam() {
         assert!(value >= low - 0.6 && value <= high + 0.6, "{value} {near:?}");
     }
 }
+
+/// A pair whose counter disc determines the size: the law of its file needs the same size in the comparison as in `camgen size`.
+const PAIR: &str = r#"
+name = "pair"
+[motion]
+rpm = 150
+start = "5.5 mm"
+[[motion.segment]]
+over = "88 deg"
+law = "cycloidal"
+to = "10.4 mm"
+[[motion.segment]]
+over = "120 deg"
+law = "dwell"
+[[motion.segment]]
+law = "cycloidal"
+to = "5.5 mm"
+[follower.roller]
+radius = "8.6 mm"
+[cam]
+body = "conjugate"
+thickness = "20 mm"
+[cam.counter]
+radius = "12.4 mm"
+preload = "200 N"
+[limits]
+pressure_angle = "55 deg"
+"#;
+
+#[test]
+fn laws_need_the_size_that_both_discs_of_a_pair_need() {
+    let smallest = |text: &str| {
+        let machine = Machine::from_toml("pair.toml", text, &[]).expect("valid");
+        let column = |analysis: &Analysis, table: usize, name: &str| {
+            let table = &analysis.tables[table].1;
+            let column = table.columns.iter().position(|column| *column == name).expect("a column");
+            table.rows.iter().map(|row| row[column]).collect::<Vec<f64>>()
+        };
+        let options = LawsOptions { laws: vec![law("cycloidal").expect("a law")], ..LawsOptions::default() };
+        let laws = laws::analysis(Some(&machine), &options).expect("laws");
+        let sizes = size::analysis(&machine, &[], None).expect("a size");
+        // The row of the smallest cam is the only one whose offset is 0.
+        let offsets = column(&sizes, 0, "offset_mm");
+        let own = offsets.iter().position(|offset| offset.abs() < 1e-9).expect("the offset of the file");
+        (column(&laws, 0, "smallest_prime_radius_mm")[0], column(&sizes, 0, "prime_radius_mm")[own])
+    };
+    let (of_pair, found_for_pair) = smallest(PAIR);
+    let (of_disc, found_for_disc) = smallest(&PAIR.replace("conjugate", "disc"));
+    assert!((of_pair - found_for_pair).abs() < 1e-6 && (of_disc - found_for_disc).abs() < 1e-6);
+    assert!(of_pair > of_disc + 1.0, "{of_pair} {of_disc}");
+}
