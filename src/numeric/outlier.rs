@@ -6,6 +6,7 @@
 //! difference over it contains it. Two orders are tried: the fourth sees errors near jumps, the sixth those of coarse values of smooth curves.
 
 use super::scatter::{OF_MEDIAN, median};
+use std::ops::Range;
 
 /// Neighbours on each side of a value: differences of the fourth and the sixth order.
 const SIDES: [usize; 2] = [2, 3];
@@ -165,31 +166,29 @@ impl<'a> Judge<'a> {
         let scatter =
             SIDES.map(|side| samples.windows(2 * side + 1).map(|window| Difference::of(window).scatter()).collect());
         let mut judge = Self { samples, scatter, overall: 0.0, range: high - low, rounding, many };
-        judge.overall = judge.scatter_in(|_, _| true);
+        judge.overall = judge.scatter_in(SIDES.map(|_| 0..samples.len()));
         judge
     }
 
-    /// Standard deviation of the scatter, by the windows (order, first sample) that are asked for: the smaller one of both orders, because what
-    /// the curve adds differs between them.
-    fn scatter_in(&self, includes: impl Fn(usize, usize) -> bool) -> f64 {
-        let of_order = |(order, all): (usize, &Vec<f64>)| {
-            let moving =
-                |(first, off): (usize, &f64)| (includes(order, first) && *off > DIGITS * self.range).then_some(*off);
-            let mut found: Vec<f64> = all.iter().enumerate().filter_map(moving).collect();
-            if found.len() < FEWEST_NEAR { 0.0 } else { OF_MEDIAN * median(&mut found) }
+    /// Standard deviation of the scatter, by the windows of each order whose first samples are in a range: the smaller one of both orders, because
+    /// the curve itself adds to both, but not the same.
+    fn scatter_in(&self, first: [Range<usize>; 2]) -> f64 {
+        let of_order = |(all, first): (&Vec<f64>, Range<usize>)| {
+            let windows = all.get(first.start.min(all.len())..first.end.min(all.len())).unwrap_or_default();
+            let mut moving: Vec<f64> = windows.iter().copied().filter(|off| *off > DIGITS * self.range).collect();
+            if moving.len() < FEWEST_NEAR { 0.0 } else { OF_MEDIAN * median(&mut moving) }
         };
-        self.scatter.iter().enumerate().map(of_order).fold(f64::INFINITY, f64::min)
+        self.scatter.iter().zip(first).map(of_order).fold(f64::INFINITY, f64::min)
     }
 
     /// Standard deviation of the scatter near a sample, without it: on the side where it is larger, because a flank may scatter more than a dwell.
     fn scatter_near(&self, index: usize) -> f64 {
-        let width = |order: usize| 2 * SIDES.get(order).copied().unwrap_or(0);
-        let before = self.scatter_in(|order, first| {
-            let last = first + width(order);
-            last < index && last + NEAR >= index
+        let before = SIDES.map(|side| {
+            let end = index.saturating_sub(2 * side);
+            end.saturating_sub(NEAR)..end
         });
-        let after = self.scatter_in(|_, first| first > index && first <= index + NEAR);
-        before.max(after)
+        let after = SIDES.map(|_| index + 1..index + 1 + NEAR);
+        self.scatter_in(before).max(self.scatter_in(after))
     }
 
     fn at(&self, index: usize) -> Option<Outlier> {
