@@ -1,7 +1,7 @@
 """Motions given in one, laws given by formula, table or points, states that are found, elastic loads, and files that are broken."""
 import math
 
-from program_motion import ANGLES, LENGTHS, PI, TAU, Illegal, Program, quantity
+from program_motion import ANGLES, LENGTHS, PI, TAU, Illegal, Program
 
 SHAPES = [
     "x^3*(10-15*x+6*x^2)", "35*x^4-84*x^5+70*x^6-20*x^7", "x-sin(2*pi*x)/(2*pi)", "(1-cos(pi*x))/2", "x", "x^2*(3-2*x)", "sin(pi*x/2)", "x^2",
@@ -77,9 +77,7 @@ def draw_form(rng, motion, size, text, files, rounded):
     elif form == "points":
         at, values = knots(rng, rng.choice([3, 3, 4, 5, 6, 8]), size)
         first = rng.choice([0.0, 0.0, rng.uniform(0, 0.2) / len(at)])
-        begin = quantity(motion.get("at", "0 deg"))
-        first += 1e-3 * (begin != 0)
-        motion["points"] = [[rounded(rng, begin + (share + first) * TAU / lobes), text(value)] for share, value in zip(at, values)]
+        motion["points"] = [[rounded(rng, (share + first) * TAU / lobes), text(value)] for share, value in zip(at, values)]
         if rng.random() < 0.7:
             motion["degree"] = rng.choice([3, 5])
     else:

@@ -342,11 +342,11 @@ class Program:
             else:
                 knots = read_table(self.files[motion["table"]]) * [[PI / 180], [unit]]
                 knots = knots[:, :-1] if abs(knots[0, -1] - self.fill) < 1e-9 else knots
-            # Points lie at cam angles, a table is counted from `at`; it is told from its first knot on.
+            # Both are counted from `at`; points are described from the first one on.
             if form == "points":
-                if not self.at - 1e-12 <= knots[0, 0] < knots[0, -1] < self.at + self.fill - 1e-12:
+                if not knots[0, 0] < knots[0, -1] < knots[0, 0] + self.fill - 1e-12:
                     raise Illegal("range")
-                segment.start = self.at = float(knots[0, 0])
+                segment.start = self.at = self.at + float(knots[0, 0])
             parts = periodic((knots[0] - knots[0, 0]) / self.fill, knots[1], 1.0, degree)
             segment.pieces = self.spline_pieces(parts, degree == 3)
             self.rounding(knots[1], np.diff(knots[0]).min())
