@@ -36,7 +36,7 @@ pub const MAIN_NAME: &str = "main";
 /// [`Refusal`] when motion and follower do not fit each other, or no radius keeps the limits.
 pub(in crate::body) fn main(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<Disc, Refusal> {
     let hold = Hold::Pair { preload: machine.cam.track.counter.preload, counter: None };
-    Disc::held(machine, Arc::clone(motion), rpm, DiscRole { kind: &MAIN, hold, rest: Some(broken_by_counter) })
+    Disc::held(machine, Arc::clone(motion), rpm, DiscRole::with(&MAIN, hold, broken_by_counter))
 }
 
 /// The first limit that the counter disc of a main one breaks.
@@ -76,7 +76,7 @@ fn counter(main: &Disc, data: &CounterData) -> Result<Disc, Refusal> {
     let own = machine.with_follower(own).with_base_radius(base);
     let motion = Arc::new(CounterMotion::new(Arc::clone(main.motion()), top, turn));
     let hold = Hold::Pair { preload: data.preload, counter: Some(top) };
-    let found = Disc::held(&own, motion, main.rpm(), DiscRole { kind: &COUNTER, hold, rest: None })?;
+    let found = Disc::held(&own, motion, main.rpm(), DiscRole::alone(&COUNTER, hold))?;
     Ok(found.sized_by(main))
 }
 

@@ -86,6 +86,20 @@ pub(in crate::body) struct DiscRole {
     pub(in crate::body) hold: Hold,
     /// What else is cut with the disc and sized by it, if anything.
     pub(in crate::body) rest: Option<RestOfBody>,
+    /// Whether the disc itself is cut; its own limits hold only then.
+    pub(in crate::body) is_cut: bool,
+}
+
+impl DiscRole {
+    /// A disc that is cut by itself.
+    pub(in crate::body) fn alone(kind: &'static Kind, hold: Hold) -> Self {
+        Self { kind, hold, rest: None, is_cut: true }
+    }
+
+    /// A disc with which more is cut.
+    pub(in crate::body) fn with(kind: &'static Kind, hold: Hold, rest: RestOfBody) -> Self {
+        Self { kind, hold, rest: Some(rest), is_cut: true }
+    }
 }
 
 /// The first limit that the rest of a body breaks with a disc of this size.
@@ -107,6 +121,7 @@ pub struct Disc {
     /// What holds its follower on it.
     hold: Hold,
     rest: Option<RestOfBody>,
+    is_cut: bool,
     /// The disc by which this one is sized: the main one of a counter disc.
     main: Option<Arc<Self>>,
     /// The disc next to it in a pair, with the cam angle by which its motion is later, rad.
@@ -128,7 +143,7 @@ impl Disc {
     /// # Errors
     /// [`Refusal`] when motion and follower do not fit each other or no radius keeps the limits.
     pub fn of_motion(machine: &Machine, motion: Arc<dyn Motion>, rpm: Option<f64>) -> Result<Self, Refusal> {
-        Self::held(machine, motion, rpm, DiscRole { kind: &GENERAL, hold: Hold::Force, rest: None })
+        Self::held(machine, motion, rpm, DiscRole::alone(&GENERAL, Hold::Force))
     }
 
     /// As [`Disc::of_motion`], as a part of a body.
@@ -144,8 +159,8 @@ impl Disc {
         }
         let speed = rpm.map(|rpm| rpm * TAU / 60.0);
         let program_follower = forces::ProgramFollower::of(machine, &*motion);
-        let DiscRole { kind, hold, rest } = role;
-        Self { kind, rpm, speed, hold, rest, program_follower, ..Self::unsized_of(machine, motion) }.sized()
+        let DiscRole { kind, hold, rest, is_cut } = role;
+        Self { kind, rpm, speed, hold, rest, is_cut, program_follower, ..Self::unsized_of(machine, motion) }.sized()
     }
 
     /// Its speed, rpm, if it is known.
@@ -213,6 +228,7 @@ impl Disc {
             duty: None,
             hold: Hold::Force,
             rest: None,
+            is_cut: true,
             main: None,
             other: None,
             program_follower: forces::ProgramFollower::default(),

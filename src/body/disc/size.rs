@@ -115,7 +115,12 @@ impl Disc {
     /// What its limits and its bore require of its size; where a keyway stands under a lobe it does not matter.
     pub(super) fn required(&self) -> SizeLimits {
         let cam = &self.machine.cam;
-        SizeLimits::of(&self.machine.limits, (cam, cam.bore_radius), &*self.follower)
+        let required = SizeLimits::of(&self.machine.limits, (cam, cam.bore_radius), &*self.follower);
+        if self.is_cut {
+            required
+        } else {
+            SizeLimits { pressure_angles: [f64::INFINITY; 2], convex_radius: 0.0, ..required }
+        }
     }
 
     /// Whether more than pressure angle, curvature and bore determines its size.
@@ -132,9 +137,14 @@ impl Disc {
         self.rest.and_then(|rest| rest(self))
     }
 
+    /// The first limit that it breaks where it is cut.
+    fn broken_itself(&self) -> Option<&'static str> {
+        if self.is_cut { broken_limit(self) } else { None }
+    }
+
     /// The first limit that it breaks, or the rest of its body with it.
     pub(super) fn broken(&self) -> Option<&'static str> {
-        broken_limit(self).or_else(|| self.broken_by_rest())
+        self.broken_itself().or_else(|| self.broken_by_rest())
     }
 
     /// The same cam on another base radius (m), if the follower reaches it.
@@ -360,7 +370,7 @@ impl Disc {
         let Some(smaller) = self.on(below) else { return Some(Binding { limit: "reach", at: None }) };
         // The radius that is kept under a face without a given limit is not the limit of a check.
         let sharp = || smaller.least_rolled_radius().value < self.required().convex_radius * (1.0 - LARGER);
-        let own = broken_limit(&smaller);
+        let own = smaller.broken_itself();
         if let (None, Some(limit)) = (own, smaller.broken_by_rest()) {
             return Some(Binding { limit, at: None });
         }

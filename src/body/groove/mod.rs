@@ -82,7 +82,7 @@ impl Groove {
         motion: &Arc<dyn Motion>,
         rpm: Option<f64>,
     ) -> Result<Disc, Refusal> {
-        let role = DiscRole { kind: &disc::GENERAL, hold: Hold::Flanks, rest: Some(Self::broken_around) };
+        let role = DiscRole::with(&disc::GENERAL, Hold::Flanks, Self::broken_around);
         Disc::held(machine, Arc::clone(motion), rpm, role)
     }
 

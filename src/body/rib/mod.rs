@@ -65,7 +65,7 @@ impl Rib {
         Self::about(middle)
     }
 
-    /// The disc of the middle between the rollers, of the size that both flanks require.
+    /// The disc of the middle between the rollers, of the size that both flanks require: it is not cut, so that its own curve breaks no limit.
     ///
     /// # Errors
     /// As [`Rib::of`].
@@ -74,7 +74,7 @@ impl Rib {
         motion: &Arc<dyn Motion>,
         rpm: Option<f64>,
     ) -> Result<Disc, Refusal> {
-        let role = DiscRole { kind: &disc::GENERAL, hold: Hold::Flanks, rest: Some(Self::broken_beside) };
+        let role = DiscRole { is_cut: false, ..DiscRole::with(&disc::GENERAL, Hold::Flanks, Self::broken_beside) };
         Disc::held(machine, Arc::clone(motion), rpm, role)
     }
 
@@ -94,7 +94,7 @@ impl Rib {
             let base = prime - own.shape.element().offset();
             let own = machine.with_follower(own).with_base_radius(base);
             let hold = Hold::Pair { preload: 0.0, counter };
-            let role = DiscRole { kind: &disc::GENERAL, hold, rest: None };
+            let role = DiscRole::alone(&disc::GENERAL, hold);
             Disc::held(&own, Arc::clone(middle.motion()), middle.rpm(), role)
         };
         // The inner roller carries the force that would lift the outer one off.
@@ -102,10 +102,10 @@ impl Rib {
         Ok(Self { outer, inner, middle, distance })
     }
 
-    /// The first limit that a flank breaks.
+    /// The first limit that the rib breaks, by the figures that its checks judge.
     fn broken_limit(&self) -> Option<&'static str> {
         let folds = self.cuts().iter().any(Cut::is_undercut).then_some("undercut");
-        folds.or_else(|| [&self.outer, &self.inner].into_iter().find_map(broken_limit))
+        folds.or_else(|| broken_limit(self))
     }
 
     /// Either disc, with the name and the layer of its flank: the outer one first.

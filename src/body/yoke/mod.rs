@@ -75,7 +75,7 @@ impl Yoke {
         upside_down(&**motion, top)?;
         let machine = sized_by_breadth(machine, top * along_normal(machine))?;
         let hold = Hold::Pair { preload: 0.0, counter: None };
-        let role = DiscRole { kind: &YOKE, hold, rest: Some(Self::broken_opposite) };
+        let role = DiscRole::with(&YOKE, hold, Self::broken_opposite);
         Disc::held(&machine, Arc::clone(motion), rpm, role)
     }
 
@@ -92,7 +92,7 @@ impl Yoke {
         let own = machine.with_follower(own).with_base_radius(disc.base_radius());
         let counter = Arc::new(CounterMotion::new(Arc::clone(motion), top, PI));
         let hold = Hold::Pair { preload: 0.0, counter: Some(top) };
-        let opposite = Disc::held(&own, counter, disc.rpm(), DiscRole { kind: &YOKE, hold, rest: None })?;
+        let opposite = Disc::held(&own, counter, disc.rpm(), DiscRole::alone(&YOKE, hold))?;
         let breadth = 2.0 * disc.base_radius() + top * along_normal(machine);
         Ok(Self { disc, opposite, breadth })
     }
