@@ -102,10 +102,10 @@ impl MachineSource {
         catalogue().source(name_or_path)
     }
 
-    /// A text as that of the file at a path, which need not have it yet.
+    /// Reads `text` as the content of the machine file `file`, which need not have it yet.
     ///
     /// # Errors
-    /// A text that is none of a machine; what is wrong in it shows when a machine is made of it.
+    /// If `text` is no machine file; its faults show when a machine is made of it.
     pub fn of_file(file: &str, text: &str) -> Result<Self, MachineError> {
         catalogue().of_file(file, text)
     }

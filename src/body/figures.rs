@@ -45,7 +45,7 @@ pub trait Figures: Body {
     /// Least metal between the profile and what bounds it inside, m, if anything does; with its place where that is known.
     fn wall(&self) -> Option<(f64, Option<Worst>)>;
 
-    /// Largest pressure between roller and cam after Hertz, Pa; `None` where length of contact, material or forces are not given.
+    /// Largest Hertzian pressure of roller on cam, Pa; `None` without contact length, material or forces.
     fn contact_stress(&self) -> Option<Worst>;
 
     /// Whether that pressure exceeds a limit, Pa; not where it is not known.

@@ -21,10 +21,10 @@ pub struct Flank {
     pub volume: f64,
 }
 
-/// Spline cells of the flanks of a barrel or a globoid: each is compared with the exact flank at 64 points or more.
+/// Spline cells of the flanks of a barrel or globoid; each is compared with the exact flank at 64 points or more.
 const CELLS: WorkBound = WorkBound { what: "spline cells of the flanks", most: 12_000 };
 
-/// Refuses more cells than a command compares in its time.
+/// Refuses more cells than a command can compare in its time.
 ///
 /// # Errors
 /// [`Refusal`] with the number and the bound.

@@ -1,8 +1,8 @@
 //! Where the force on the roller of a groove changes flank.
 //!
 //! On one flank the roller turns one way and on the other the other: n = ±|C'|/r − the turn of what carries it, so that its spin jumps
-//! by 2|C'|/r. Before it touches the other flank it crosses the clearance. The follower then moves freely from the moment at which the force F along the
-//! path changes its sign: its distance g from the flank that it leaves follows m g'' + c g' + k g = |F|, until it is the play j/cos α (`flight`).
+//! by 2|C'|/r. Before it touches the other flank it crosses the clearance: once the force F along the path changes sign, the follower moves freely. Its
+//! distance g from the first flank follows m g'' + c g' + k g = |F| until it equals the play j/cos α (`flight`).
 
 use super::flight::Flight;
 use crate::check::{Check, CheckExplanation, CheckScope, Measure, Subject};
@@ -41,7 +41,7 @@ pub struct FlankSwitch {
     pub to_lifting: bool,
     /// Turns of the roller about its own axis for a turn of the cam, before and after.
     pub spin: [f64; 2],
-    /// Velocity with which it hits the other flank along its path, m/s; `None` without a mass or a speed, or if the force turns back before.
+    /// Impact velocity on the other flank along the path, m/s; `None` without mass or speed, or if the force reverses before the impact.
     pub impact: Option<f64>,
 }
 
@@ -89,7 +89,7 @@ pub(super) struct SwitchingRoller<'a> {
     pub(super) carrier_turn: f64,
     /// Way of the roller along its path for a lift, m or m/rad.
     pub(super) leverage: f64,
-    /// How it moves across the play, if a force is known.
+    /// Its motion across the play, if a force is known.
     pub(super) flight: Option<Flight<'a>>,
 }
 

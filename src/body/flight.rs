@@ -1,27 +1,27 @@
-//! How a roller crosses the clearance of its groove where the force changes flank.
+//! The crossing of a groove's clearance by its roller when the force changes flank.
 
 use crate::load::Pressing;
 use crate::motion::Jet;
 use std::f64::consts::TAU;
 
-/// Steps of the first estimate of the time, and most steps: a flight of that many is over a turn, or hardly a flight.
+/// Steps of the estimated time, and most steps: a longer flight lasts more than a turn or hardly moves.
 const STEPS: f64 = 200.0;
 const MOST_STEPS: u32 = 20_000;
-/// The last step over the first one: the velocity is known to as much.
+/// Last step / first step: the relative accuracy of the velocity.
 const LAST_STEP: f64 = 1e-6;
-/// Cam angle to either side by which the play is differentiated, and by which a jump of the force is passed, rad.
+/// Half width of the difference of the play, and angle past a step of the force, rad.
 const BESIDE: f64 = 1e-6;
 
-/// A follower that moves freely: m g'' + c g' + k g = |F| for its distance g from the flank that it leaves, F the force that would keep it there.
+/// A freely moving follower: m g'' + c g' + k g = |F|, with g its distance from the flank it leaves and F the force that would hold it there.
 pub(super) struct Flight<'a> {
     pub(super) pressing: Pressing,
     /// The lift of the motion at a cam angle.
     pub(super) lift: &'a dyn Fn(f64) -> Jet,
-    /// The play as a lift at a cam angle, m or rad.
+    /// The play at a cam angle in units of the lift, m or rad.
     pub(super) play: &'a dyn Fn(f64) -> f64,
 }
 
-/// The distance from the flank that was left, as a lift, and its rate.
+/// The distance from the first flank in units of the lift, and its rate.
 #[derive(Clone, Copy)]
 struct Gap {
     lift: f64,
@@ -35,8 +35,8 @@ impl Gap {
 }
 
 impl Flight<'_> {
-    /// The velocity, as that of a lift, with which the other flank is hit after a change of flank at a cam angle, the force having a sign after it.
-    /// `None` where nothing moves, or the force turns back before.
+    /// Impact velocity on the other flank, in units of the lift per second, after a change of flank at cam angle `start`; the force then has `sign`.
+    /// `None` without mass or speed, or if the force reverses before the impact.
     pub(super) fn impact(&self, start: f64, sign: f64) -> Option<f64> {
         let Pressing { mass, speed, .. } = self.pressing;
         if !(mass > 0.0 && speed > 0.0) {
@@ -65,7 +65,7 @@ impl Flight<'_> {
         None
     }
 
-    /// The time in which the play would be crossed if the force jumped and were constant, or grew evenly, s.
+    /// Time to cross the play under a constant or linearly growing force, the shorter one, s.
     fn first_order_time(&self, start: f64) -> f64 {
         let lift = (self.lift)(start + BESIDE);
         let Pressing { mass, speed, .. } = self.pressing;
@@ -75,7 +75,7 @@ impl Flight<'_> {
         (2.0 * play / acceleration).sqrt().min(libm::cbrt(6.0 * play / rate))
     }
 
-    /// The gap a step (s) later, by Runge and Kutta's method of fourth order.
+    /// The gap one step (s) later, by the fourth-order Runge-Kutta method.
     fn next(&self, gap: Gap, (angle, sign): (f64, f64), step: f64) -> Gap {
         let Pressing { mass, damping, rate, speed, .. } = self.pressing;
         let slope = |gap: Gap, later: f64| {
@@ -94,7 +94,7 @@ impl Flight<'_> {
 mod tests {
     use super::*;
 
-    /// Under a force that jumps the play is crossed with √(2 j F/m), under one that grows evenly with F' t²/(2 m), t = ∛(6 j m/F').
+    /// Impact velocity of a stepped force: √(2 j F/m); of a linearly growing one: F' t²/(2 m), t = ∛(6 j m/F').
     #[test]
     fn constant_and_growing_forces_give_the_known_velocities() {
         let pressing = Pressing { mass: 2.0, speed: 10.0, ..Pressing::default() };
@@ -110,7 +110,7 @@ mod tests {
         assert!((found / due - 1.0).abs() < 1e-4, "{found} {due}");
     }
 
-    /// A force that turns back at once hits nothing.
+    /// A force that reverses at once causes no impact.
     #[test]
     fn a_force_that_turns_back_hits_nothing() {
         let pressing = Pressing { mass: 2.0, speed: 10.0, ..Pressing::default() };

@@ -79,7 +79,7 @@ pub(crate) fn needs_base_circle(machine: &Machine, what: &str) -> Result<(), Ref
     Err(refusal.remedy("`camgen make` reports the sizes and angles of other bodies"))
 }
 
-/// The disc of a machine by whose base radius its body is sized, of the size that all of the body requires.
+/// The disc whose base radius sizes the body of `machine`, sized for the whole body.
 ///
 /// # Errors
 /// [`Refusal`] when motion and follower do not fit each other, or no radius keeps the limits.
@@ -99,11 +99,11 @@ pub const MADE_WITH: &[&Kind] = &[&conjugate::COUNTER];
 /// Solves the body of a motion that a machine names.
 ///
 /// # Errors
-/// [`Refusal`] when there is no such cam, or a motion that code gives contradicts itself.
+/// [`Refusal`] if there is no such cam, or a motion given by code contradicts itself.
 pub fn of_motion(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<ProgramCams, Refusal> {
     let named = BODIES.iter().find(|body| body.kind.keys == machine.body());
     let body = named.ok_or_else(|| Refusal::new(format!("no body is called {}", machine.body())))?;
-    // What a file gives was checked where it was read.
+    // Motions of files were checked when read.
     if motion.program().is_none() {
         given::check(&**motion)?;
     }

@@ -49,7 +49,7 @@ pub struct MillingProgram {
     pub depths: Vec<f64>,
     /// The path of a cam that is turned under its tool, in the place of passes.
     pub turned: Option<TurnedPath>,
-    /// Tolerance within which the control may smooth its path, m: the path is drawn within the rest.
+    /// Share of the tolerance for smoothing by the control, m; the path is drawn within the rest.
     pub smoothing: f64,
 }
 
@@ -232,12 +232,12 @@ fn numbered(first: u32, further: usize) -> u32 {
     (first.saturating_sub(1) + further) % LARGEST_PROGRAM + 1
 }
 
-/// The tolerance that a control may use up by smoothing the path, m.
+/// The part of the tolerance reserved for path smoothing by the control, m.
 pub(super) fn smoothing(controller: Controller, request: &Request) -> f64 {
     controller.smoothing_share() * request.fit.band().1
 }
 
-/// The drawing within what rounding and smoothing leave of the tolerance, with the paths of the cutter where its centre is moved.
+/// The drawing within the tolerance that remains after rounding and smoothing, with cutter-centre paths if the program moves the centre.
 fn drawn(
     body: &dyn Body,
     request: &Request,

@@ -31,9 +31,9 @@ const LOOKS: u32 = 4;
 /// A power of the pressure that is smooth where the force vanishes, with its exponent.
 type PowerOfPressure<'a> = (Box<dyn Fn(usize, f64) -> f64 + 'a>, i32);
 
-/// The pressure in the line of contact, p = √(F E*/(π b R)), 1/R = the sum of the curvatures, concave negative; or in the ellipse under a
-/// roller whose rim has the radius `crown` along the axis, m, on a disc that is straight along it. The roller is of steel and as wide as the
-/// thickness of the cam, or as it reaches into its groove (K. L. Johnson, Contact Mechanics, 1985, §4.2).
+/// The pressure in the contact line, p = √(F E*/(π b R)), 1/R = the sum of the curvatures, concave negative; or in the ellipse under a
+/// roller with crown radius `crown` along the axis, m, on a disc straight along its axis. The roller is of steel; b is the thickness of the cam, or
+/// the roller's reach into its groove (K. L. Johnson, Contact Mechanics, 1985, §4.2).
 fn power_of_pressure<'a>(
     force: Force<'a>,
     curves: Curves<'a>,
@@ -46,7 +46,7 @@ fn power_of_pressure<'a>(
     }
     let modulus = contact_modulus(machine.cam.material?.class);
     force_at_start(force, curves)?;
-    // The flanks of a groove are farther from the roller's centre than its radius.
+    // Groove flanks are farther from the roller's centre than its radius, by the clearance.
     let bend = match machine.follower.shape.element() {
         Element::Roller { radius } => radius.abs().recip(),
         Element::Face => 0.0,
@@ -75,8 +75,7 @@ fn power_of_pressure<'a>(
     Some((Box::new(square), 2))
 }
 
-/// The largest pressure along a line, or under a crowned roller: one so flat that its ellipse would be longer than the cam is pressed at least as
-/// hard as a straight one.
+/// Largest pressure in a contact line or under a crowned roller; if the crown's ellipse would be longer than the cam, at least that of a straight roller.
 pub(crate) fn largest(
     force: Force<'_>,
     curves: (Curves<'_>, &[JumpRange]),
@@ -115,8 +114,8 @@ pub(crate) fn exceeds_somewhere(
     })
 }
 
-/// The keys of the machine file with which a line of contact is so long that it keeps a limit: the pressure is proportional to 1/√b. `None` if no
-/// accepted length does.
+/// Keys of the machine file that make the contact line long enough for a limit: the pressure is proportional to 1/√b. `None` if no accepted
+/// length is.
 pub(crate) fn length_for(machine: &Machine, largest: f64, limit: f64) -> Option<String> {
     let cam = &machine.cam;
     let over = largest / limit;
@@ -152,18 +151,18 @@ pub(crate) fn of_sphere(force: f64, radius: f64, curvatures: (f64, f64), materia
     in_ellipse(force, (relative(curvatures.0), relative(curvatures.1)), contact_modulus(material))
 }
 
-/// A steel roller on a surface that is straight along it.
+/// A steel roller on a surface straight along the roller's axis.
 pub(crate) struct RollerContact {
     /// The sum of both curvatures, 1/m.
     pub(crate) curvature: f64,
-    /// Radius of the rim along the axis, m; `None` of a straight roller.
+    /// Crown radius, m; `None` if straight.
     pub(crate) crown: Option<f64>,
-    /// Length of the line of contact of a straight roller, m, if it is known.
+    /// Contact length of a straight roller, m, if known.
     pub(crate) length: Option<f64>,
 }
 
 impl RollerContact {
-    /// Largest pressure under a force (N), Pa; `None` of a straight roller whose length of contact is not known.
+    /// Largest pressure under a force (N), Pa; `None` for a straight roller without a contact length.
     pub(crate) fn pressure(&self, force: f64, material: Material) -> Option<f64> {
         let modulus = contact_modulus(material);
         let straight = self.length.map(|length| (force * modulus * self.curvature.max(0.0) / (PI * length)).sqrt());

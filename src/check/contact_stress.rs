@@ -36,7 +36,7 @@ pub enum ContactKind {
     Sphere,
 }
 
-/// Measure of the largest pressure, Pa, `None` where length of contact, material or forces are not given; with changes, each of which alone keeps a limit
+/// Measure of the largest pressure, Pa, `None` without contact length, material or forces; with changes, each of which alone keeps a limit
 /// that it exceeds.
 #[must_use]
 pub fn measure(

@@ -1,4 +1,4 @@
-//! Whether one row of a table is off the curve of its neighbours.
+//! Check for a row off the curve through its neighbours.
 
 use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
 use crate::geometry::MILLIMETRES;
@@ -9,7 +9,7 @@ use crate::report::{Bound, Place, shown};
 /// The check.
 pub const CHECK: Check = of_unit("mm");
 
-/// The check of a swing.
+/// The check for swings.
 pub const OF_SWING: Check = of_unit("deg");
 
 const fn of_unit(unit: &'static str) -> Check {
@@ -31,7 +31,7 @@ const fn of_unit(unit: &'static str) -> Check {
     }
 }
 
-/// Measure of a motion through rows; `None` of another motion, and of few rows.
+/// Measure of a motion through rows; `None` for other motions and for too few rows.
 #[must_use]
 pub fn measure(subject: &Subject<'_>) -> Option<Measure> {
     of_motion(subject.curves?.motion)

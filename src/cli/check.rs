@@ -158,8 +158,7 @@ fn design(args: &CheckArgs, bytes: &[u8]) -> Result<Design, Failure> {
 }
 
 impl CheckArgs {
-    /// The machine of a file with the overrides, for the cutter that is given: where the size is `auto`, the cam is as large as `make` makes it for
-    /// this cutter.
+    /// The machine of a file with the overrides and the given cutter: a size `auto` becomes the one that `make` chooses for this cutter.
     pub(super) fn machine_of(&self, name: &str) -> Result<(Machine, String), Failure> {
         let (mut machine, name) = self.common.machine_of(name)?;
         if let Some(radius) = self.cutter_radius.or(self.cutter_diameter) {

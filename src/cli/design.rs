@@ -79,7 +79,7 @@ pub(super) fn of_file(args: &CheckArgs, bytes: &[u8]) -> Result<Option<Design>, 
     Ok(by_hash(args, &folder, &hash))
 }
 
-/// Whether a run has made a table of many designs.
+/// Whether a run was a study.
 fn is_study(run: &RecordedRun) -> bool {
     run.inputs.iter().any(|input| input.key == "command" && input.value == "study")
 }

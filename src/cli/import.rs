@@ -41,7 +41,7 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
         ImportForm::Points => {
             let text = table_text_of(&args.file, LARGEST_TABLE).map_err(|why| unread(&file, &why))?;
             let mut stated = measured::stated(&text);
-            // Radii without headings are those that --as names.
+            // Radii without headings are of the curve given by --as.
             stated.is_polar |= args.taken_as.is_some() && !stated.has_names;
             let read = if stated.is_polar { measured::read_radii } else { measured::read };
             let points = read(&text).map_err(|why| Failure(format!("`{file}`: {why}")))?;
@@ -66,20 +66,20 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
     write_with(&judged, &args.report, &writing)
 }
 
-/// The form that flags say.
+/// The file form given by the flags.
 fn form_said(args: &ImportArgs) -> Result<Option<ImportForm>, Failure> {
     let by_as = args.taken_as.map(|taken| if taken == ImportAs::Lift { ImportForm::Table } else { ImportForm::Points });
     let by_points = args.points_of.map(|_| ImportForm::Points);
     let said: Vec<ImportForm> = [args.from, by_as, by_points].into_iter().flatten().collect();
     if said.windows(2).any(|pair| pair.first() != pair.last()) {
         return Err(Failure(
-            "--from, --as and --points-of contradict each other; --as lift is for a table, --as profile, --as pitch and --points-of for points".into(),
+            "--from, --as and --points-of contradict each other; use --as lift for a table, and --as profile, --as pitch or --points-of for points".into(),
         ));
     }
     Ok(said.first().copied())
 }
 
-/// Points as flags and their file state them: their curve, and angles of their own.
+/// Applies curve, angles and rotation of the points, as stated by the flags and the file.
 fn as_stated(
     points: Vec<Vector2<f64>>,
     args: &ImportArgs,
@@ -97,13 +97,13 @@ fn as_stated(
     options.points_of = by_as.or(args.points_of).or(stated.of);
     if args.ball.radius().is_some() && options.points_of == Some(PointsOf::Centre) {
         return Err(Failure(
-            "--ball is the radius of a measuring ball, but the points are centres of the roller; leave one of them out"
+            "--ball is for centres of a measuring ball, but the points are roller centres; remove one of the two"
                 .into(),
         ));
     }
     if stated.is_polar && options.points_of.is_none() && args.ball.radius().is_none() {
         return Err(Failure(format!(
-            "`{}` has radii: whether of the profile or of the roller's centre is not stated; give --as profile or --as pitch",
+            "`{}` has radii of an unstated curve (profile or roller's centre); give --as profile or --as pitch",
             args.file.display()
         )));
     }
@@ -245,7 +245,7 @@ fn table(args: &ImportArgs, options: &ImportOptions) -> Result<ImportSource, Fai
     let of = |key: &str, value: &Option<String>| value.as_ref().map(|value| format!("motion.{key}={value}"));
     let table = &args.table;
     let mut columns: Vec<String> = table.columns.iter().map(|name| format!("{:?}", name.trim())).collect();
-    // What is headed as radii is read as positions.
+    // `--as lift` reads columns headed as radii as positions.
     if columns.is_empty() && args.taken_as == Some(ImportAs::Lift) && table.step.is_none() {
         columns = vec!["1".into(), "2".into()];
     }

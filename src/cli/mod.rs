@@ -129,7 +129,7 @@ fn print_painted(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// What a failed check means for the files.
+/// Message about the files after a failed check.
 fn refusal(dry_run: bool) -> &'static str {
     if dry_run {
         "refused: a check failed; without --dry-run no file would be written (--force would write them; `camgen explain CHECK` explains a check)"

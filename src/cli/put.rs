@@ -29,7 +29,7 @@ pub(super) fn put<T>(
     stage_and_commit(OutputDirectory::open(directory).map_err(Failure::new)?, stage, show)
 }
 
-/// Stages files in a directory that is open, shows what came with them, and moves them into place. A signal to end before the last step undoes
+/// Stages files in an open directory, shows their notes, and moves the files into place. A signal to end before the last step undoes
 /// everything; during that step it waits until all files are in place.
 pub(super) fn stage_and_commit<T>(
     place: OutputDirectory,

@@ -2,7 +2,7 @@
 //!
 //! Nobody else may use it: the address is 127.0.0.1, every request has to name it in its head (so that no other name leads here), one that
 //! comes from another page is refused, and all but the program itself and its page lack the token. Requests are small, their number is
-//! limited, and each has a time in which it must be there. A connection that has not sent its request yet makes room for a new one.
+//! limited, and each has a time limit. A connection whose request has not arrived yet is closed if a new one needs its slot.
 
 mod connections;
 mod http;

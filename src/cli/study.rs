@@ -9,7 +9,7 @@ use camgen::study::{CompleteStudy, Journal, Study, StudyError, StudyFiles, Study
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
-/// How often the rows that are done are saved, so that a run that is killed loses no more.
+/// Interval between saves of finished rows; a killed run loses no more than that.
 const SAVED_EVERY: Duration = Duration::from_secs(1);
 
 pub(super) fn run(args: &StudyArgs) -> Result<Outcome, Failure> {
@@ -43,7 +43,7 @@ pub(super) fn run(args: &StudyArgs) -> Result<Outcome, Failure> {
     Ok(if feasible == 0 { Outcome::CheckFailed } else { Outcome::Fine })
 }
 
-/// Makes the rows that are missing.
+/// Makes the missing rows.
 fn make_rows(args: &StudyArgs, study: &Study, journal: &mut Journal) -> Result<(), StudyError> {
     let first = journal.done();
     let progress = Progress::of_rows(!args.quiet && std::io::stderr().is_terminal(), study.count(), first);
@@ -59,7 +59,7 @@ fn make_rows(args: &StudyArgs, study: &Study, journal: &mut Journal) -> Result<(
     })
 }
 
-/// Prints what a complete study shows.
+/// Prints the results of a complete study.
 fn show_complete(args: &StudyArgs, study: &Study, needs: &str, complete: &CompleteStudy) -> Result<(), Failure> {
     if args.json {
         return print(&format!("{:#}\n", complete.json));
@@ -74,7 +74,7 @@ fn show_complete(args: &StudyArgs, study: &Study, needs: &str, complete: &Comple
     print(&format!("{}files\n{}", text(study, needs, &complete.summary), names.concat()))
 }
 
-/// How fast rows were made.
+/// The rate at which rows were made, as text.
 fn rate(count: u64, seconds: f64) -> String {
     #[expect(clippy::cast_precision_loss, reason = "a count for people")]
     let rows = count as f64;

@@ -73,7 +73,7 @@ impl FileRow {
         if self.width() == 2 { self.number(0).zip(self.number(1)).map(|(a, b)| [a, b]) } else { None }
     }
 
-    /// A heading between commas with a decimal comma, as `deg,lift 0,01 mm`: with its number in one cell where the rows have so many.
+    /// A comma-separated heading with its decimal commas rejoined if it has more than `width` cells: `deg,lift 0,01 mm`.
     fn with_decimals_joined(&self, width: usize) -> Self {
         let mut cells: Vec<String> = Vec::new();
         for cell in &self.cells {

@@ -180,12 +180,12 @@ pub fn similar<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
     (2 * wrong <= length).then_some(nearest)
 }
 
-/// In lower case, with one sign between words.
+/// Lower case, with `_` between words.
 fn folded(text: &str) -> String {
     text.to_lowercase().replace('-', "_")
 }
 
-/// The mistakes of a name: by its letters, or by its words, where the beginning of a word (`bore_diam`) and words in another order are a single mistake.
+/// Number of mistakes in a name, by letters or by words; an abbreviated word (`bore_diam`) or another order of the words is a single mistake.
 fn mistakes(a: &str, b: &str) -> usize {
     let [of_a, of_b] = [a, b].map(|name| name.split('_').collect::<Vec<_>>());
     let by_letters = letter_mistakes(a, b);
@@ -206,10 +206,10 @@ fn word_mistakes(a: &str, b: &str) -> usize {
     if by_letters > 1 && (begins(a, b) || begins(b, a)) { 1 } else { by_letters }
 }
 
-/// The shortest beginning that is accepted for a word of a name.
+/// Shortest accepted abbreviation of a word.
 const SHORTEST_ABBREVIATION: usize = 3;
 
-/// Levenshtein's distance; letters in the wrong order are a single mistake.
+/// Levenshtein distance; two swapped letters are a single mistake.
 fn letter_mistakes(a: &str, b: &str) -> usize {
     let letters = |text: &str| {
         let mut letters: Vec<char> = text.chars().collect();

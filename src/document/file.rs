@@ -24,7 +24,7 @@ pub fn bytes_of(path: &Path, largest: u64) -> Result<Vec<u8>, Refusal> {
         return Err(too_large());
     }
     let mut bytes = Vec::with_capacity(usize::try_from(data.len()).unwrap_or(0));
-    // Not beyond its size: that of files of /proc, which may never end, is 0. They are not opened either, some wait for that.
+    // Read up to the size: files in /proc may never end and have size 0. They are not opened either, because opening some of them blocks.
     if data.len() > 0 {
         let read = File::open(path).and_then(|file| file.take(data.len()).read_to_end(&mut bytes));
         read.map_err(Refusal::of)?;
@@ -105,7 +105,7 @@ mod tests {
         assert_eq!(what(&path, 4), "it is not UTF-8 text");
     }
 
-    /// Reading the log of the kernel waits for its next line; memory of a process is longer than its size says.
+    /// Reading the kernel log blocks until its next line; files of a process hold more bytes than their size.
     #[cfg(target_os = "linux")]
     #[test]
     fn files_that_the_system_makes_up_are_empty() {

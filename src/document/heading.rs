@@ -26,13 +26,13 @@ pub enum HeadingUnit {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum UnclearHeading {
     /// It names a unit that is not known.
-    #[error("names \"{0}\", which is no unit that is known")]
+    #[error("names \"{0}\", which is not a known unit")]
     Unknown(String),
     /// It names a multiple or a part of a unit.
     #[error("has a factor, \"{0}\"")]
     Factor(String),
-    /// It names what an instrument counts, whose size is not known.
-    #[error("says \"{0}\", whose size is not known")]
+    /// It names counts of an instrument, of unknown size.
+    #[error("names \"{0}\", whose size is unknown")]
     Counts(String),
 }
 
@@ -122,7 +122,7 @@ const DESCRIPTIONS: &[&str] = &[
     "valve",
 ];
 
-/// What instruments count: a position only with the size of one of them.
+/// Words for counts of an instrument; a count is a position only if its size is given.
 const COUNTS: &[&str] = &[
     "adc",
     "bit",
@@ -215,7 +215,7 @@ impl HeadingUnit {
         found.find_map(|(_, word)| Self::of_word(word).or_else(|| Self::of_quotient(word)))
     }
 
-    /// The unit behind the stroke of a quantity: `Hub/mm`.
+    /// The unit after the slash: `Hub/mm`.
     fn of_quotient(word: &str) -> Option<Self> {
         let (quantity, unit) = word.rsplit_once('/')?;
         if Self::of_word(quantity).is_some() { None } else { Self::of_word(unit) }
@@ -268,7 +268,7 @@ pub fn derivative_in(heading: &str) -> Option<&'static str> {
     found.copied()
 }
 
-/// Whether a heading names radii, which are no lift: they are that of the profile, or of the path of a roller's centre.
+/// Whether a heading names radii (of the profile or of the roller-centre path) instead of a lift.
 #[must_use]
 pub fn is_radius(heading: &str) -> bool {
     const RADII: &[&str] = &["radius", "radii", "radial", "radien", "r", "rho", "halbmesser", "rayon", "raggio"];
@@ -290,7 +290,7 @@ pub fn is_of_crank(heading: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// Headings whose numbers are multiples or parts of a unit.
+    /// Headings with multiples or parts of a unit.
     const FACTORS: &[&str] = &[
         "lift 1/100 mm",
         "lift mm x 100",

@@ -43,7 +43,7 @@ pub enum NamedFiles {
     Nowhere,
     /// In the folder of the machine file.
     Folder(PathBuf),
-    /// There too, and what overrides name as well: they are not the user's own.
+    /// In that folder, also for files named by overrides, which are not the user's own.
     Confined(PathBuf),
     /// Texts that are there by the names that the machine file uses: a page has no folder.
     Texts(BTreeMap<String, String>),
@@ -84,14 +84,14 @@ impl NamedFiles {
     }
 }
 
-/// What is wrong with a file that a study file in a folder names under a key, if it lies neither there nor in a folder that the user allows.
+/// The fault of a file named in a study file under a key, if it is outside `folder` and the folders that the user allows.
 #[must_use]
 pub fn outside_fault(folder: &Path, name: &str, key: &str) -> Option<FileFault> {
     let Misfit { message, help } = path_of(folder, (name, key, "study file"), false).err()?;
     Some(FileFault { key: None, message, help, place: None })
 }
 
-/// The path of a file that a text in a folder names under a key; the text is `of` this kind. The user may name any.
+/// The path of a file named under a key in a text in `folder`; `of` is the kind of the text. A path from the user may lead anywhere.
 fn path_of(folder: &Path, (name, key, of): (&str, &str, &str), by_user: bool) -> Result<PathBuf, Misfit> {
     let path = folder.join(name);
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };

@@ -415,7 +415,7 @@ impl<'a> Reader<'a> {
         self.faults.borrow().is_empty()
     }
 
-    /// Whether as many faults have been found as are reported: looking for more is useless.
+    /// Whether the reported number of faults is reached, so that the search for more can end.
     #[must_use]
     pub fn has_most_faults(&self) -> bool {
         self.faults.borrow().len() >= MOST_FAULTS

@@ -26,7 +26,7 @@ fn name(request: &EngineRequest) -> &str {
     if request.name.is_empty() { "design" } else { &request.name }
 }
 
-/// The machine of a text; the answer says which values hold where the text gives none.
+/// The machine of a text; the answer gets the values that hold for absent keys.
 pub(super) fn machine(request: &EngineRequest, toml: &str, answer: &mut EngineAnswer) -> Result<Machine, Error> {
     let source = MachineSource::from_toml(&format!("{}.toml", name(request)), toml).with_texts(request.files.clone());
     let machine = Machine::of_source(&source, &[])?;
@@ -34,8 +34,8 @@ pub(super) fn machine(request: &EngineRequest, toml: &str, answer: &mut EngineAn
     Ok(machine)
 }
 
-/// The proven cam of a text, and how its files are written, without a list of formats those that it has; the answer says what is known before it
-/// is drawn.
+/// The proven cam of a text and the settings of its files; `None` for `formats` means all that the cam has. The answer gets what is known before the
+/// drawing.
 pub(super) fn proven(
     request: &EngineRequest,
     toml: &str,

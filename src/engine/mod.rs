@@ -178,7 +178,7 @@ pub fn answer(request: &EngineRequest) -> EngineAnswer {
                 answer.say("toml", toml.clone());
                 answer.say("given", text::given(&toml).into_iter().map(|key| key.path).collect::<Vec<_>>());
                 let made = match request.task {
-                    // A text that is no design yet has no limits.
+                    // A text that is not a design yet has no limits.
                     Task::Text => design::machine(request, &toml, &mut answer).map(drop).or(Ok(())),
                     _ => design::made(request, &toml, &mut answer),
                 };

@@ -104,7 +104,7 @@ fn table_at<'t>(root: &'t mut Table, path: &[PathPart<'_>]) -> Result<&'t mut dy
                 element.as_inline_table_mut().ok_or_else(missing)?
             }
             (None, item) => {
-                // A word in the place of a table gives way to it; the keys for which it stood keep it.
+                // A word given instead of a table becomes that table, with the word in the keys for which it stood.
                 if !item.is_table_like() {
                     let names: Vec<&str> = path.iter().take(depth + 1).map(|(name, _)| *name).collect();
                     *item = Item::Table(table_for_word(&names.join("."), item));
@@ -117,7 +117,7 @@ fn table_at<'t>(root: &'t mut Table, path: &[PathPart<'_>]) -> Result<&'t mut dy
     Ok(table)
 }
 
-/// A table at a path with the keys for which a word stood in its place.
+/// The table at a path with the keys for which `word` stood.
 fn table_for_word(path: &str, word: &Item) -> Table {
     let mut table = Table::new();
     let word = word.as_str().unwrap_or_default();
@@ -143,7 +143,7 @@ fn list_at<'t>(
     let item = table_at(document.as_table_mut(), path)?
         .entry(name)
         .or_insert_with(|| Item::ArrayOfTables(ArrayOfTables::new()));
-    // A list of inline tables becomes one of tables of their own.
+    // A list of inline tables becomes an array of tables.
     if item.is_array() {
         *item = std::mem::take(item).into_array_of_tables().map_or_else(|other| other, Item::ArrayOfTables);
     }
@@ -180,7 +180,7 @@ fn set(table: &mut dyn TableLike, name: &str, mut value: Value) {
     }
 }
 
-/// The keys of the table of a path, indices left open, and the name of the key there.
+/// The keys of the table of a path, without indices, and the name of the key.
 fn keys_about(path: &str) -> (impl Iterator<Item = &'static Key> + use<>, &str) {
     let (table, name) = path.rsplit_once('.').unwrap_or(("", path));
     let names: Vec<&str> = table.split('.').map(|part| part.split('[').next().unwrap_or_default()).collect();
@@ -201,7 +201,7 @@ fn doubled(path: &str) -> Option<&'static str> {
     key_of(path)?.halved.or_else(|| others.find(|key| key.halved == Some(name)).map(|key| key.name))
 }
 
-/// The path of the key that gives the same dimension.
+/// The path of the key for the same dimension: the diameter of a radius, or the reverse.
 pub(super) fn twin_of(path: &str) -> Option<String> {
     let twin = doubled(path)?;
     Some(path.rsplit_once('.').map_or_else(|| twin.to_owned(), |(table, _)| format!("{table}.{twin}")))
@@ -229,16 +229,16 @@ fn value(path: &str, typed: &str) -> Value {
     Value::from(unquoted)
 }
 
-/// A key that a text has.
+/// A key given in a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct GivenKey {
     /// Its path.
     pub(super) path: String,
-    /// Its value as it is typed into a field.
+    /// Its value as typed into a field.
     pub(super) typed: String,
 }
 
-/// The keys that a text has; a word in the place of a table as the keys that it stands for.
+/// The keys given in a text; a word given instead of a table counts as the keys for which it stands.
 pub(super) fn given(text: &str) -> Vec<GivenKey> {
     let mut found = Vec::new();
     if let Ok(document) = text.parse::<DocumentMut>() {
@@ -268,7 +268,7 @@ fn collect(path: &str, item: &Item, found: &mut Vec<GivenKey>) {
     }
 }
 
-/// The elements of an array of tables, however it is written.
+/// The elements of an array of tables or of inline tables.
 fn tables_of(item: &Item) -> Option<Box<dyn Iterator<Item = &dyn TableLike> + '_>> {
     if let Item::ArrayOfTables(list) = item {
         return Some(Box::new(list.iter().map(|table| table as &dyn TableLike)));
@@ -277,13 +277,13 @@ fn tables_of(item: &Item) -> Option<Box<dyn Iterator<Item = &dyn TableLike> + '_
     Some(Box::new(list.iter().filter_map(Value::as_inline_table).map(|table| table as &dyn TableLike)))
 }
 
-/// The keys of a table in whose place this word stands; none for another word or path.
+/// The keys of a table for which this word stands; none for another word or path.
 fn keys_for_word<'w>(table: &'w str, word: &'w str) -> impl Iterator<Item = &'static Key> + use<'w> {
     let sections = catalogue().keys.sections.iter().filter(move |section| section.path == table);
     sections.flat_map(|section| section.keys).filter(move |key| key.for_table == Some(word))
 }
 
-/// A value as it is typed: a text without quotes, a number without underscores, a list on one line.
+/// A value as typed: text without quotes, a number without underscores, a list on one line.
 fn typed_of(value: &Value) -> String {
     match value {
         Value::String(text) => text.value().clone(),

@@ -1,4 +1,4 @@
-//! The values of a design as a page shows them: those of its file, and those that hold where it gives none.
+//! The values of a design for a page: those of its file, and the defaults of absent keys.
 
 use super::text::{self, GivenKey};
 use crate::body::Body;
@@ -8,10 +8,10 @@ use crate::units;
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 
-/// The value of every key that a text has, as it is typed, and the defaults of the other keys that have an effect on its cam.
+/// The values of all keys given in a text, as typed, and the defaults of the other keys that affect its cam.
 pub(super) fn values(body: &dyn Body, toml: &str) -> Map<String, Value> {
     let given = text::given(toml);
-    // A radius that the text gives by its diameter is not given itself.
+    // A radius given by its diameter is left out.
     let twins: BTreeSet<String> = given.iter().filter_map(|key| text::twin_of(&key.path)).collect();
     let inputs = body.machine().inputs_with_body(body.kind().keys);
     let defaults = inputs.into_iter().filter(|input| !twins.contains(&input.key));
@@ -19,8 +19,7 @@ pub(super) fn values(body: &dyn Body, toml: &str) -> Map<String, Value> {
     all.map(|(path, typed)| (path, Value::from(typed))).collect()
 }
 
-/// The values that hold for keys that a text does not give and that have no default of their own: limits, and the radius of a diameter or the
-/// reverse.
+/// The values that hold for absent keys without a default: limits, and the radius of a given diameter or the reverse.
 pub(super) fn usual(machine: &Machine, toml: &str) -> Map<String, Value> {
     let limits = machine.usual_limits().into_iter().map(|input| (input.key, input.typed));
     let given = text::given(toml);
@@ -28,7 +27,7 @@ pub(super) fn usual(machine: &Machine, toml: &str) -> Map<String, Value> {
     limits.chain(twins).map(|(path, typed)| (path, Value::from(typed))).collect()
 }
 
-/// The radius of a diameter as it is typed, or the reverse; `None` for a word.
+/// The radius of a typed diameter, or the reverse; `None` for a word.
 fn of_twin(given: &GivenKey) -> Option<String> {
     let key = text::key_of(&given.path)?;
     let (KeyForm::Quantity(dimension, _) | KeyForm::WordsOrQuantity(_, dimension, _)) = key.form else { return None };

@@ -39,10 +39,10 @@ pub use entity::Entity;
 /// Millimetres in a metre: geometry leaves SI by this factor.
 pub const MILLIMETRES: f64 = 1e3;
 
-/// A curve of less curvature, 1/m, counts as straight: the rounding of a straight flank of a cam is some 1e-14.
+/// Curvature below which a curve is straight, 1/m; rounding of a straight cam flank is about 1e-14.
 pub const STRAIGHT: f64 = 1e-9;
 
-/// Radius of curvature, mm, with the sign of the curvature, 1/m; infinite where the curve is straight.
+/// Radius of curvature, mm, with the sign of `curvature`, 1/m; infinite if straight.
 #[must_use]
 pub fn radius_of_curvature(curvature: f64) -> f64 {
     if curvature.abs() < STRAIGHT { f64::INFINITY } else { MILLIMETRES / curvature }

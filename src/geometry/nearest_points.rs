@@ -1,4 +1,4 @@
-//! How far points lie from each other.
+//! Distances between points.
 
 use nalgebra::Vector2;
 use parry2d_f64::bounding_volume::Aabb;
@@ -36,7 +36,7 @@ mod tests {
         let at = |i: u32, share: f64| (f64::from(i) * share).fract();
         let mut points: Vec<Vector2<f64>> =
             (0..300).map(|i| Vector2::new(at(i, 0.618_034), at(i, 0.754_878))).collect();
-        // Points on top of each other, and one far away.
+        // Coincident points, and one far away.
         points.extend([Vector2::new(0.5, 0.5); 20]);
         points.push(Vector2::new(90.0, 0.0));
         let found = nearest_distances(&points);

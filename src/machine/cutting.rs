@@ -48,8 +48,8 @@ impl Controller {
         of_millimetre + u32::from(units == LengthUnit::Inch)
     }
 
-    /// Share of the tolerance that is left to the control for smoothing its path, where its path mode has a number for it: CTOL of SINUMERIK, cycle 32 of
-    /// HEIDENHAIN. LinuxCNC keeps its path (G61), FANUC has no such number.
+    /// Share of the tolerance for path smoothing by the control, if its path mode takes a tolerance: CTOL of SINUMERIK, cycle 32 of HEIDENHAIN. LinuxCNC
+    /// keeps its path (G61); FANUC has no such number.
     #[must_use]
     pub fn smoothing_share(self) -> f64 {
         match self {
@@ -107,7 +107,7 @@ pub struct CuttingData {
     pub form: CuttingForm,
     /// Decimals of lengths; `None`: those of the control.
     pub decimals: Option<u32>,
-    /// Lines after what the program itself sets, and before its first move to the part.
+    /// Lines between the program's own settings and its first move to the part.
     pub preamble: Vec<String>,
     /// Lines after the last move.
     pub postamble: Vec<String>,
@@ -115,9 +115,9 @@ pub struct CuttingData {
     pub feed: f64,
     /// Feed into the material, m/s.
     pub plunge_feed: f64,
-    /// Speed of the spindle, rpm; without it the program starts none and stops for the operator to do so.
+    /// Spindle speed, rpm; without it the program stops for the operator to start the spindle.
     pub spindle: Option<f64>,
-    /// Number of the tool that is changed in; without it the program stops for the operator to load it.
+    /// Tool number for the tool change; without it the program stops for the operator to load the tool.
     pub tool: Option<u32>,
     /// Number of the program, for a control that names programs by numbers.
     pub program: u32,
@@ -129,7 +129,7 @@ pub struct CuttingData {
     pub overrun: f64,
     /// Height above the upper face at which the cutter moves freely, m.
     pub clearance: f64,
-    /// Z of the machine, in its own coordinates, to which the tool rises before its change and at the end, m; `None`: that of the control.
+    /// Z in machine coordinates to which the tool rises before the tool change and at the end, m; `None`: the control's usual height.
     pub home: Option<f64>,
     /// The sense of milling.
     pub direction: MillingDirection,

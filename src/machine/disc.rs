@@ -71,7 +71,7 @@ impl CamData {
         }))
     }
 
-    /// Length of the line along which a straight roller touches the cam, m: its reach into a groove, else the thickness.
+    /// Contact length of a straight roller on the cam, m: its reach into a groove, else the thickness.
     #[must_use]
     pub fn contact_length(&self) -> Option<f64> {
         let TrackData { body, barrel, groove_depth, .. } = &self.track;

@@ -44,13 +44,13 @@ pub struct VibrationData {
     pub damping: f64,
 }
 
-/// What the damping of the load on an elastic train acts against.
+/// The part against which the damping of a load on an elastic train acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum DampingAgainst {
     /// The frame: the force is proportional to the velocity of the load.
     #[default]
     Frame,
-    /// The follower, as the train's own damping: the force is proportional to the velocity with which the train is deformed.
+    /// The follower, as damping in the train: the force is proportional to the rate of deformation of the train.
     Follower,
 }
 
@@ -63,7 +63,7 @@ pub struct Dynamics {
     pub guide: Option<GuideData>,
     /// The elastic train behind it.
     pub vibration: Option<VibrationData>,
-    /// What its damping acts against.
+    /// The part against which its damping acts.
     pub damping_against: DampingAgainst,
     /// Coefficient of speed fluctuation that a flywheel on the shaft is to keep.
     pub fluctuation: Option<f64>,
@@ -289,12 +289,12 @@ fn vibration(reader: &Reader<'_>) -> Option<VibrationData> {
     Some(VibrationData { natural_frequency: table.get(&NATURAL_FREQUENCY)?, damping: table.get(&RATIO)? })
 }
 
-/// What the damping of its load acts against.
+/// The part against which the damping of its load acts.
 fn damping_against(reader: &Reader<'_>) -> DampingAgainst {
     reader.find(&VIBRATION).and_then(|table| table.get(&AGAINST)).unwrap_or_default()
 }
 
-/// The inputs of a file without the default of `damping_against`: its files keep the hash that they had before there was another.
+/// The inputs of a file without a default `damping_against`, so that hashes from before this key stay valid.
 pub(super) fn without_frame(inputs: Vec<Input>) -> Vec<Input> {
     let against = VIBRATION.path_of(&AGAINST.key);
     inputs.into_iter().filter(|input| input.key != against || input.value != "frame").collect()

@@ -129,7 +129,7 @@ pub struct Machine {
     pub(crate) name: String,
     /// The motion program, when described.
     motion: Option<Arc<program::Program>>,
-    /// What that was read from, if it depends on the speed.
+    /// Source of the motion program, if it depends on the speed.
     timed: Option<Arc<TimedMotion>>,
     /// Follower.
     pub(crate) follower: FollowerData,
@@ -155,7 +155,7 @@ pub struct Machine {
     key_values: Arc<KeyValues>,
 }
 
-/// What a motion that depends on the speed of its cam is read from again for another speed.
+/// Source from which a speed-dependent motion is read again for another speed.
 #[derive(Debug)]
 struct TimedMotion {
     source: MachineSource,
@@ -199,10 +199,10 @@ impl Machine {
         Ok(Self { timed: is_timed.then(timed), ..machine })
     }
 
-    /// The machine with its motion as it is at a speed of the cam, rpm: rates per second and a polydyne cam depend on it.
+    /// The machine with its motion at another cam speed, rpm: rates per second and a polydyne cam depend on it.
     ///
     /// # Errors
-    /// [`Refusal`] where there is no such motion at that speed.
+    /// [`Refusal`] if the motion is impossible at that speed.
     pub fn at_rpm(&self, rpm: Option<f64>) -> Result<Self, Refusal> {
         let of_file = self.motion.as_ref().and_then(|program| program.rpm());
         let other = rpm.filter(|rpm| Some(*rpm) != of_file);
@@ -401,7 +401,7 @@ impl Machine {
         self.dynamics.bearing
     }
 
-    /// What the damping of the load on that train acts against.
+    /// The part against which the damping of the load on that train acts.
     #[must_use]
     pub fn damping_against(&self) -> DampingAgainst {
         self.dynamics.damping_against
@@ -462,13 +462,13 @@ impl Machine {
         self.values().inputs(command)
     }
 
-    /// As [`Machine::inputs`], and that the body is a disc, which the hash of the inputs leaves out.
+    /// [`Machine::inputs`] with the body also for a disc, which the hash of the inputs leaves out.
     #[must_use]
     pub(crate) fn inputs_with_body(&self, command: &str) -> Vec<Input> {
         self.catalogue.keys.with_effect(&self.key_values.inputs, command)
     }
 
-    /// The limits that hold where the file gives none, as a person would type them.
+    /// The limits in effect, given or default, as a person would type them.
     #[must_use]
     pub(crate) fn usual_limits(&self) -> Vec<Input> {
         limits::usual(&self.limits, self.cam.material, self.cam.bore_radius)

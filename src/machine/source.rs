@@ -90,7 +90,7 @@ impl MachineSource {
         Self { files: NamedFiles::Folder(PathBuf::new()), ..self }
     }
 
-    /// The text with overrides that are not the user's own: files that they name lie where those of the text do.
+    /// The text with overrides that are not the user's own: files named in them must be in the folder of the text.
     #[must_use]
     pub fn with_confined_overrides(self) -> Self {
         let files = match self.files {
@@ -197,10 +197,10 @@ impl Catalogue {
         self.of_file(name_or_path, &text)
     }
 
-    /// A text as that of the file at a path, which need not have it yet.
+    /// Reads `text` as the content of the machine file `file`, which need not have it yet.
     ///
     /// # Errors
-    /// A text that is none of a machine; what is wrong in it shows when a machine is made of it.
+    /// If `text` is no machine file; its faults show when a machine is made of it.
     pub fn of_file(&'static self, file: &str, text: &str) -> Result<MachineSource, MachineError> {
         if let Some((kind, help)) = instead_of_machine(file, text.as_bytes()) {
             let message = format!("`{file}` is {kind}, not a machine file");

@@ -1,27 +1,27 @@
-//! Whether a motion that code gives is one: its pieces cover the turn, its lift is continuous and counted from its lowest point, and its
-//! derivatives are those of its lift.
+//! Checks a motion given by code: its pieces cover the turn, its lift is continuous and 0 at its lowest point, and its derivatives
+//! match its lift.
 
 use super::{Jet, Motion};
 use crate::refusal::Refusal;
 use std::f64::consts::TAU;
 
-/// Places of a piece at which it is looked at, and at least.
+/// Fewest samples of a piece.
 const PLACES: u32 = 48;
-/// Steps of a difference, as shares of a piece: the largest for what is rounded, the smallest for what changes fast. One has to agree.
+/// Steps of the finite difference as shares of a piece, large ones for rounded values, small ones for fast changes. One must agree.
 const STEPS: [f64; 4] = [3e-3, 3e-4, 3e-5, 3e-6];
-/// Largest difference from a derivative, over the largest of its order.
+/// Largest difference between a given derivative and its finite difference / largest derivative of that order.
 const AGREES: f64 = 1e-4;
-/// A derivative below this share of the lift over a power of the angle is rounding.
+/// A derivative below this multiple of lift range / widthⁿ of the piece is rounding error, n its order.
 const ROUNDING: f64 = 1e-7;
-/// Largest jump of the lift, and largest lift of the lowest point, over the range.
+/// Largest step of the lift, and largest |lowest lift|, as shares of the range.
 const CLOSED: f64 = 1e-6;
 const LOWEST: f64 = 1e-4;
 const NAMES: [&str; 3] = ["velocity", "acceleration", "jerk"];
 
-/// Checks a motion that code gives.
+/// Checks a motion given by code.
 ///
 /// # Errors
-/// [`Refusal`] with the angle where it contradicts itself.
+/// [`Refusal`] with the angle of the contradiction.
 pub fn check(motion: &dyn Motion) -> Result<(), Refusal> {
     pieces_follow(motion)?;
     let all: Vec<Vec<(f64, Jet)>> = (0..motion.pieces().len()).map(|piece| samples(motion, piece)).collect();
@@ -32,7 +32,7 @@ pub fn check(motion: &dyn Motion) -> Result<(), Refusal> {
     let (low, high) = lifts().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)));
     let range = high - low;
     if low.abs() > LOWEST * range {
-        let what = format!("the lift is counted from its lowest point, and its lowest value is {low:.6e}");
+        let what = format!("the lift at the lowest point is {low:.6e}, not 0");
         return Err(Refusal::new(what).remedy("subtract the lowest value; `Motion::origin` is the position at lift 0"));
     }
     continuous(motion, &all, range)?;
@@ -62,13 +62,13 @@ fn pieces_follow(motion: &dyn Motion) -> Result<(), Refusal> {
     }
     let width = last.end - first.start;
     if motion.period().is_some_and(|period| (width - period).abs() > CLOSED * period) || first.start.abs() > TAU {
-        let what = format!("its pieces cover {:.6} deg, and a turn has 360", width.to_degrees());
+        let what = format!("its pieces cover {:.6} deg, but a turn has 360", width.to_degrees());
         return Err(refused(motion, &what, first.start).remedy("begin within a turn of 0 and cover exactly one"));
     }
     Ok(())
 }
 
-/// Places of a piece with their jets, its ends first and last.
+/// Samples of a piece: argument and jet, both ends included.
 fn samples(motion: &dyn Motion, piece: usize) -> Vec<(f64, Jet)> {
     let Some(own) = motion.pieces().get(piece) else { return Vec::new() };
     let count = PLACES.max(motion.cells(piece).saturating_mul(2)).min(20 * PLACES);
@@ -103,7 +103,7 @@ fn derivatives_belong(motion: &dyn Motion, all: &[Vec<(f64, Jet)>], range: f64) 
                 let near = |found: &Option<f64>| found.is_none_or(|found| (found - given).abs() <= scale);
                 if !found.iter().any(near) {
                     let by = found.last().copied().flatten().unwrap_or(f64::NAN);
-                    let what = format!("its {name} is {given:.6e}, but that of its values is {by:.6e}");
+                    let what = format!("its {name} is {given:.6e}, but the finite difference is {by:.6e}");
                     return Err(refused(motion, &what, *at)
                         .remedy("give the exact derivatives per radian, and end a piece where one of them jumps"));
                 }
@@ -117,7 +117,7 @@ fn power(width: f64, order: usize) -> f64 {
     (0..order).map(|_| width).product()
 }
 
-/// The derivative of an order by a difference of the one below it; `None` near the ends of a piece.
+/// Finite difference of the next lower derivative; `None` near the ends of a piece.
 fn difference(motion: &dyn Motion, piece: usize, (at, step): (f64, f64), order: usize) -> Option<f64> {
     let own = motion.pieces().get(piece)?;
     if at - 2.0 * step < own.start || at + 2.0 * step > own.end {
@@ -132,7 +132,7 @@ mod tests {
     use super::*;
     use crate::motion::{EccentricCircle, Piece};
 
-    /// A harmonic, with its jet changed.
+    /// A harmonic with a changed jet.
     #[derive(Debug)]
     struct Changed(fn(Jet) -> Jet);
 

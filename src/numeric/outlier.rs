@@ -1,68 +1,68 @@
-//! A single value that is off the curve of its neighbours.
+//! Finds a single value off the curve of its neighbours.
 //!
-//! A value that is wrong by e shows in divided differences: the one through it and its neighbours is e times a known weight, while those of its
-//! neighbours alone do not contain it. The difference of order n of a smooth curve is its nth derivative over n!, so that the neighbours give what
-//! the curve itself can add, however unevenly they lie. Of a curve whose derivatives jump the neighbours show the jump too, because every
-//! difference over it contains it. Two orders are tried: the fourth sees errors near jumps, the sixth those of coarse values of smooth curves.
+//! A value with an error e adds e times a known weight to the divided difference through it and its neighbours; differences of the neighbours alone
+//! do not contain e. The difference of order n of a smooth curve is its nth derivative / n!, so the neighbours show the curve's own contribution,
+//! however uneven their spacing. A step in a derivative also shows in every difference of the neighbours across it. Two orders are tried: the
+//! fourth finds errors near such steps, the sixth errors in coarse values of smooth curves.
 
 use super::scatter::{OF_MEDIAN, median};
 use std::ops::Range;
 
 /// Neighbours on each side of a value: differences of the fourth and the sixth order.
 const SIDES: [usize; 2] = [2, 3];
-/// How many times a value may be off what its neighbours show, by the order: correct values of laws whose acceleration jumps reach 2.8 and 5.7.
+/// Allowed distance / contribution shown by the neighbours, per order: correct values of laws with acceleration steps reach 2.8 and 5.7.
 const FINE: [f64; 2] = [3.0, 6.4];
-/// Of few or uneven values, and beside a jump of the velocity, which at a value itself is much like an error of it: correct ones reach 10 and 16.
+/// The same for few or uneven values and next to a velocity step, which resembles an error: correct values reach 10 and 16.
 const COARSE: [f64; 2] = [18.0, 36.0];
-/// Fewest values for the first of these, and fewest for any.
+/// Fewest values for `FINE`, and for any result.
 const MANY: usize = 72;
 const FEWEST: usize = 20;
-/// Neighbours are even if their distances differ by less.
+/// Largest spacing / smallest spacing of evenly spaced neighbours.
 const EVEN: f64 = 1.2;
-/// So much of what a value is off is explained by a jump of the slope beside it.
+/// Factor on the distance that a slope step next to a value explains.
 const OF_JUMP: f64 = 3.0;
-/// Lines whose slopes change by a smaller share of what they differ by are straight.
+/// Lines count as straight if their slopes change by less than this share of the step between them.
 const STRAIGHT: f64 = 0.15;
-/// Distances at which they begin.
+/// Samples from the value to the beginning of these lines.
 const LINES: [usize; 3] = [1, 2, 3];
-/// Rounding puts a value off its neighbours by 1.6 steps at most.
+/// Allowed distance / rounding step; rounding alone causes at most 1.6 steps.
 const OF_ROUNDING: f64 = 3.5;
-/// So many standard deviations of the scatter are no error, where it is more than this share of a step of the rounding.
+/// Allowed distance / standard deviation of the scatter, used if that is above this share of a rounding step.
 const OF_SCATTER: f64 = 12.0;
 const BEYOND_ROUNDING: f64 = 0.6;
-/// Differences to either side of a value whose median is its scatter, and fewest of them.
+/// Differences on each side of a value for the median that gives its scatter, and their least number.
 const NEAR: usize = 16;
 const FEWEST_NEAR: usize = 8;
-/// Shares of the range: of what is off, and of what is more than the rounding of sums.
+/// Shares of the range: least allowed distance, and rounding of sums.
 const LEAST: f64 = 1e-7;
 const DIGITS: f64 = 1e-12;
-/// Samples on each side that the differences of a value reach.
+/// Samples on each side used by the differences of a value.
 pub const AROUND: usize = 7;
 
-/// A value at a place.
+/// A value at an argument.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// Growing from sample to sample.
+    /// Argument, increasing from sample to sample.
     pub at: f64,
     /// The value.
     pub value: f64,
-    /// The number of the row to be judged; `None` of one that only continues the curve.
+    /// The row to be judged; `None` if the sample only continues the curve.
     pub row: Option<usize>,
 }
 
-/// The row that is farthest off its neighbours, compared with what is allowed.
+/// The row with the largest distance from its neighbours / allowed distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outlier {
     /// The number of its row.
     pub row: usize,
-    /// Its value less that of the polynomial through its neighbours.
+    /// Its value minus the polynomial through its neighbours.
     pub off: f64,
-    /// How far it may be off.
+    /// Allowed distance.
     pub allowed: f64,
 }
 
 impl Outlier {
-    /// Whether the row is farther off than correct ones are.
+    /// Whether the row is farther off than allowed.
     #[must_use]
     pub fn is_wrong(&self) -> bool {
         self.off.abs() > self.allowed
@@ -73,7 +73,7 @@ impl Outlier {
     }
 }
 
-/// Samples of a ring with a period, continued at both ends; `rests` is whether the curve rests from each to the next.
+/// Samples of a closed curve with a period, continued at both ends; `rests`: whether the curve rests between a row and the next.
 #[must_use]
 pub fn ring(rows: &[(f64, f64)], rests: &[bool], period: f64) -> Vec<Sample> {
     let own = chain(rows, rests);
@@ -88,7 +88,7 @@ pub fn ring(rows: &[(f64, f64)], rests: &[bool], period: f64) -> Vec<Sample> {
     [shifted(before, -period), inner.to_vec(), shifted(after, period)].concat()
 }
 
-/// Samples of rows, with some on each stretch that rests.
+/// Samples of rows, with more on each rest.
 #[must_use]
 pub fn chain(rows: &[(f64, f64)], rests: &[bool]) -> Vec<Sample> {
     let mut all = Vec::with_capacity(rows.len());
@@ -104,7 +104,7 @@ pub fn chain(rows: &[(f64, f64)], rests: &[bool]) -> Vec<Sample> {
     all
 }
 
-/// Samples within a rest, a spacing apart: as many as count at both of its ends.
+/// Samples within a rest, about a spacing apart, enough for both of its ends.
 fn resting((from, to): (f64, f64), value: f64, spacing: f64) -> Vec<Sample> {
     let most = u32::try_from(2 * AROUND).unwrap_or(u32::MAX);
     let parts = (1..=most).take_while(|parts| (to - from) / f64::from(*parts) > 0.75 * spacing).last().unwrap_or(1);
@@ -112,7 +112,7 @@ fn resting((from, to): (f64, f64), value: f64, spacing: f64) -> Vec<Sample> {
     (1..parts).map(|part| Sample { at: from + step * f64::from(part), value, row: None }).collect()
 }
 
-/// A chain continued at a level before its first sample, or behind its last.
+/// A chain continued at a level before its first sample, or after its last.
 #[must_use]
 pub fn at_rest(samples: Vec<Sample>, spacing: f64, [before, after]: [bool; 2]) -> Vec<Sample> {
     let steps = || (1..=u32::try_from(AROUND).unwrap_or(0)).map(f64::from);
@@ -126,16 +126,16 @@ pub fn at_rest(samples: Vec<Sample>, spacing: f64, [before, after]: [bool; 2]) -
     [first, samples, last].concat()
 }
 
-/// How small an error is to be seen.
+/// Sensitivity to small errors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sensitivity {
-    /// As small as correct values of laws of motion allow.
+    /// As fine as correct values of laws of motion allow.
     Fine,
-    /// That of values of any origin.
+    /// For values of any origin.
     Coarse,
 }
 
-/// The row that is farthest off, of values rounded to a step; `None` of few rows.
+/// The row farthest off, for values rounded to a step; `None` if there are too few rows.
 #[must_use]
 pub fn worst(samples: &[Sample], rounding: f64, sensitivity: Sensitivity) -> Option<Outlier> {
     let rows = samples.iter().filter(|sample| sample.row.is_some()).count();
@@ -150,7 +150,7 @@ pub fn worst(samples: &[Sample], rounding: f64, sensitivity: Sensitivity) -> Opt
 /// Samples with their differences.
 struct Judge<'a> {
     samples: &'a [Sample],
-    /// For each order, of each window of consecutive samples, over what scatter of one makes of it.
+    /// For each order and each window of consecutive samples: |difference| / its value for unit scatter.
     scatter: [Vec<f64>; 2],
     /// Standard deviation over all of them.
     overall: f64,
@@ -170,8 +170,8 @@ impl<'a> Judge<'a> {
         judge
     }
 
-    /// Standard deviation of the scatter, by the windows of each order whose first samples are in a range: the smaller one of both orders, because
-    /// the curve itself adds to both, but not the same.
+    /// Standard deviation of the scatter from the windows of each order whose first samples are in `first`: the smaller of both orders, because the
+    /// curve's own contribution differs between them.
     fn scatter_in(&self, first: [Range<usize>; 2]) -> f64 {
         let of_order = |(all, first): (&Vec<f64>, Range<usize>)| {
             let windows = all.get(first.start.min(all.len())..first.end.min(all.len())).unwrap_or_default();
@@ -181,7 +181,7 @@ impl<'a> Judge<'a> {
         self.scatter.iter().zip(first).map(of_order).fold(f64::INFINITY, f64::min)
     }
 
-    /// Standard deviation of the scatter near a sample, without it: on the side where it is larger, because a flank may scatter more than a dwell.
+    /// Standard deviation of the scatter near a sample, without the sample: the larger of both sides, because a flank may scatter more than a dwell.
     fn scatter_near(&self, index: usize) -> f64 {
         let before = SIDES.map(|side| {
             let end = index.saturating_sub(2 * side);
@@ -228,20 +228,20 @@ impl<'a> Judge<'a> {
         Some(most <= EVEN * least)
     }
 
-    /// How much a jump of the slope beside a sample may put it off its neighbours: one at the sample, or the corners of a short stretch between two
-    /// straight lines.
+    /// Largest distance from its neighbours that a slope step explains: a step at the sample, or the corners of a short stretch between two straight
+    /// lines.
     fn jump(&self, index: usize, off: f64) -> Option<f64> {
         let at = self.samples.get(index)?.at;
         let spacing = 0.5 * (self.samples.get(index + 1)?.at - self.samples.get(index.checked_sub(1)?)?.at);
         let [before, after] =
             [self.three(index, 1, false)?, self.three(index, 1, true)?].map(|three| slope_at(three, at));
-        // A sample at a corner is on its inner side.
+        // A sample at a corner is on the inner side of the polynomial.
         let one = if (after - before) * off < 0.0 { OF_JUMP * (after - before).abs() * spacing / 3.0 } else { 0.0 };
         let corners = LINES.iter().filter_map(|from| self.corner(index, *from)).map(|jump| jump * spacing);
         Some(corners.fold(one, f64::max))
     }
 
-    /// By how much the slopes of straight lines on both sides of a sample differ, from a distance on.
+    /// Slope difference of straight lines on both sides of a sample, beginning `from` samples away; `None` if they are not straight.
     fn corner(&self, index: usize, from: usize) -> Option<f64> {
         let lines = [self.three(index, from, false)?, self.three(index, from, true)?];
         let [left, right] = lines.map(slope_of);
@@ -249,7 +249,7 @@ impl<'a> Judge<'a> {
         lines.into_iter().all(|line| bend_of(line).abs() <= STRAIGHT * jump).then_some(jump)
     }
 
-    /// Three samples on one side of one, from a distance on.
+    /// Three samples on one side of a sample, beginning `from` samples away.
     fn three(&self, index: usize, from: usize, after: bool) -> Option<[Sample; 3]> {
         let place = |by: usize| if after { Some(index + by) } else { index.checked_sub(by) };
         let sample = |by: usize| self.samples.get(place(from + by)?).copied();
@@ -262,12 +262,12 @@ fn slope_of([a, _, c]: [Sample; 3]) -> f64 {
     (c.value - a.value) / (c.at - a.at)
 }
 
-/// By how much the slope changes from the first two to the last two.
+/// Slope change from the first two to the last two of three samples.
 fn bend_of([a, b, c]: [Sample; 3]) -> f64 {
     (c.value - b.value) / (c.at - b.at) - (b.value - a.value) / (b.at - a.at)
 }
 
-/// The slope, at a place, of the parabola through three samples.
+/// The slope at `at` of the parabola through three samples.
 fn slope_at([a, b, c]: [Sample; 3], at: f64) -> f64 {
     let first = (b.value - a.value) / (b.at - a.at);
     let second = ((c.value - b.value) / (c.at - b.at) - first) / (c.at - a.at);
@@ -278,7 +278,7 @@ fn slope_at([a, b, c]: [Sample; 3], at: f64) -> f64 {
 struct Difference {
     value: f64,
     weights: Vec<f64>,
-    /// The root of the sum of the squares of the weights.
+    /// Square root of the sum of the squared weights.
     size: f64,
 }
 
@@ -298,7 +298,7 @@ impl Difference {
         self.weights.get(at).copied()
     }
 
-    /// Its size over what scatter of one makes of it.
+    /// |Difference| / its value for unit scatter.
     fn scatter(&self) -> f64 {
         self.value.abs() / self.size
     }

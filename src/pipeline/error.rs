@@ -11,7 +11,7 @@ pub enum Error {
     /// The machine file has faults; all of them are reported.
     #[error(transparent)]
     Machine(#[from] MachineError),
-    /// A motion that code gives cannot be made, or is none.
+    /// A motion given by code is impossible or contradicts itself.
     #[error(transparent)]
     Motion(#[from] Refusal),
     /// No cam can be solved.

@@ -1,7 +1,7 @@
-//! What a file says of itself, compared with what camgen says of the cam: a statement of a head that contradicts it is refused with its line.
+//! Compares the head of a file with the cam: a statement that contradicts the cam is refused with its line.
 //!
-//! A statement is known by its key, what stands before the colon. Other lines are remarks of whoever wrote the file, unless its mark says that this version of
-//! camgen did: then every statement of this version must be there.
+//! A statement has a key before its colon. Other lines are remarks, unless the mark names this version of camgen: then every statement of this
+//! version must be present.
 
 use crate::body::Body;
 use crate::body::gauge::Gauge;
@@ -14,20 +14,20 @@ use crate::reading::servo::ServoRows;
 use crate::units::LengthUnit;
 use crate::write::{gauge, inspection, points, servo};
 
-/// What the mark of this version begins with.
+/// Beginning of the mark of this version.
 const MARK: &str = concat!("camgen ", env!("CARGO_PKG_VERSION"), ", inputs ");
-/// Numbers of a head that differ by less are equal, as a share.
+/// Largest relative difference of equal numbers.
 const SAME: f64 = 1e-6;
-/// Errors, found anew on rows that were rounded, as a share.
+/// Largest relative difference of equal errors, computed again from rounded rows.
 const SAME_ERROR: f64 = 0.02;
 
-/// A line of a head, without its mark of a comment.
+/// A line of a head without its comment mark.
 struct HeadLine<'t> {
     line: usize,
     text: &'t str,
 }
 
-/// What a table for a servo drive says that is not so of a cam.
+/// The contradiction between the head of a servo table and the cam, if any.
 pub(super) fn of_servo(body: &dyn Body, text: &str, read: &ServoRows) -> Option<String> {
     if read.straight {
         return of_equal_parts(text, read.swings);
@@ -37,7 +37,7 @@ pub(super) fn of_servo(body: &dyn Body, text: &str, read: &ServoRows) -> Option<
     contradiction(&found, &expected)
 }
 
-/// What a table of the controls of ISG says behind its settings. A comment of one word is the name of the setting.
+/// The contradiction in the comments after the settings of an ISG table. A comment of one word names the setting.
 fn of_equal_parts(text: &str, swings: bool) -> Option<String> {
     let [master, kind, function, slave] = servo::isg_statements(swings);
     let due = [("Tabletype", kind), ("Functiontype", function)];
@@ -56,13 +56,13 @@ fn of_equal_parts(text: &str, swings: bool) -> Option<String> {
     misnamed.or_else(|| contradiction(&found, &[master, slave]))
 }
 
-/// What the lift table of a gauge follower says that is not so of a cam.
+/// The contradiction between the head of a gauge follower's lift table and the cam, if any.
 pub(super) fn of_gauge(body: &dyn Body, text: &str, read: &GaugeRows) -> Option<String> {
     let follower = read.radius.map_or(Gauge::Flat, |radius| Gauge::Round(radius / MILLIMETRES));
     contradiction(&behind(text, "#"), &gauge::statements(body, follower, read.units))
 }
 
-/// What a list of places with a ball of a radius, mm, says that is not so of a cam.
+/// The contradiction between the head of an inspection list, with its ball radius, mm, and the cam, if any.
 pub(super) fn of_places(body: &dyn Body, text: &str, ball_radius: f64) -> Option<String> {
     if text.trim_start().starts_with("DMISMN/") {
         let mut found = behind(text, "$$");
@@ -72,7 +72,7 @@ pub(super) fn of_places(body: &dyn Body, text: &str, ball_radius: f64) -> Option
     }
     let found = behind(text, "#");
     if !text.lines().any(|line| line.starts_with("no,")) {
-        // Plain lines of numbers state their unit at most.
+        // Plain lines of numbers state at most their unit.
         let inches = text.lines().any(|line| line.trim_end() == PLAIN_INCHES);
         return contradiction(&found, &[format!("units: {}, degrees", if inches { "inches" } else { "mm" })]);
     }
@@ -80,7 +80,7 @@ pub(super) fn of_places(body: &dyn Body, text: &str, ball_radius: f64) -> Option
     contradiction(&found, &inspection::statements(body, units, units.of_mm(ball_radius)))
 }
 
-/// What a table of points says that is not so: its figures are those of the table as it was read.
+/// The contradiction between the head of a table of points and the table as read, if any.
 pub(super) fn of_points(
     body: &dyn Body,
     text: &str,
@@ -92,14 +92,14 @@ pub(super) fn of_points(
         value.and_then(|value| value.split([' ', ',']).next()?.parse::<usize>().ok()).unwrap_or(0)
     };
     let mut told = table.clone();
-    // Both are rows that stand twice; which of them a row is, is not seen in it.
+    // Corners and jumps are both repeated rows, and a row does not show which.
     let (corners, jumps) = (count("corners"), count("jumps"));
     let twice = table.rows.corners + table.rows.jumps;
     if twice == corners + jumps {
         (told.rows.corners, told.rows.jumps) = (corners, jumps);
     }
     told.wish.tolerance = tolerance_mm;
-    // A table may be checked without the tolerances that it was made for: what it keeps is then judged by those that it states.
+    // A table may be checked without the tolerances it was made for; it is then judged by its stated ones.
     let of_one = points::statements(body, &PointTable { allowed: [1.0; 2], ..told.clone() }, units);
     let keys = ["velocity_tolerance", "acceleration_tolerance"];
     let mut judged = keys.to_vec();
@@ -119,7 +119,7 @@ pub(super) fn of_points(
         let stated = line.text.strip_prefix("tolerance_")?.split_once(": ")?.1.parse::<f64>().ok()?;
         Some(units.millimetres() * stated)
     };
-    // One that was made for a finer tolerance is within this one, too.
+    // A table made for a finer tolerance also keeps this one.
     let finer = |stated: f64| stated <= tolerance_mm * (1.0 + SAME) && stated >= table.rows.error * (1.0 - SAME);
     if found.iter().filter_map(tolerance).all(finer) {
         expected.retain(|line| !line.starts_with("tolerance_"));
@@ -127,12 +127,12 @@ pub(super) fn of_points(
     contradiction(&found, &expected)
 }
 
-/// The number of the statement whose key begins with a word.
+/// The number in the first statement whose key begins with `key`.
 fn value<'t>(mut lines: impl Iterator<Item = &'t str>, key: &str) -> Option<f64> {
     lines.find(|line| line.starts_with(key))?.split_once(": ")?.1.parse().ok()
 }
 
-/// The lines that begin with a mark of a comment.
+/// The lines that begin with a comment mark.
 fn behind<'t>(text: &'t str, mark: &str) -> Vec<HeadLine<'t>> {
     let numbered = text.lines().enumerate();
     let own = numbered.filter_map(|(index, line)| {
@@ -141,14 +141,14 @@ fn behind<'t>(text: &'t str, mark: &str) -> Vec<HeadLine<'t>> {
     own.collect()
 }
 
-/// The lines of the first comment of structured text.
+/// The lines of the first comment in structured text.
 fn in_comment(text: &str) -> Vec<HeadLine<'_>> {
     let lines = text.lines().enumerate().skip_while(|(_, line)| !line.contains("(*"));
     let own = lines.take_while(|(_, line)| line.trim() != "*)");
     own.map(|(index, line)| HeadLine { line: index + 1, text: line.trim().trim_start_matches("(*").trim() }).collect()
 }
 
-/// The first statement that is another than expected.
+/// The first contradicting or missing statement, as a message.
 fn contradiction(found: &[HeadLine<'_>], expected: &[String]) -> Option<String> {
     let known = |text: &str| expected.iter().any(|due| due == text);
     let strange: Vec<&HeadLine<'_>> = found
@@ -179,7 +179,7 @@ fn contradiction(found: &[HeadLine<'_>], expected: &[String]) -> Option<String> 
     contradicts.or_else(lost)
 }
 
-/// Whether two values of a statement are equal, or nearly, where they are numbers.
+/// Whether two values of a statement are equal, or nearly equal numbers.
 fn same(key: &str, stated: &str, due: &str) -> bool {
     let share = if key.contains("error") { SAME_ERROR } else { SAME };
     let close = |(stated, due): (f64, f64)| (stated - due).abs() <= share * due.abs();
@@ -188,7 +188,7 @@ fn same(key: &str, stated: &str, due: &str) -> bool {
         || (key == "units" && same_units(stated, due))
 }
 
-/// Whether units, or the first of them, are those that are due, in whatever words.
+/// Whether the stated units are the expected ones, or the first of them, in any spelling.
 fn same_units(stated: &str, due: &str) -> bool {
     let named = |text: &str| text.split(", ").map(HeadingUnit::of_word).collect::<Vec<_>>();
     let (stated, due) = (named(stated), named(due));

@@ -22,14 +22,14 @@ use crate::verify::{
 };
 use crate::write::points;
 
-/// Whether the control keeps its cutter beside the path of a program, most of the way that it cuts at one depth.
+/// Whether radius compensation is on for at least half of the level cutting moves.
 fn keeps_its_cutter(program: &CutterProgram) -> bool {
     let level = |moved: &&gcode::CutterMove| {
         moved.kind != MoveKind::Rapid && moved.from[2] < 0.0 && moved.is_level() && !moved.is_upright()
     };
     let cuts = program.moves.iter().filter(level).count();
     let kept = program.moves.iter().filter(level).filter(|moved| moved.side != CutterSide::Centre).count();
-    // A cam that is turned under its tool has passes in the place of moves, and no tool is kept beside them.
+    // A cam turned under its tool has passes instead of moves, without compensation.
     program.turned.is_empty() && 2 * kept >= cuts
 }
 
@@ -270,7 +270,7 @@ impl Cam {
         Ok(stated.map_or(checks, |why| verify::run(&Evidence { points: Some(&Err(why)), ..evidence })))
     }
 
-    /// A table of points with the figures that its head gives, as they are of its rows; `error` is their distance, mm.
+    /// A table of points with the figures of its head computed from its rows; `error` is their distance, mm.
     fn as_read(&self, written: &WrittenPoints, error: f64) -> Option<PointTable> {
         let (mut table, curve) = (written.table.clone(), written.curve.as_ref().ok()?);
         let cuts = self.body().cuts();

@@ -488,7 +488,7 @@ mod tests {
                 0.0,
                 &[(law, rise, swing), (None, 0.3, swing), (law, fall, 0.0), (None, 0.0, 0.0)],
             );
-            // A law that jumps at a rest is left out.
+            // Laws that cannot begin and end at rest are skipped.
             let Ok(program) = program else { continue };
             let follower = SwingingRoller::new(arm, pivot, 0.008, if case % 2 == 0 { 1.0 } else { -1.0 });
             let required = SizeLimits {

@@ -7,7 +7,7 @@ use crate::units::LengthUnit;
 pub struct GaugeRows {
     /// Radius of the ball or roller, mm; `None` of a flat face.
     pub radius: Option<f64>,
-    /// The unit that the file has its lengths in.
+    /// The unit of length of the file.
     pub units: LengthUnit,
     /// Cam angle, degrees; distance of the centre, or of the face, from the axis, and lift, mm.
     pub rows: Vec<[f64; 3]>,
@@ -45,7 +45,7 @@ pub fn read(bytes: &[u8]) -> Result<GaugeRows, String> {
     let follower = text
         .lines()
         .find_map(|line| line.strip_prefix("# ")?.strip_prefix(FOLLOWER))
-        .ok_or("it does not say which follower")?;
+        .ok_or("its head does not name the follower")?;
     let radius = match follower.trim_end().strip_prefix(ROUND) {
         Some(diameter) => {
             let in_units = [("mm ", LengthUnit::Millimetre), ("in ", LengthUnit::Inch)].into_iter();

@@ -9,7 +9,7 @@ pub struct ServoRows {
     pub swings: bool,
     /// Whether the drive goes straight from row to row, whose velocity and acceleration are then nothing.
     pub straight: bool,
-    /// The unit that the file has its lengths in; the rows are in millimetres.
+    /// The unit of length of the file; the rows are in millimetres.
     pub units: LengthUnit,
     /// The rows.
     pub rows: Vec<[f64; 4]>,

@@ -152,7 +152,7 @@ pub struct OutlineMeasures {
     pub length_mm: f64,
 }
 
-/// A number of arcs that rounds to 0: arcs and lines describe the exact outline.
+/// A best possible number of arcs that rounds to 0: arcs and lines are the exact outline.
 const NO_ARCS: f64 = 0.05;
 
 impl OutlineMeasures {

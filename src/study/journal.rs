@@ -1,4 +1,4 @@
-//! The table of a study on disk while it is made: it grows under a temporary name, can be continued after the program was killed, and gets its
+//! The table of a study while it is made: it grows under a temporary name, can be continued after a kill, and gets its final
 //! name together with the summary (`write::growing`).
 
 use super::specification::{Study, StudyError};
@@ -11,7 +11,7 @@ use crate::write::record::{GrowingOptions, WriteInputs, open_growing, stage_file
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// Digits of the digest of a study that name it in messages.
+/// Digits of the study digest in messages.
 const SHOWN_DIGITS: usize = 12;
 
 /// What is written beside the table and its summary.
@@ -51,16 +51,16 @@ pub struct Journal {
     files: StudyFiles,
 }
 
-/// A study that is complete.
+/// A complete study.
 #[derive(Debug)]
 pub struct CompleteStudy {
-    /// What its rows show.
+    /// The results of its rows.
     pub summary: Summary,
-    /// The summary for programs.
+    /// The summary as JSON.
     pub json: Value,
     /// The files.
     pub written: Vec<PathBuf>,
-    /// What differs from the files of this name before, a sentence each.
+    /// Differences from earlier files of this name, a sentence each.
     pub notes: Vec<String>,
 }
 
@@ -101,12 +101,12 @@ impl Journal {
     /// Adds the lines of rows up to a number.
     ///
     /// # Errors
-    /// [`Refusal`] where they cannot be written; the rows that were saved are kept for the next run.
+    /// [`Refusal`] if they cannot be written; saved rows are kept for the next run.
     pub fn add(&mut self, done: u64, lines: &[u8]) -> Result<(), StudyError> {
         self.table.add(done, lines).map_err(continued)
     }
 
-    /// Makes sure that the next run continues after the rows added so far. It takes the time of a disk, so it is for the caller to say how often.
+    /// Saves the rows added so far for a next run. It waits for the disk, so the caller decides how often.
     ///
     /// # Errors
     /// As [`Journal::add`].
@@ -114,10 +114,10 @@ impl Journal {
         self.table.save().map_err(continued)
     }
 
-    /// What the rows show; they are saved first.
+    /// Saves the rows and returns their results.
     ///
     /// # Errors
-    /// [`Refusal`] where they cannot be saved or read; the rows that were saved are kept for the next run.
+    /// [`Refusal`] if they cannot be saved or read; saved rows are kept for the next run.
     pub fn summary(&self, study: &Study) -> Result<Summary, StudyError> {
         self.save()?;
         let failed = |error| Refusal::new(format!("cannot read the table of {}: {error}", self.stem));
@@ -127,15 +127,15 @@ impl Journal {
     /// The directory, opened again for the files of the complete study.
     ///
     /// # Errors
-    /// [`Refusal`] where the directory cannot be opened; the rows are kept for the next run.
+    /// [`Refusal`] if the directory cannot be opened; the rows are kept for the next run.
     pub fn reopened(&self) -> Result<OutputDirectory, StudyError> {
         Ok(OutputDirectory::of_grown(&self.table)?)
     }
 
-    /// Writes the summary and what else is wanted next to their names, to be put in place with the table.
+    /// Writes the summary and the other wanted files under temporary names, to be put in place with the table.
     ///
     /// # Errors
-    /// [`Refusal`] where a file cannot be written, or would be replaced; the rows are kept for the next run.
+    /// [`Refusal`] if a file cannot be written or would be replaced; the rows are kept for the next run.
     pub fn stage(
         &self,
         place: OutputDirectory,
@@ -184,7 +184,7 @@ impl Journal {
     }
 }
 
-/// From what the files of a study are made.
+/// The inputs of the files of a study, for their record.
 fn inputs(study: &Study) -> Vec<Input> {
     let digest = study.digest();
     let shown = digest.get(..SHOWN_DIGITS).unwrap_or(digest);
@@ -193,9 +193,9 @@ fn inputs(study: &Study) -> Vec<Input> {
     vec![input("command", "study", "study"), input("study", digest, shown)]
 }
 
-/// An error after which rows are kept.
+/// An error after which saved rows are kept.
 fn continued(error: FilesError) -> StudyError {
     let FilesError::File { path, source } = error else { return error.into() };
     let what = format!("cannot write {}: {source}", path.display());
-    Refusal::new(what).remedy("the same command continues after the rows that were saved last").into()
+    Refusal::new(what).remedy("run the same command again: it continues after the last saved rows").into()
 }

@@ -12,7 +12,7 @@ use crate::machine::{Machine, MachineSource};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// The base by its embedded name, or from the folder of the study or below it.
+/// The base: an embedded machine, or a file in or below the folder of the study.
 pub(super) fn base_of(name: &str, folder: Option<&Path>) -> Result<MachineSource, Box<FileFault>> {
     let fault = |message: String, help: Option<String>| Box::new(FileFault { key: None, message, help, place: None });
     let path = match folder.filter(|folder| folder.join(name).exists()) {
@@ -21,7 +21,7 @@ pub(super) fn base_of(name: &str, folder: Option<&Path>) -> Result<MachineSource
             outside.map_or(Ok(folder.join(name)), |fault| Err(Box::new(fault)))?
         }
         None if Path::new(name).exists() && !catalogue().names().contains(&name) => {
-            let help = "give its path from the folder of the study file, in which it lies or below which";
+            let help = "put it in or below the folder of the study file, and give its path from there";
             return Err(fault(format!("there is no base `{name}` in the folder of the study"), Some(help.to_owned())));
         }
         None => PathBuf::from(name),

@@ -26,7 +26,7 @@ pub(crate) const COMMAND: &str = "trade";
 /// The disc cam of a motion program.
 pub const KIND: Kind = Kind { command: COMMAND, noun: "time and accuracy of a disc cam", keys: cams::MAKE };
 
-/// Largest error of the acceleration by default, as a share: that of `--accuracy standard`.
+/// Default largest acceleration error, as a share: the one of `--accuracy standard`.
 pub(crate) const ACCELERATION: f64 = 0.05;
 
 /// What is measured, and the limits that the advice keeps.

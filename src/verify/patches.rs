@@ -100,7 +100,7 @@ impl SpanCell<'_> {
         self.refined(self.at_places(exact, PLACES), exact, tolerance)
     }
 
-    /// The same, from the result at the first places.
+    /// Refines the result at the first places.
     fn refined(&self, first: FlankDeviation, exact: &dyn ExactFlank, tolerance: f64) -> FlankDeviation {
         let mut found = first;
         for doubling in 1..=DOUBLINGS {

@@ -1,15 +1,15 @@
-//! Whether a program states what its moves rely on before they run: a control keeps the words of the program before.
+//! Checks that a program states all words before the moves that rely on them: a control keeps words of the previous program.
 
 use crate::machine::Controller;
 use crate::reading::gcode::{CutterProgram, Unstated};
 
-/// The first move of a program that runs before what it relies on is stated, if that is refused.
+/// The first refused move: one that relies on a word not yet stated.
 pub(super) fn early_move(program: &CutterProgram) -> Option<String> {
     let (line, what) = program.early.iter().find(|(_, what)| is_refused(program, *what))?;
     Some(format!("line {line} {}", fault(*what, program.control)))
 }
 
-/// What the operator has to set before such a program is started, for a note.
+/// Settings that the operator must make before the start, for a note.
 pub(super) fn assumed(program: &CutterProgram) -> String {
     let wanted: Vec<&str> = program
         .early
@@ -35,8 +35,8 @@ pub(super) fn assumed(program: &CutterProgram) -> String {
     }
 }
 
-/// A program that sets up neither tool, datum nor height is started by an operator who has done so; one that sets up some of them must set up all. Of the
-/// controls only LinuxCNC and SINUMERIK may leave their path without a bound.
+/// If a program sets up neither tool, datum nor height, the operator has; if it sets up one of them, it must set up all. Only LinuxCNC and SINUMERIK
+/// can deviate from the path without a bound.
 fn is_refused(program: &CutterProgram, what: Unstated) -> bool {
     match what {
         Unstated::Length | Unstated::Datum | Unstated::Spindle | Unstated::Place => program.sets_up,
@@ -47,7 +47,7 @@ fn is_refused(program: &CutterProgram, what: Unstated) -> bool {
     }
 }
 
-/// What is wrong with a move, and what to write.
+/// The fault of a move, and its remedy.
 fn fault(what: Unstated, control: Option<Controller>) -> &'static str {
     use Controller::{Fanuc, Heidenhain, Sinumerik};
     match (what, control) {

@@ -58,15 +58,15 @@ pub enum FilesError {
         .0.iter().map(ProtectedFile::to_string).collect::<Vec<_>>().join(", ")
     )]
     Kept(Vec<ProtectedFile>),
-    /// A file that grows is not one that camgen has written, or not of this run.
+    /// A growing file was not written by camgen, or belongs to another run.
     #[error("`{}` {why}; nothing was changed", path.display())]
     Part {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it, and what to do.
+        /// The fault and its remedy.
         why: String,
     },
-    /// A file that grows under this stem is being written by another run.
+    /// Another run is writing a growing file of this stem.
     #[error("another run of camgen is writing `{}`; nothing was changed: wait until it ends, or give another --name or --out", .0.display())]
     InUse(PathBuf),
     /// A file cannot be written.

@@ -38,7 +38,7 @@ impl OutputDirectory {
         Self::finishing(Directory::open(path)?)
     }
 
-    /// Opens the directory of a growing file again, for the files that are put in place with it. What was added to it is saved first.
+    /// Saves a growing file, and opens its directory again for the files that are put in place with it.
     ///
     /// # Errors
     /// As [`OutputDirectory::open`].
@@ -76,7 +76,7 @@ pub struct StagedFiles {
     left: Vec<LeftRecord>,
 }
 
-/// A file to be written, whose content need not be in memory.
+/// A file to be written; its content need not be in memory.
 #[derive(Debug)]
 pub struct NewFile<'a> {
     /// Its name in the directory.
@@ -92,9 +92,9 @@ pub type WriteContent<'a> = Box<dyn FnMut(&mut File) -> io::Result<()> + 'a>;
 pub enum Content<'a> {
     /// In memory.
     Bytes(Vec<u8>),
-    /// As it is written.
+    /// Produced during writing.
     Stream(WriteContent<'a>),
-    /// On the disk already, under the name of a growing file.
+    /// Already on disk, as a growing file.
     Grown(&'a GrowingFile),
 }
 
@@ -122,8 +122,7 @@ pub fn write_all(directory: &Path, outputs: &[Output]) -> Result<(), FilesError>
     stage(OutputDirectory::open(directory)?.directory, outputs)?.commit()
 }
 
-/// Writes a file into a directory, made if missing, into which many processes write files of other names at the same time: none waits
-/// for another.
+/// Writes a file into a directory, made if missing, without waiting for other processes, which may write files of other names at the same time.
 ///
 /// # Errors
 /// [`FilesError`]; then the file is as it was before.
@@ -178,7 +177,7 @@ impl StagedFiles {
         Ok(())
     }
 
-    /// Adds a file; the digest of one that was not in memory.
+    /// Adds a file; returns its digest if its content was not in memory.
     pub(super) fn add(&mut self, file: NewFile<'_>) -> Result<Option<String>, FilesError> {
         let name = file.name;
         match file.content {
@@ -194,7 +193,7 @@ impl StagedFiles {
         Ok(None)
     }
 
-    /// Adds a file that has grown under its own temporary name.
+    /// Adds a growing file, already under its own temporary name.
     fn add_grown(&mut self, name: &str, grown: &GrowingFile) -> Result<(), FilesError> {
         let owned = target(&self.directory, name).map_err(|source| self.failed(name, source))?;
         grown.is_still_in(&self.directory)?;

@@ -23,7 +23,7 @@ pub const FORMAT: Format = Format {
     of_analysis: None,
 };
 
-/// Statements as lines of a head, each behind the mark of a comment.
+/// Statements as lines of a head, each after a comment mark.
 pub(super) fn lines(mark: &str, statements: &[String]) -> String {
     let mut head = String::new();
     for statement in statements {
@@ -47,7 +47,7 @@ pub fn write(body: &dyn Body, table: &GaugeTable, mark: &str) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// What a table in a unit says of itself, line by line.
+/// The statements in the head of a table in a unit.
 #[must_use]
 pub fn statements(body: &dyn Body, gauge: Gauge, units: LengthUnit) -> Vec<String> {
     let unit = units.symbol();

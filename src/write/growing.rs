@@ -1,10 +1,10 @@
-//! A file that grows for hours and survives the death of its program: `NAME.part`, with `NAME.part.json`, which says of which work it is and
-//! how much of it camgen has written, by its length and its SHA-256.
+//! A file that grows for hours and survives a kill of its program: `NAME.part`. `NAME.part.json` identifies its work, and the part that camgen
+//! has written by length and SHA-256.
 //!
-//! Only these bytes are kept by the run that continues: what follows them was not complete, and is made again. If they are others than
-//! camgen wrote, nothing is continued. Both files belong to the user who runs, are regular files and have no other name; any other
-//! file of these names is refused and left. The directory is locked only while a name is made, so that other runs may write into it meanwhile;
-//! the growing file itself is locked all the time.
+//! A run that continues keeps only these bytes: later ones may be incomplete, and are made again. If these bytes have changed, nothing is
+//! continued. Both files belong to the user of the run, are regular files and have no other name; any other file of these names is
+//! refused and not touched. The directory is locked only while a name is made, so that other runs may write into it meanwhile; the growing file
+//! itself is locked all the time.
 
 use super::directory::{Directory, FileOwner, NameState, give};
 use super::error::FilesError;
@@ -16,15 +16,15 @@ use sha2::{Digest, Sha256};
 use std::fs::{File, TryLockError};
 use std::io::{self, BufReader, Seek, SeekFrom, Write};
 
-/// Bytes read at a time.
+/// Size of the read buffer, bytes.
 const BUFFER: usize = 1 << 16;
 
-/// A file that grows.
+/// A growing file.
 #[derive(Debug)]
 pub struct GrowingFile {
     directory: Directory,
     name: String,
-    /// The digest of the work that it is of.
+    /// The digest of its work.
     of: String,
     file: File,
     hash: Sha256,
@@ -33,7 +33,7 @@ pub struct GrowingFile {
 }
 
 impl GrowingFile {
-    /// Opens the growing file `name` of a work in a locked directory, and continues what an interrupted run of it left, unless it restarts.
+    /// Opens the growing file `name` of a work in a locked directory, and continues an interrupted run of it unless `restart`.
     pub(super) fn open(mut directory: Directory, name: &str, of: &str, restart: bool) -> Result<Self, FilesError> {
         let Some((file, marker, hash)) = Self::kept(&directory, name, of, restart)? else {
             return Self::new(directory, name, of);
@@ -44,7 +44,7 @@ impl GrowingFile {
         Ok(Self { directory, name, of, file, hash, rows: marker.rows, bytes: marker.bytes })
     }
 
-    /// What is continued: the file at the end of what camgen wrote. A file that is not continued is removed.
+    /// The file to continue, positioned after the bytes that camgen wrote. A file that is not continued is removed.
     fn kept(
         directory: &Directory,
         name: &str,
@@ -62,11 +62,11 @@ impl GrowingFile {
         };
         let mut file = directory.file_to_extend(&part).map_err(failed)?;
         if !directory.has_only_name(&file, &part).map_err(failed)? {
-            return refused("has another name as well (a hard link): remove one of both, or give another --name");
+            return refused("has a second name (a hard link): remove one of the two, or give another --name");
         }
         lock(directory, &part, &file)?;
         if !restart && marker.study != of {
-            let why = "is of an interrupted run of another study, base or version of camgen: give --restart to begin anew, or another --name";
+            let why = "is from an interrupted run of another study, base or version of camgen: give --restart to begin anew, or another --name";
             return refused(why);
         }
         if restart || marker.bytes == 0 {
@@ -83,7 +83,7 @@ impl GrowingFile {
         Ok(Some((file, marker, hash)))
     }
 
-    /// A new growing file. Its marker is written first: a file without one is not camgen's.
+    /// Creates a growing file. Its marker is written first: a file without a marker is not camgen's.
     fn new(mut directory: Directory, name: &str, of: &str) -> Result<Self, FilesError> {
         let part = part_of(name);
         let marker = Marker { study: of.to_owned(), rows: 0, bytes: 0, sha256: hexadecimal(&Sha256::digest([])) };
@@ -97,22 +97,22 @@ impl GrowingFile {
         Ok(Self { directory, name, of, file, hash: Sha256::new(), rows: 0, bytes: 0 })
     }
 
-    /// Rows that are in it.
+    /// Rows in it.
     #[must_use]
     pub fn rows(&self) -> u64 {
         self.rows
     }
 
-    /// Whether nothing is in it.
+    /// Whether it is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.bytes == 0
     }
 
-    /// Adds bytes, with which it has so many rows.
+    /// Adds bytes; `rows` is the number of rows with them.
     ///
     /// # Errors
-    /// As writing gives; what was saved before is kept for the next run.
+    /// An error of writing; saved bytes are kept for the next run.
     pub fn add(&mut self, rows: u64, bytes: &[u8]) -> Result<(), FilesError> {
         self.file.write_all(bytes).map_err(|source| self.failed(source))?;
         self.hash.update(bytes);
@@ -121,7 +121,7 @@ impl GrowingFile {
         Ok(())
     }
 
-    /// Makes sure that the next run continues after what was added so far. Nothing is done while another run is in the directory.
+    /// Saves the bytes added so far for a next run. Does nothing while another run has the directory.
     ///
     /// # Errors
     /// [`FilesError`] if the disk refuses it.
@@ -138,14 +138,14 @@ impl GrowingFile {
         write_marker(directory, &self.name, &marker)
     }
 
-    /// Its directory, locked, for the files that are put in place with it; what was added is saved first.
+    /// Saves it, and returns its locked directory for the files that are put in place with it.
     pub(super) fn saved(&self) -> Result<Directory, FilesError> {
         let directory = self.directory.locked()?;
         self.saved_in(&directory)?;
         Ok(directory)
     }
 
-    /// The SHA-256 of what is in it.
+    /// The SHA-256 of its content.
     #[must_use]
     pub fn sha256(&self) -> String {
         hexadecimal(&self.hash.clone().finalize())
@@ -154,7 +154,7 @@ impl GrowingFile {
     /// Reads it from its beginning; one reader at a time.
     ///
     /// # Errors
-    /// As reading gives.
+    /// An error of reading.
     pub fn reader(&self) -> io::Result<BufReader<File>> {
         let mut file = self.file.try_clone()?;
         file.seek(SeekFrom::Start(0))?;
@@ -165,7 +165,7 @@ impl GrowingFile {
         self.reader().and_then(digest_of).map_err(|source| self.failed(source))
     }
 
-    /// Refuses a file whose name has been given to another meanwhile.
+    /// Refuses if its name now belongs to another file.
     pub(super) fn is_still_in(&self, directory: &Directory) -> Result<(), FilesError> {
         let path = self.directory.path_of(&part_of(&self.name));
         match directory.has_only_name(&self.file, &part_of(&self.name)) {
@@ -191,16 +191,16 @@ fn write_marker(directory: &Directory, name: &str, marker: &Marker) -> Result<()
     write_one(directory, &marker_of(name), &serde_json::to_vec(marker).unwrap_or_default())
 }
 
-/// Keeps other runs from a growing file until it is closed.
+/// Locks a growing file against other runs until it is closed.
 fn lock(directory: &Directory, part: &str, file: &File) -> Result<(), FilesError> {
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => Err(FilesError::InUse(directory.path_of(part))),
-        // The other: a file system without locks.
+        // Other errors: a file system without locks.
         Ok(()) | Err(TryLockError::Error(_)) => Ok(()),
     }
 }
 
-/// Refuses a file that another run is writing as one that grows.
+/// Refuses a name under which another run is writing a growing file.
 pub(super) fn refuse_growing(directory: &Directory, name: &str) -> Result<(), FilesError> {
     let part = part_of(name);
     let failed = |source| FilesError::File { path: directory.path_of(&part), source };
@@ -209,7 +209,7 @@ pub(super) fn refuse_growing(directory: &Directory, name: &str) -> Result<(), Fi
     }
     match directory.file(&part).map(|file| file.try_lock_shared()) {
         Ok(Err(TryLockError::WouldBlock)) => Err(FilesError::InUse(directory.path_of(&part))),
-        // One that cannot be opened is not of this user.
+        // A file that cannot be opened belongs to another user.
         _ => Ok(()),
     }
 }

@@ -80,7 +80,7 @@ pub fn write(body: &dyn Body, list: &InspectionList, mark: &str) -> Vec<Vec<u8>>
     [table, lines, program].map(String::into_bytes).to_vec()
 }
 
-/// What the table of a list in a unit says of itself, line by line.
+/// The statements in the head of a list as a table in a unit.
 #[must_use]
 pub fn statements(body: &dyn Body, units: LengthUnit, ball_radius: f64) -> Vec<String> {
     let unit = units.symbol();
@@ -94,7 +94,7 @@ pub fn statements(body: &dyn Body, units: LengthUnit, ball_radius: f64) -> Vec<S
     ]
 }
 
-/// What the DMIS program of a list says of itself, line by line.
+/// The statements in the head of a list as a DMIS program.
 #[must_use]
 pub fn program_statements(body: &dyn Body) -> Vec<String> {
     let name = machine(body).chars().filter(|c| (' '..='~').contains(c) && !"'$".contains(*c)).collect();

@@ -38,7 +38,7 @@ pub(super) struct StagedFile {
 }
 
 impl StagedFile {
-    /// Whether its content has grown in a file of its own, which is not removed without it.
+    /// Whether its content is a growing file, which stays if the set is undone.
     pub(super) fn has_grown(&self) -> bool {
         self.staged == part_of(&self.target)
     }
@@ -209,7 +209,7 @@ fn finish_one(directory: &Directory, name: &str, found: &mut Found) -> Result<()
     directory.remove(name).map_err(failed)
 }
 
-/// Removes what tells how far the grown files of a set were, once they are in place.
+/// Removes the markers of the growing files of a set once these are in place.
 pub(super) fn remove_markers(directory: &Directory, entries: &[StagedFile]) {
     for entry in entries.iter().filter(|entry| entry.has_grown()) {
         let marker = marker_of(&entry.target);

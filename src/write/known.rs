@@ -20,7 +20,7 @@ const FURTHER: (&str, &str) = (".camgen-", ".json");
 pub(super) const LARGEST: u64 = 1 << 26;
 /// Hexadecimal digits of SHA-256.
 const SHA256_DIGITS: usize = 64;
-/// Bytes of a file that are read at a time.
+/// Size of the read buffer, bytes.
 const BUFFER: usize = 1 << 16;
 
 /// The record of a directory.
@@ -96,7 +96,7 @@ fn sha256_of(file: impl Read) -> io::Result<String> {
     Ok(hexadecimal(&hash.finalize()))
 }
 
-/// Hands on the first `length` bytes of a file; how many there are.
+/// Passes the first `length` bytes of a file to `take`; returns their number.
 pub(super) fn each_block(file: impl Read, length: u64, mut take: impl FnMut(&[u8])) -> io::Result<u64> {
     let (mut file, mut buffer, mut read) = (file.take(length), vec![0; BUFFER], 0);
     loop {

@@ -6,7 +6,7 @@ use super::interrupted::{StagedFile, create, is_plain};
 use std::fs::File;
 use std::io::{self, Write};
 
-/// Writes one file: its rename is all.
+/// Writes one file with a single rename.
 pub(super) fn write_one(directory: &Directory, name: &str, bytes: &[u8]) -> Result<(), FilesError> {
     let file = stage_one(directory, &mut 0, name, &mut |file| file.write_all(bytes))?;
     let renamed = directory.rename(&file.staged, name).inspect_err(|_| {
@@ -16,7 +16,7 @@ pub(super) fn write_one(directory: &Directory, name: &str, bytes: &[u8]) -> Resu
     placed.map_err(|source| FilesError::File { path: directory.path_of(name), source })
 }
 
-/// Writes a file next to its target. `number` is that of the next temporary name of this run.
+/// Writes a file next to its target. `number` is the number of the next temporary name of this run.
 pub(super) fn stage_one(
     directory: &Directory,
     number: &mut usize,
@@ -34,10 +34,10 @@ pub(super) fn stage_one(
     Ok(StagedFile { staged, target: name.to_owned(), replaces: owned.map(|owned| owned.stamp().clone()) })
 }
 
-/// The owner of the file that a new one replaces; `None` where there is no such file.
+/// The owner of the file to be replaced; `None` if there is none.
 pub(super) fn target(directory: &Directory, name: &str) -> io::Result<Option<FileOwner>> {
     if !is_plain(name) {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not the name of a file in this directory"));
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a plain file name"));
     }
     let why = match directory.state_of(name)? {
         NameState::Nothing => return Ok(None),
@@ -49,7 +49,7 @@ pub(super) fn target(directory: &Directory, name: &str) -> io::Result<Option<Fil
         NameState::Link(_) => {
             "there is a symbolic link of that name, which is not followed: remove it, or give its target as --out"
         }
-        NameState::Other => "what has that name is not a regular file",
+        NameState::Other => "it exists and is not a regular file",
     };
     Err(io::Error::new(io::ErrorKind::AlreadyExists, why))
 }

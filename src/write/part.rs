@@ -1,35 +1,35 @@
-//! The names of a file while it grows, and how far it is.
+//! The names of a growing file, and its marker.
 
 use super::directory::{Directory, NameState};
 use super::error::FilesError;
 use serde::{Deserialize, Serialize};
 
-/// What the name of a file ends with while it grows, and that of the file which tells how far it is.
+/// Endings of the names of a growing file and of its marker.
 const PART: &str = ".part";
 const MARKER: &str = ".json";
-/// The largest file that tells how far another is, bytes.
+/// Largest marker file, bytes.
 const LARGEST: u64 = 4096;
 
-/// The name of a file while it grows.
+/// The temporary name of the file `name` while it grows.
 pub(super) fn part_of(name: &str) -> String {
     format!("{name}{PART}")
 }
 
-/// The name of the file that tells how far a growing file is.
+/// The name of the marker of a growing file.
 pub(super) fn marker_of(name: &str) -> String {
     format!("{name}{PART}{MARKER}")
 }
 
-/// How far a growing file is.
+/// The saved state of a growing file.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Marker {
-    /// The digest of the study that it is of.
+    /// The digest of its study.
     pub(super) study: String,
     /// Rows written.
     #[serde(default)]
     pub(super) rows: u64,
-    /// Bytes of them.
+    /// Bytes of these rows.
     #[serde(default)]
     pub(super) bytes: u64,
     /// SHA-256 of these bytes.
@@ -38,7 +38,7 @@ pub(super) struct Marker {
 }
 
 impl Marker {
-    /// `None` if there is no file of that name; an error if there is one that is not a marker of the user.
+    /// `None` if there is no marker; an error if the file of that name is not a marker of the user.
     pub(super) fn read(directory: &Directory, name: &str) -> Result<Option<Self>, FilesError> {
         let failed = |source| FilesError::File { path: directory.path_of(name), source };
         let foreign = |why: &str| FilesError::Part { path: directory.path_of(name), why: why.to_owned() };
@@ -55,7 +55,7 @@ impl Marker {
     }
 }
 
-/// Whether a file of this name is a marker of the user.
+/// Whether the file of this name is a marker of the user.
 pub(super) fn is_marker(directory: &Directory, name: &str) -> bool {
     matches!(Marker::read(directory, name), Ok(Some(_)))
 }

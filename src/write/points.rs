@@ -60,7 +60,7 @@ pub fn write(body: &dyn Body, table: &PointTable) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// What a table in a unit says of itself, line by line.
+/// The statements in the head of a table in a unit.
 #[must_use]
 pub fn statements(body: &dyn Body, table: &PointTable, units: LengthUnit) -> Vec<String> {
     head(body, table, units).into_iter().map(|(key, value)| format!("{key}: {value}")).collect()
@@ -329,7 +329,7 @@ pub fn stated(bytes: &[u8]) -> StatedCurve {
 pub struct ReadPoints {
     /// Its coordinates, by the names of its columns.
     pub form: PointCoordinates,
-    /// The unit of its file, by these names; its rows are in millimetres.
+    /// The unit of the file, from its column names; the rows are in millimetres.
     pub units: LengthUnit,
     /// Its interpolation, by its head.
     pub between: PointInterpolation,

@@ -24,7 +24,7 @@ use std::path::Path;
 
 /// With more changes than these, the rest is only counted.
 const MOST_SHOWN: usize = 8;
-/// What the name of the table of a stem ends with.
+/// Ending of the name of a stem's table.
 const TABLE: &str = ".csv";
 /// Most records of a folder that are read; a folder that users share has one of each.
 const MOST_RECORDS: usize = 20;
@@ -78,7 +78,7 @@ fn digest(inputs: &[Input]) -> String {
     sha256(words.collect::<String>().as_bytes())
 }
 
-/// A file to be written, as the record has it.
+/// A file to be written, as recorded.
 struct RecordedFile {
     name: String,
     /// `None` until its content is written.
@@ -95,7 +95,7 @@ impl RecordedFile {
         Ok(Self { name: file.name.clone(), digest })
     }
 
-    /// The file in a directory that has its name and another content; `None` if that has the name and is as it would be written.
+    /// The name of an existing file with other content; `None` if there is no file, or it already has the same content.
     fn other(&self, directory: &Directory) -> std::io::Result<Option<&str>> {
         if !matches!(directory.state_of(&self.name)?, NameState::File(_)) {
             return Ok(None);
@@ -174,21 +174,21 @@ pub fn refuse_protected(directory: &Path, outputs: &[Output]) -> Result<(), File
     refuse(&directory, &files).map_err(after(finished))
 }
 
-/// How a growing file is opened.
+/// Options to open a growing file.
 #[derive(Debug, Clone, Copy)]
 pub struct GrowingOptions<'a> {
-    /// The names of all files that are written with it.
+    /// The names of all files written with it.
     pub others: &'a [String],
-    /// Files that camgen has not written, or that were changed since, are replaced as well.
+    /// Also replace files that camgen has not written or that were changed since.
     pub overwrite: bool,
-    /// Nothing is continued.
+    /// Begin anew instead of continuing.
     pub restart: bool,
 }
 
-/// Opens the growing file `name` of a work in a directory, and continues what an interrupted run of it left.
+/// Opens the growing file `name` of a work in a directory, and continues an interrupted run of it.
 ///
 /// # Errors
-/// [`FilesError`] if a file would be replaced that camgen has not written, or the interrupted run was of another work.
+/// [`FilesError`] if a file to be replaced was not written by camgen, or the interrupted run was of another work.
 pub fn open_growing(
     place: OutputDirectory,
     name: &str,
@@ -197,7 +197,7 @@ pub fn open_growing(
 ) -> Result<GrowingFile, FilesError> {
     let OutputDirectory { directory, finished, .. } = place;
     let files: Vec<_> = others.iter().map(|name| RecordedFile { name: name.clone(), digest: None }).collect();
-    // A link or a pipe in the place of a file is refused now, not after hours.
+    // A link or pipe of that name is refused now, not after hours.
     let mut free = others.iter().try_for_each(|name| refuse_odd(&directory, name));
     if free.is_ok() && !overwrite {
         free = refuse(&directory, &files);
@@ -245,7 +245,7 @@ pub fn stage_recorded(
 /// As [`stage_recorded`], for files whose content need not be in memory.
 ///
 /// # Errors
-/// As [`stage_recorded`], but for numbers that are not finite, which are not looked for.
+/// As [`stage_recorded`], except that numbers are not checked to be finite.
 pub fn stage_files(
     place: OutputDirectory,
     files: Vec<NewFile<'_>>,
@@ -292,7 +292,7 @@ fn staged(
     Ok((staged, notes))
 }
 
-/// Refuses files that another run writes as growing ones, and those of a stem whose table grows.
+/// Refuses files that another run is writing as growing files, and files of a stem whose table is growing.
 fn refuse_names_in_use(directory: &Directory, files: &[NewFile<'_>], stem: &str) -> Result<(), FilesError> {
     let others = files.iter().filter(|file| !matches!(file.content, Content::Grown(_)));
     others.clone().try_for_each(|file| refuse_growing(directory, &file.name))?;

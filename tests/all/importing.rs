@@ -300,9 +300,9 @@ fn no_law_is_looked_for_in_noise() {
     let words =
         |more: &[&'static str]| [&ROLLER[..], &["--from", "table", "--deviation", "0.1um", "--dry-run"], more].concat();
     let run = import(rows.as_bytes(), &words(&[]));
-    assert!(run.code == 0 && run.out.contains("no law is looked for"), "{}{}", run.out, run.err);
+    assert!(run.code == 0 && run.out.contains("laws are fitted to at most 100"), "{}{}", run.out, run.err);
     let run = import(rows.as_bytes(), &words(&["--law", "cycloidal"]));
-    assert!(run.code == 2 && run.err.contains("rises and returns: laws are looked for in at most 100"), "{}", run.err);
+    assert!(run.code == 2 && run.err.contains("rises and returns: laws are fitted to at most 100"), "{}", run.err);
 }
 
 /// A harmonic cam by angle and radius, degrees and mm, whose first rise begins at 30 degrees: of its profile under a knife, or of the pitch curve of a

@@ -302,7 +302,7 @@ fn a_heading_is_read_or_refused() {
         assert!((found - millimetres).abs() < 1e-9, "{heading}: {found}");
     }
     for (heading, keys, says) in [
-        ("angle (deg),lift (furlong)", "", "names \"furlong\", which is no unit that is known"),
+        ("angle (deg),lift (furlong)", "", "names \"furlong\", which is not a known unit"),
         ("angle (deg),lift in furlongs", "", "names \"furlongs\""),
         ("angle (deg),lift (dm)", "", "in dm"),
         ("angle (deg),lift (feet)", "", "in ft"),
@@ -310,7 +310,7 @@ fn a_heading_is_read_or_refused() {
         ("angle deg,lift mm x 100", "\nunit = \"mm\"", "has a factor, \"lift mm x 100\""),
         ("angle deg,lift .001in", "", "has a factor, \"lift .001in\""),
         ("angle deg;lift x 0,01", "", "has a factor, \"lift x 0,01\""),
-        ("angle deg,lift counts", "", "says \"counts\", whose size is not known"),
+        ("angle deg,lift counts", "", "names \"counts\", whose size is unknown"),
         ("angle,velocity", "", "no position by its heading: velocity"),
     ] {
         let run = made(heading, keys, "10");

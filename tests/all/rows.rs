@@ -564,7 +564,7 @@ fn headings_with_factors_counts_or_radii_are_refused() {
         assert!((range(&scaled).1 - 0.08).abs() < 1e-9, "{heading}");
     }
     for heading in ["counts", "pulses", "raw", "ADC"] {
-        refused(&of_table("", &with(heading)), &["whose size is not known", "scale"]);
+        refused(&of_table("", &with(heading)), &["whose size is unknown", "scale"]);
     }
     refused(&of_table("", &with("radius mm")), &["has radii", "--as pitch"]);
     // Between commas a decimal comma cuts a heading in two.

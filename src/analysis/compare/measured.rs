@@ -23,7 +23,7 @@ enum PointColumns {
     Polar([(usize, f64); 2]),
 }
 
-/// On which curve points lie.
+/// The curve on which points lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PointsOf {
     /// The profile.
@@ -37,20 +37,20 @@ impl NamedChoice for PointsOf {
         &[("profile", Self::Profile), ("centre", Self::Centre), ("center", Self::Centre)];
 }
 
-/// What a table of points says of itself.
+/// Properties of a table of points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct PointsStated {
     /// It has headings.
     pub has_names: bool,
     /// It has angles and radii.
     pub is_polar: bool,
-    /// On which curve they lie, by the heading of the radius or by the head of a file of camgen.
+    /// Their curve, from the heading of the radius or the head of a camgen file.
     pub of: Option<PointsOf>,
-    /// The cam turns counter-clockwise, by that head, and angles are against its rotation.
+    /// The head gives counter-clockwise rotation, with angles against it.
     pub turns_back: bool,
 }
 
-/// What a table of points says of itself in its headings, and in its head where camgen wrote it.
+/// Reads the properties of a table from its headings, and from its head if camgen wrote it.
 #[must_use]
 pub fn stated(text: &str) -> PointsStated {
     let text = text.trim_start_matches('\u{feff}');
@@ -68,7 +68,7 @@ pub fn stated(text: &str) -> PointsStated {
     PointsStated { has_names, is_polar, of, turns_back }
 }
 
-/// The curve that words name.
+/// The curve named in `words`.
 fn of_words(text: &str) -> Option<PointsOf> {
     let lower = text.to_lowercase();
     let has = |words: &[&str]| words.iter().any(|word| lower.contains(word));
@@ -94,7 +94,7 @@ pub fn read(text: &str) -> Result<Vec<Vector2<f64>>, Refusal> {
     read_rows(text, false)
 }
 
-/// The points of a table whose first two columns are angles in degrees and radii in millimetres, or as its headings say.
+/// Points of a table: its first two columns are angles in degrees and radii in millimetres, unless its headings name others.
 ///
 /// # Errors
 /// As [`read`].

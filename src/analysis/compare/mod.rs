@@ -147,15 +147,15 @@ pub fn analysis(
     })
 }
 
-/// Root mean square above which points may be in another frame, mm, and by how much it must then be smaller.
+/// Rms deviation above which other frames are tried, mm; the largest ratio of rms in another frame to rms as read that refuses the points.
 const OFF: f64 = 0.02;
 const BETTER: f64 = 0.2;
-/// Points that are looked at.
+/// Largest number of points compared.
 const LOOKED: usize = 720;
 /// Millimetres in an inch.
 const INCH: f64 = 25.4;
 
-/// A frame in which points may be by mistake.
+/// A wrong unit or mirror image of the points.
 struct OtherFrame {
     /// Factors of x and y.
     by: Vector2<f64>,
@@ -191,7 +191,7 @@ const OTHER_FRAMES: [OtherFrame; 5] = [
     },
 ];
 
-/// Refuses points that are those of the cam in another unit, or of its mirror image.
+/// Refuses points of the cam in another unit, or of its mirror image.
 fn refuse_other_frame(exact: &ExactProfile<'_>, points: &[Vector2<f64>], moved: &MeasuredMove) -> Result<(), Refusal> {
     let every = points.len().div_ceil(LOOKED).max(1);
     let looked: Vec<Vector2<f64>> = points.iter().step_by(every).copied().collect();
@@ -199,7 +199,7 @@ fn refuse_other_frame(exact: &ExactProfile<'_>, points: &[Vector2<f64>], moved: 
     if found <= OFF {
         return Ok(());
     }
-    // Points that are only turned, where no angle is fitted: of a cam that is its own mirror image they are in no other frame.
+    // Turned points of a symmetric cam would also fit its mirror image.
     let turned = rms(exact, &looked, &exact.fitted(&looked, ComparisonFit::Angle)).min(found);
     if turned <= OFF {
         return Ok(());
@@ -220,7 +220,7 @@ fn refuse_other_frame(exact: &ExactProfile<'_>, points: &[Vector2<f64>], moved: 
     Ok(())
 }
 
-/// Root mean square of the deviations of moved points, mm; of a point that has no foot on the profile its radius.
+/// Rms deviation of moved points, mm; a point without a foot on the profile counts with its radius.
 fn rms(exact: &ExactProfile<'_>, points: &[Vector2<f64>], moved: &MeasuredMove) -> f64 {
     let off = |point: &Vector2<f64>| exact.place(moved.of(*point)).map_or(point.norm(), |place| place.deviation);
     let squares: f64 = points.iter().map(|point| off(point).powi(2)).sum();

@@ -12,7 +12,7 @@ use std::fmt::Write;
 
 /// Digits behind the point of angles in degrees and of positions in mm or degrees.
 const DIGITS: usize = 6;
-/// A turn below this is none, rad.
+/// A smaller rotation of the cam is not reported, rad.
 const NOT_TURNED: f64 = 1e-6;
 /// Positions in a comment are that precise: four digits.
 const LISTED: usize = 3;
@@ -28,7 +28,7 @@ pub(super) struct Design<'a> {
     pub(super) settings: &'a [(String, String)],
     /// m or rad.
     pub(super) deviation: f64,
-    /// By how much the cam was turned, rad.
+    /// Rotation of the cam against its file, rad.
     pub(super) turn: f64,
 }
 

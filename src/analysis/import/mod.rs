@@ -122,11 +122,11 @@ pub struct ImportOptions {
     pub deviation: Option<LengthOrAngle>,
     /// Speed of the cam, rpm.
     pub rpm: Option<f64>,
-    /// What may be moved; the angle of points where it is not given, and where they have no angles of their own.
+    /// Fitted offsets; if absent, the angle, except for points with their own angles.
     pub fit: Option<ImportFit>,
-    /// On which curve points lie: of the path of the centre the radius of the ball is that of the roller.
+    /// The curve of the points; on the roller-centre path the ball radius is the roller radius.
     pub points_of: Option<PointsOf>,
-    /// Points have angles of their own, from which the cam is not turned.
+    /// The points have their own angles, so the cam is not rotated.
     pub has_angles: bool,
 }
 
@@ -237,19 +237,19 @@ pub fn analysis(source: &ImportSource, options: &ImportOptions) -> Result<Analys
     })
 }
 
-/// Points of the path of a roller's centre are centres of a ball of its radius.
+/// Reads points of the roller-centre path as centres of a ball with the roller's radius.
 fn on_curve(source: &ImportSource, machine: &Machine, options: &ImportOptions) -> Result<ImportSource, Refusal> {
     let (ImportSource::Points(points, _), Some(PointsOf::Centre)) = (source, options.points_of) else {
         return Ok(source.clone());
     };
     let Element::Roller { radius } = machine.follower.shape.element() else {
-        let what = format!("[{}] has no roller on whose path points could lie", machine.follower.path);
+        let what = format!("[{}] has no roller, so the points cannot be its centres", machine.follower.path);
         return Err(Refusal::new(what).remedy("give the follower that ran on the cam, or --as profile"));
     };
     Ok(ImportSource::Points(points.clone(), MILLIMETRES * radius))
 }
 
-/// Options by which what has angles of its own, points or a keyway, stays at these.
+/// Options without an angle fit if points or a keyway have their own angles.
 fn placed(options: &ImportOptions) -> ImportOptions {
     let keyed = options.settings.iter().any(|key| key.trim_start().starts_with("cam.keyway"));
     let stays = options.fit.is_none() && (options.has_angles || keyed);
@@ -326,7 +326,7 @@ fn checked(rows: &Positions, deviation: f64, rounding: Option<f64>, what: &str) 
         let refusal = Refusal::new(format!("the follower does not move: its positions differ by {found} only"));
         return Err(refusal.remedy("give rows of a lift, or a smaller --deviation"));
     }
-    // Laws of motion are seen in rows; a profile may have any corners.
+    // Rows follow laws of motion; a profile may have any corners.
     let sensitivity = if rounding.is_some() { Sensitivity::Fine } else { Sensitivity::Coarse };
     if let Some((at, off)) = rows.outlier(deviation, (rounding.unwrap_or(0.0), sensitivity)) {
         let row = rows.rows.get(at % rows.len()).map_or(at, |row| *row) + 1;

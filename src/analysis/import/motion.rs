@@ -12,7 +12,7 @@ use crate::refusal::Refusal;
 /// Turns that may be rests are tried in all combinations up to this many; a turn must leave this much less than a rest.
 const COMBINED: u32 = 6;
 const WORTH: f64 = 0.85;
-/// Most rises and returns in which laws are looked for: a motion with more turns back in the noise of its positions.
+/// Most rises and returns to which laws are fitted: more are reversals in the noise of the positions.
 pub(super) const MOST_STRETCHES: usize = 100;
 /// A dwell narrower than so many usual spacings, where the motion turns back, is none.
 const NARROW: f64 = 1.0;
@@ -39,7 +39,7 @@ pub(super) struct FoundMotion {
     pub(super) segments: Vec<FoundSegment>,
     /// No law was found, and nothing rests.
     pub(super) whole: bool,
-    /// Rises and returns that are too many to look for laws.
+    /// Number of rises and returns, if too many to fit laws.
     pub(super) unsought: Option<usize>,
 }
 
@@ -76,7 +76,7 @@ impl Candidates {
 /// The motion of positions.
 ///
 /// # Errors
-/// [`Refusal`] where laws alone are wanted of too many rises and returns.
+/// [`Refusal`] if only laws are allowed and there are too many rises and returns.
 pub(super) fn found(rows: &Positions, sought: &Sought<'_>) -> Result<FoundMotion, Refusal> {
     let mut all = plateaus(rows, sought.deviation);
     if all.len() > MOST_STRETCHES {
@@ -106,13 +106,13 @@ pub(super) fn found(rows: &Positions, sought: &Sought<'_>) -> Result<FoundMotion
     }
 }
 
-/// A motion of too many rises and returns: a spline, where one is allowed.
+/// A motion of too many rises and returns: a spline, if allowed.
 fn without_laws(rows: &Positions, stretches: usize, sought: &Sought<'_>) -> Result<FoundMotion, Refusal> {
     if sought.spline {
         let whole = FoundMotion::whole(rows, rows.range().0, Vec::new());
         return Ok(FoundMotion { unsought: Some(stretches), ..whole });
     }
-    let what = format!("{stretches} rises and returns: laws are looked for in at most {MOST_STRETCHES}");
+    let what = format!("{stretches} rises and returns: laws are fitted to at most {MOST_STRETCHES}");
     Err(Refusal::new(what)
         .remedy("give a larger --deviation, above the noise of the positions, or add spline to --law"))
 }

@@ -7,9 +7,9 @@ use std::collections::VecDeque;
 
 /// Fewest positions in which a motion is looked for.
 pub(super) const FEWEST: usize = 8;
-/// A position is an outlier only if it is farther from its neighbours than this many times the deviation that is asked for.
+/// Least distance of an outlier from the curve of its neighbours / requested deviation.
 const OF_DEVIATION: f64 = 3.0;
-/// Equal positions more than this many usual spacings apart are a dwell.
+/// Equal positions farther apart than this multiple of the usual spacing are a dwell.
 const OF_DWELL: f64 = 1.5;
 /// What nineteen of twenty stay below, over the standard deviation; and by how much the noise may differ.
 const OF_MOST: f64 = 1.96;
@@ -88,12 +88,12 @@ impl Positions {
         scatter::off_neighbours(place(own), &others.map(place))
     }
 
-    /// A position that is far off its neighbours, compared with them and with the deviation: its index and by how much.
+    /// The worst outlier, if beyond its neighbours' scatter and the deviation: its index and distance.
     pub(super) fn outlier(&self, deviation: f64, (rounding, sensitivity): (f64, Sensitivity)) -> Option<(usize, f64)> {
         let first = self.angles.iter().copied().zip(self.values.iter().copied());
         let closing = self.angles.first().zip(self.values.first()).map(|(at, value)| (at + self.fill, *value));
         let rows: Vec<(f64, f64)> = first.chain(closing).collect();
-        // Dwells of which only the ends are given.
+        // Dwells given only by their ends.
         let wide = OF_DWELL * self.spacing();
         let rests: Vec<bool> =
             rows.iter().zip(rows.iter().skip(1)).map(|(a, b)| a.1 == b.1 && b.0 - a.0 > wide).collect();

@@ -340,7 +340,7 @@ impl Imported {
             words.push(format!("base radius {} mm", shown(radius)));
         }
         if let Some(stretches) = self.found.unsought {
-            words.push(format!("{stretches} rises and returns, in more than {MOST_STRETCHES} no law is looked for: the whole motion is a spline through points"));
+            words.push(format!("{stretches} rises and returns, laws are fitted to at most {MOST_STRETCHES}: the whole motion is a spline through points"));
         } else if self.found.whole {
             words.push("no law and no dwell was found: the whole motion is a spline through points".into());
         }

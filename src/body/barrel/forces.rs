@@ -6,7 +6,7 @@ use crate::body::in_groove::{GrooveContact, InGroove};
 use crate::motion::Motion;
 
 impl Barrel {
-    /// Length of the line along which the roller touches a flank, m: from its inner end, or the floor, to where the flank leaves the cylinder.
+    /// Contact length of roller and flank, m: from the roller's inner end, or the floor, to the outer edge of the flank.
     fn length_of_contact(&self, axis: &AxisLine, flank: FlankSide) -> f64 {
         let at = |radius: f64| axis.on_cylinder(self.signed(flank), radius).map(|found| found.line.v);
         let [inner, _] = self.touched(axis);

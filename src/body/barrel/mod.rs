@@ -266,9 +266,9 @@ impl Barrel {
         Worst { value: sharpest.value.recip(), ..sharpest }
     }
 
-    /// The smallest distance from the roller's axis at which a flank would fold over itself, m, anywhere along the groove's depth: where the flank
-    /// itself meets the floor and the outside, which at a pressure angle is nearer to the shaft along the roller than its axis does. 0 where a flank
-    /// does not reach them.
+    /// Smallest distance from the roller's axis at which a flank self-intersects, m, over the groove's depth. The depth is taken between the points at
+    /// which the flank itself meets the floor and the outside; at a pressure angle these are nearer to the shaft than those of the roller's axis.
+    /// 0 if a flank does not reach them.
     fn least_fold(&self) -> Worst {
         let sharpest = self.largest(|jet| {
             let axis = self.path.at(jet);

@@ -62,14 +62,14 @@ impl Barrel {
         if self.machine.cam.rotation == Rotation::Clockwise { 1.0 } else { -1.0 }
     }
 
-    /// Point (mm) and unit tangent of a curve of the developed view at a cam angle of a piece: x along the circumference of the outside, which grows with
-    /// the cam angle of a cam that turns clockwise, y along the axis.
+    /// Point (mm) and unit tangent of a curve of the developed view at a piece and cam angle: x along the outer circumference, growing with the cam angle
+    /// if the cam turns clockwise; y along the axis.
     pub(super) fn developed_at(&self, curve: BarrelCurve, place: (usize, f64)) -> (Vector2<f64>, Vector2<f64>) {
         let (point, slope) = self.developed_with_slope(curve, place);
         (point, slope.normalize())
     }
 
-    /// That point (mm) with its derivative with respect to the cam angle, mm/rad.
+    /// The point of [`Self::developed_at`], mm, and its derivative with respect to the cam angle, mm/rad.
     fn developed_with_slope(&self, curve: BarrelCurve, place: (usize, f64)) -> (Vector2<f64>, Vector2<f64>) {
         let distance = match curve {
             BarrelCurve::Flank(side) => self.signed(side),

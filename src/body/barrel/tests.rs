@@ -119,7 +119,7 @@ fn pressure_and_life_are_those_of_the_formulas() {
     // Of the clearance, 1.5 µm a side of 10 mm, the pressure takes the roller.
     let curvature = sharpest - side.abs().recip() + barrel.roller.recip();
     let modulus = 210e9 / (2.0 * (1.0 - 0.3 * 0.3));
-    // The line of contact is beside the roller's axis by the sine of the pressure angle, and leaves the cylinder there.
+    // The contact line is off the roller's axis by the sine of the pressure angle, and ends there at the cylinder.
     let lift = barrel.motion.jet(at.0, at.1);
     let beside = |v: f64| side * libm::sin(barrel.path.pressure_angle(&lift, v));
     let leaves = (0..50).fold(outer, |v, _| (barrel.outer.powi(2) - beside(v).powi(2)).sqrt());

@@ -30,7 +30,7 @@ pub const COUNTER: Kind = Kind { command: "counter", noun: "counter cam", keys: 
 /// What the names of the files of the main disc have after the stem.
 pub const MAIN_NAME: &str = "main";
 
-/// The main disc of a motion, at a speed of the cam (rpm) if it is known, of the size that both discs require.
+/// The main disc of a motion, sized for both discs; `rpm` is the cam speed, if known.
 ///
 /// # Errors
 /// [`Refusal`] when motion and follower do not fit each other, or no radius keeps the limits.
@@ -39,7 +39,7 @@ pub(in crate::body) fn main(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Op
     Disc::held(machine, Arc::clone(motion), rpm, DiscRole::with(&MAIN, hold, broken_by_counter))
 }
 
-/// The first limit that the counter disc of a main one breaks.
+/// The first limit that the counter disc of `main` breaks.
 fn broken_by_counter(main: &Disc) -> Option<&'static str> {
     counter(main, &main.machine().cam.track.counter).map_or(Some("reach"), |counter| broken_limit(&counter))
 }
@@ -80,10 +80,10 @@ fn counter(main: &Disc, data: &CounterData) -> Result<Disc, Refusal> {
     Ok(found.sized_by(main))
 }
 
-/// A spacing of the two rollers is tried up to this multiple of the least one.
+/// Largest roller spacing tried / least spacing.
 const LARGEST_SPACING: f64 = 8.0;
 
-/// The least spacing of the two rollers with which the counter disc of a main one keeps every limit, as a key of the machine file.
+/// The least roller spacing with which the counter disc keeps every limit, as a key of the machine file.
 fn passing_spacing(main: &Disc) -> Option<String> {
     let top = lifts(&**main.motion()).1;
     let data = main.machine().cam.track.counter;
@@ -103,7 +103,7 @@ fn passing_spacing(main: &Disc) -> Option<String> {
     keeps(&with(degrees.to_radians())).then(|| format!("cam.counter.included_angle = \"{degrees} deg\""))
 }
 
-/// Angles are named in tenths of a degree.
+/// Angles in remedies are rounded up to 1 / this, deg.
 const TENTHS: f64 = 10.0;
 
 /// A change with which the counter roller reaches its disc.
@@ -116,7 +116,7 @@ fn reached(main: &Disc) -> String {
     })
 }
 
-/// A base radius of the main disc, or a spacing of the rollers, with which the counter disc keeps every limit.
+/// A base radius of the main disc, or a roller spacing, with which the counter disc keeps every limit.
 pub(in crate::body) fn remedy_of_counter(main: &Disc) -> Option<String> {
     let spacing = passing_spacing(main).map(|spacing| format!("{spacing} would pass"));
     let base = main.passing_base_radius().map(passing);

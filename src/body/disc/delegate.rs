@@ -37,7 +37,7 @@ macro_rules! body_of_its_disc {
     };
 }
 
-/// The methods of [`Figures`](crate::body::Figures) that are those of the disc in a field, and those of the disc that `cam.base_radius` sizes.
+/// Methods of [`Figures`](crate::body::Figures) delegated to the disc in a field, and to the disc sized by `cam.base_radius`.
 macro_rules! figures_of_its_disc {
     ($disc:ident, sized: $sized:ident) => {
         fn roller_radius(&self) -> Option<f64> {

@@ -99,7 +99,7 @@ impl Figures for Disc {
         };
         // A cam that no drawing holds is no remedy.
         let passes = match self.machine.cam.track.breadth {
-            // That of a yoke grows by twice as much.
+            // The breadth of a yoke grows by twice the base radius.
             Some(breadth) => {
                 let passing = MILLIMETRES * (breadth + 2.0 * (base - self.base_radius()));
                 format!("cam.breadth = \"{} mm\" would pass", shown(passing))

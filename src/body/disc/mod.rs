@@ -79,12 +79,12 @@ pub(in crate::body) enum Hold {
     },
 }
 
-/// What a disc is in its body.
+/// The role of a disc in its body.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::body) struct DiscRole {
     pub(in crate::body) kind: &'static Kind,
     pub(in crate::body) hold: Hold,
-    /// What else is cut with the disc and sized by it, if anything.
+    /// Check of the parts cut with the disc and sized by it.
     pub(in crate::body) rest: Option<RestOfBody>,
     /// Whether the disc itself is cut; its own limits hold only then.
     pub(in crate::body) is_cut: bool,
@@ -102,7 +102,7 @@ impl DiscRole {
     }
 }
 
-/// The first limit that the rest of a body breaks with a disc of this size.
+/// Finds the first limit that the rest of a body breaks with a disc of this size.
 pub(in crate::body) type RestOfBody = fn(&Disc) -> Option<&'static str>;
 
 /// A disc cam.
@@ -122,7 +122,7 @@ pub struct Disc {
     hold: Hold,
     rest: Option<RestOfBody>,
     is_cut: bool,
-    /// The disc by which this one is sized: the main one of a counter disc.
+    /// The disc that sizes this one: the main disc of a counter disc.
     main: Option<Arc<Self>>,
     /// The disc next to it in a pair, with the cam angle by which its motion is later, rad.
     other: Option<(Arc<Self>, f64)>,
@@ -189,8 +189,8 @@ impl Disc {
         self.hold != Hold::Force
     }
 
-    /// What the sheet shows of the disc under the same roller, for a drawing of the flanks next to that roller; of two discs of a body the
-    /// `steepest` has the worst pressure angle.
+    /// The disc under the same roller on the review sheet, for a drawing of the flanks next to it; of the body's discs `steepest` has the worst
+    /// pressure angle.
     pub(in crate::body) fn view_within(&self, steepest: &Self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
         sheet::view(self, steepest, drawn)
     }

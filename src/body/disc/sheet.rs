@@ -26,7 +26,7 @@ const LOST_POINTS: u32 = 48;
 
 const NOWHERE: Extents = Extents { least: Vector2::new(0.0, 0.0), largest: Vector2::new(0.0, 0.0) };
 
-/// What the review sheet of a disc cam shows, with the roller of the disc that has the worst pressure angle of the body.
+/// The view of a disc cam on the review sheet, with the roller of the disc that has the body's worst pressure angle.
 ///
 /// # Errors
 /// [`OutlineError`] when the pitch curve cannot be drawn.

@@ -132,17 +132,17 @@ impl Disc {
             || self.rest.is_some()
     }
 
-    /// The limit that the rest of its body breaks with a disc of this size.
+    /// The first limit that the rest of its body breaks with a disc of this size.
     pub(super) fn broken_by_rest(&self) -> Option<&'static str> {
         self.rest.and_then(|rest| rest(self))
     }
 
-    /// The first limit that it breaks where it is cut.
+    /// The first limit broken by the disc itself, if it is cut.
     fn broken_itself(&self) -> Option<&'static str> {
         if self.is_cut { broken_limit(self) } else { None }
     }
 
-    /// The first limit that it breaks, or the rest of its body with it.
+    /// The first limit broken by the disc, or by the rest of its body.
     pub(super) fn broken(&self) -> Option<&'static str> {
         self.broken_itself().or_else(|| self.broken_by_rest())
     }

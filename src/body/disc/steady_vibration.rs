@@ -1,8 +1,9 @@
 //! The steady vibration of a load behind an elastic train, exact for any number of waves of the lift.
 //!
-//! The deviation z = x − y of the load from the follower obeys z'' + 2ζκ z' + κ² z = −(y'' + 2ζκ y') with respect to the cam angle, κ the natural frequency
-//! divided by that of the cam, if the damping acts against the frame; if it acts against the follower, the right side is −y''. Where the velocity of the follower jumps, z' jumps the other way. Over a short cell the solution is that of the free
-//! vibration and an integral of the exact motion (Duhamel); what it is after a turn is what it was before.
+//! The deviation z = x − y of the load from the follower, differentiated with respect to the cam angle, obeys z'' + 2ζκ z' + κ² z = −(y'' + 2ζκ y') if the
+//! damping acts against the frame; if it acts against the follower, the right side is −y''. κ = natural frequency / frequency of the cam. A step of the
+//! follower's velocity steps z' by the opposite amount. Over a short cell the solution is the free vibration plus an integral of the exact motion
+//! (Duhamel); after one turn it repeats.
 
 use crate::machine::DampingAgainst;
 use crate::motion::Motion;

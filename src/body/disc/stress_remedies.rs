@@ -13,15 +13,14 @@ impl Disc {
         // Under a crown the thickness does not matter.
         let straight = self.program_follower.crown_radius.is_none();
         let thickness = straight.then(|| crate::body::stress::length_for(&self.machine, largest, limit)).flatten();
-        // A counter disc has no base radius of its own, and the breadth of a yoke decides it.
+        // A counter disc has no base radius of its own; a yoke gets it from its breadth.
         let free = self.main.is_none() && self.machine.cam.track.breadth.is_none();
         let sized = free.then(|| self.base_for_stress(limit)).flatten();
         let base = sized.map(|base| format!("cam.base_radius = \"{base} mm\""));
         thickness.into_iter().chain(base).collect()
     }
 
-    /// The smallest base radius above this one, in whole millimetres, with which it keeps a limit of the contact stress, and the rest of its body
-    /// every limit, mm.
+    /// The smallest larger base radius, in whole mm, with which the disc keeps a limit of the contact stress and the rest of its body every limit.
     fn base_for_stress(&self, limit: f64) -> Option<f64> {
         let keeps = |base_mm: f64| {
             let follower = self.follower.sized(base_mm / MILLIMETRES + self.curves().offset())?;

@@ -1,5 +1,5 @@
-//! The load behind an elastic train, as one mass on one spring that the follower moves: ẍ + 2 ζ ω_n ẋ + ω_n² x = ω_n² y with its damping against the frame,
-//! ẍ + 2 ζ ω_n (ẋ − ẏ) + ω_n² (x − y) = 0 with that of the train itself.
+//! The load driven through an elastic train, as one mass on one spring that the follower moves: ẍ + 2 ζ ω_n ẋ + ω_n² x = ω_n² y if damped against the
+//! frame, ẍ + 2 ζ ω_n (ẋ − ẏ) + ω_n² (x − y) = 0 if damped in the train.
 
 use super::steady_vibration::ElasticTrain;
 use super::{Disc, program};

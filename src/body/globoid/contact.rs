@@ -42,7 +42,7 @@ pub(super) struct LinePoint {
 pub(super) struct FlankPoint {
     pub(super) place: Vector3<f64>,
     pub(super) by_angle: Vector3<f64>,
-    /// The point of the roller's centre line that touches there.
+    /// The point of the roller's centre line at this contact.
     pub(super) line: LinePoint,
 }
 

@@ -43,7 +43,7 @@ impl InGroove for Globoid {
         self.roller
     }
 
-    /// Those that touch over their whole reach, else those whose centre lines lie between the ends and that touch at all.
+    /// The rollers that touch over their whole reach; if none, those with centre lines between the ends that touch at all.
     fn contacts(&self, (piece, angle): (usize, f64), lifting: bool) -> Vec<GrooveContact> {
         let flank = if lifting { Flank::Lower } else { Flank::Upper };
         let lines = || self.rollers().map(|roller| (roller, self.line((piece, angle, 0.0), f64::from(roller))));

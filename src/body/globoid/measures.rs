@@ -15,7 +15,7 @@ use crate::report::{Bound, Place, shown};
 
 /// Rounding of an angle at an end.
 const AT_END: f64 = 1e-9;
-/// Halvings to the end of a line of contact.
+/// Bisections to find the end of a contact line.
 const HALVINGS: u32 = 40;
 /// Places between two joints at which the rollers are counted.
 const PLACES: u32 = 64;
@@ -68,7 +68,7 @@ impl Globoid {
         })
     }
 
-    /// Length of the line along which a roller touches a flank within its reach, m: between the ends and inside of the outside.
+    /// Contact length of a roller and a flank within its reach, m: between the cam's ends and inside its outer surface.
     pub(super) fn length_of_contact(&self, line: &TurretLine, flank: Flank) -> f64 {
         let touches = |v: f64| {
             let place = line.flank(&line.point(v), self.signed(flank));

@@ -381,8 +381,8 @@ impl Globoid {
         })
     }
 
-    /// The smallest distance from the centre line at which a flank would fold over itself, m, anywhere along the grooves' depth: where the flank
-    /// itself meets the outside and the floor, beyond the ends of the cam where the centre line would.
+    /// Smallest distance from the centre line at which a flank self-intersects, m, over the grooves' depth: taken between the points at which the flank
+    /// itself meets the outside and the floor, even if the centre line meets them beyond the ends of the cam.
     fn least_fold(&self) -> Worst {
         let sharpest = self.largest(|line| {
             let of = |flank: Flank, from_turret: f64| {

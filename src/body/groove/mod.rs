@@ -73,7 +73,7 @@ impl Groove {
         Self::about(&GROOVE, Self::sized_disc(machine, motion, rpm)?)
     }
 
-    /// The disc under the inner flank, of the size that both flanks require.
+    /// The disc under the inner flank, sized for both flanks.
     ///
     /// # Errors
     /// As [`Groove::between_flanks`].
@@ -86,7 +86,7 @@ impl Groove {
         Disc::held(machine, Arc::clone(motion), rpm, role)
     }
 
-    /// The first limit that the groove over a disc breaks in addition to those of the disc.
+    /// The first limit that a groove over `disc` breaks beyond those of the disc.
     fn broken_around(disc: &Disc) -> Option<&'static str> {
         Self::about(&GROOVE, disc.clone()).map_or(Some("undercut"), |groove| groove.broken_outside())
     }
@@ -145,7 +145,7 @@ impl Groove {
         self.flanks.last().map(|flank| (self.curves_of(flank), &flank.worst))
     }
 
-    /// The limit that the groove breaks beyond those of its disc: an outer flank that folds over itself, or is pressed too hard.
+    /// The limit that the groove breaks beyond those of its disc: a self-intersecting or overloaded outer flank.
     fn broken_outside(&self) -> Option<&'static str> {
         if self.cuts().last().is_some_and(Cut::is_undercut) {
             return Some("undercut");

@@ -42,7 +42,7 @@ pub struct Rib {
     outer: Disc,
     /// Around the inner roller.
     inner: Disc,
-    /// The disc of the middle between the rollers, which is not cut: its base radius is that of the file.
+    /// The disc midway between the rollers, not cut; its base radius is that of the file.
     middle: Disc,
     /// Between the centres of the rollers, m.
     distance: f64,
@@ -65,7 +65,7 @@ impl Rib {
         Self::about(middle)
     }
 
-    /// The disc of the middle between the rollers, of the size that both flanks require: it is not cut, so that its own curve breaks no limit.
+    /// The disc midway between the rollers, sized for both flanks; it is not cut, so its own curve breaks no limit.
     ///
     /// # Errors
     /// As [`Rib::of`].
@@ -78,7 +78,7 @@ impl Rib {
         Disc::held(machine, Arc::clone(motion), rpm, role)
     }
 
-    /// The first limit that a flank beside the path of a disc breaks.
+    /// The first limit that a flank on either side of the path of `middle` breaks.
     fn broken_beside(middle: &Disc) -> Option<&'static str> {
         Self::about(middle.clone()).map_or(Some("reach"), |rib| rib.broken_limit())
     }
@@ -226,7 +226,7 @@ impl Body for Rib {
 }
 
 impl Rib {
-    /// The measures of the section `cam`: the radii are those of the middle between the rollers, which the file gives.
+    /// Figures of the section `cam`; its radii are midway between the rollers, as in the file.
     fn cam_measures(&self, found: &DrawingEvidence<'_>) -> CamMeasures {
         let middle = self.middle.cam_measures(found);
         CamMeasures {

@@ -62,7 +62,7 @@ impl Yoke {
         Self::around(Self::sized_disc(machine, motion, rpm)?)
     }
 
-    /// The disc under the first face or roller, of the size that both sides require.
+    /// The disc under the first face or roller, sized for both sides.
     ///
     /// # Errors
     /// As [`Yoke::of`].
@@ -79,12 +79,12 @@ impl Yoke {
         Disc::held(&machine, Arc::clone(motion), rpm, role)
     }
 
-    /// The first limit that a disc breaks under the opposite face or roller.
+    /// The first limit that `disc` breaks under the opposite face or roller.
     fn broken_opposite(disc: &Disc) -> Option<&'static str> {
         Self::around(disc.clone()).map_or(Some("reach"), |yoke| broken_limit(&yoke.opposite))
     }
 
-    /// With the opposite face or roller of a disc.
+    /// Adds the opposite face or roller to `disc`.
     fn around(disc: Disc) -> Result<Self, Refusal> {
         let (machine, motion) = (disc.machine(), disc.motion());
         let top = lifts(&**motion).1;

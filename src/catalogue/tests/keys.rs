@@ -746,7 +746,7 @@ fn the_schema_has_every_key() {
     assert_eq!(schema["properties"]["cam"]["additionalProperties"], false);
 }
 
-/// Misspellings of a key as people make them: a letter too few, too many, wrong or in the wrong place, other capitals and signs, the last word shortened.
+/// Common misspellings of a key: a letter missing, doubled, wrong or swapped, other capitals and signs, the last word shortened.
 fn misspellings(path: &str) -> Vec<String> {
     let (table, name) = path.rsplit_once('.').unwrap_or(("", path));
     let letters: Vec<char> = name.chars().collect();
@@ -790,7 +790,7 @@ fn misspelt_keys_are_answered_with_the_key_that_was_meant() {
             }
         }
     }
-    // A shortened word can be that of two keys.
+    // A shortened word can belong to two keys.
     assert!(asked > 1000 && wrong.len() * 50 < asked, "{} of {asked}:\n{}", wrong.len(), wrong.join("\n"));
 }
 

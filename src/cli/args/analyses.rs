@@ -292,7 +292,7 @@ pub(crate) struct SizeArgs {
     pub(in crate::cli) analysis: AnalysisArgs,
 }
 
-/// The ball whose centres measured points are.
+/// The ball of a measuring machine, if measured points are its centres.
 #[derive(Debug, Args)]
 pub(crate) struct BallArgs {
     /// Radius of the ball whose centres the points are, half of --ball-diameter [default: 0, points on the profile]
@@ -417,7 +417,7 @@ pub(crate) enum ImportForm {
     Points,
 }
 
-/// What the numbers of a file to import are.
+/// Meaning of the second numbers of a file to import.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum ImportAs {
     Lift,

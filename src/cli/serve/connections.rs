@@ -1,4 +1,4 @@
-//! The connections that are open: so many at a time, and of those that say nothing the oldest makes room for a new one.
+//! The open connections. Their number is limited; the oldest without a request is closed to admit a new one.
 
 use std::collections::BTreeMap;
 use std::net::{Shutdown, TcpStream};
@@ -7,15 +7,15 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// Most connections at a time.
 const MOST: usize = 32;
 
-/// The connections that are open.
+/// The open connections.
 #[derive(Debug, Default)]
 pub(super) struct Connections(Mutex<OpenConnections>);
 
 #[derive(Debug, Default)]
 struct OpenConnections {
-    /// By their numbers, in the order in which they came; `None` once the request is there.
+    /// Streams by number, in the order of arrival; `None` once the request has arrived.
     waiting: BTreeMap<u64, Option<TcpStream>>,
-    /// How many there have been.
+    /// Connections so far.
     count: u64,
 }
 
@@ -24,7 +24,7 @@ impl Connections {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The number of a new connection; `None` if there are too many whose requests are being answered.
+    /// Admits a connection and returns its number; `None` if all open ones are being answered.
     pub(super) fn enter(&self, stream: &TcpStream) -> Option<u64> {
         let mut open = self.open();
         if open.waiting.len() >= MOST {
@@ -40,14 +40,14 @@ impl Connections {
         Some(number)
     }
 
-    /// The request of a connection is there: it does not make room any more.
+    /// Marks a connection whose request has arrived: it is no longer closed to admit another.
     pub(super) fn busy(&self, number: u64) {
         if let Some(waiting) = self.open().waiting.get_mut(&number) {
             *waiting = None;
         }
     }
 
-    /// A connection has ended.
+    /// Removes a connection that has ended.
     pub(super) fn leave(&self, number: u64) {
         self.open().waiting.remove(&number);
     }

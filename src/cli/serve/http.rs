@@ -69,7 +69,7 @@ impl Answer {
     }
 }
 
-/// Reads a request, writes the answer to it, and ends the connection. `whole` is called when the request is there.
+/// Reads a request, answers it, and ends the connection. `whole` is called once the request has arrived.
 pub(super) fn converse(mut stream: TcpStream, whole: impl FnOnce(), answer: impl FnOnce(&HttpRequest) -> Answer) {
     let request = read(&mut stream);
     whole();

@@ -31,9 +31,9 @@ struct Save {
     before: String,
 }
 
-/// A design of the page.
+/// A design shown by the page.
 struct ServedDesign {
-    /// As it was when the program began.
+    /// The design at the start of the program.
     design: LiveDesign,
     /// Its file; `None` of an embedded one.
     file: Option<MachineFile>,
@@ -57,7 +57,7 @@ impl Served {
         for (at, one) in designs.iter().enumerate() {
             let name = &one.design.name;
             if designs.iter().take(at).any(|other| other.design.name == *name) {
-                return Err(Failure(format!("two designs are called `{name}`: their files would have the same names")));
+                return Err(Failure(format!("two designs are called `{name}`, so their files have the same names")));
             }
         }
         Ok(Self { token, designs, out: args.out.clone(), overwrite: args.overwrite, turn: Mutex::new(()) })
@@ -157,7 +157,7 @@ fn of_source(source: &MachineSource) -> LiveDesign {
 }
 
 impl ServedDesign {
-    /// The design with the text that its file has now.
+    /// The design with the current text of its file.
     fn as_it_is(&self) -> Result<LiveDesign, String> {
         let Some(file) = &self.file else { return Ok(self.design.clone()) };
         let toml = plain(&file.text()?);

@@ -1,5 +1,5 @@
-//! A machine file that a page may write: the one that had its name when the program began, links resolved. If a link, or anything else that is
-//! not a file, takes its name later, it is neither read nor written.
+//! A machine file that a page may write: the file that its name, with links resolved, meant when the program began. If a link or anything
+//! but a file takes that name later, it is neither read nor written.
 
 use camgen::Machine;
 use camgen::document::file;
@@ -10,15 +10,15 @@ use std::path::PathBuf;
 
 /// Largest machine file, bytes.
 const LARGEST: u64 = 1 << 20;
-/// The mark that some editors put before UTF-8.
+/// Byte order mark that some editors put before UTF-8.
 const MARK: char = '\u{feff}';
 
 /// A machine file that a page may write.
 #[derive(Debug, Clone)]
 pub(super) struct MachineFile {
-    /// As the user named it.
+    /// The user's name for it.
     name: String,
-    /// Where it was when the program began.
+    /// Its path, resolved when the program began.
     path: PathBuf,
 }
 
@@ -27,13 +27,13 @@ impl MachineFile {
         Ok(Self { name: name.to_owned(), path: fs::canonicalize(name)? })
     }
 
-    /// Its text as it is now.
+    /// Its current text.
     pub(super) fn text(&self) -> Result<String, String> {
         let unread = |why: String| format!("cannot read `{}`: {why}", self.name);
         match fs::canonicalize(&self.path) {
             Ok(there) if there != self.path => {
                 return Err(unread(format!(
-                    "it was a file when camgen serve began, and is a link to `{}` now, which is not followed; start it again",
+                    "it was a file when camgen serve began and now is a link to `{}`, which is not followed; restart camgen serve",
                     there.display()
                 )));
             }
@@ -42,16 +42,16 @@ impl MachineFile {
         file::text_of(&self.path, LARGEST).map_err(|why| unread(why.to_string()))
     }
 
-    /// Writes another text over the one that the page has seen, with the mark and the line ends of that one.
+    /// Replaces the text that the page has seen, keeping its byte order mark and line ends.
     pub(super) fn write(&self, toml: &str, seen: &str) -> Result<(), String> {
         let raw = self.text()?;
         if plain(&raw) != seen {
-            return Err("the file was changed by another program since; it is read again now".into());
+            return Err("another program has changed the file; it is read again now".into());
         }
         let name = &self.name;
         if fs::metadata(&self.path).is_ok_and(|data| data.permissions().readonly()) {
-            let help = "allow it, or download the TOML under another name";
-            return Err(format!("`{name}` is protected against writing: {help}"));
+            let help = "make it writable, or download the TOML under another name";
+            return Err(format!("`{name}` is write-protected: {help}"));
         }
         let written = as_before(&plain(toml), &raw);
         self.refuse_unreadable(&written)?;
@@ -63,9 +63,10 @@ impl MachineFile {
             .map_err(|why| why.to_string())
     }
 
-    /// Refuses a text that would not be read as a machine file.
+    /// Refuses a text that could not be read back as a machine file.
     fn refuse_unreadable(&self, text: &str) -> Result<(), String> {
-        let refused = |why: String| format!("`{}` is not written, it could not be read again: {why}", self.name);
+        let refused =
+            |why: String| format!("`{}` was not written, because it could not be read again: {why}", self.name);
         if text.len() as u64 > LARGEST {
             return Err(refused(format!("it would be larger than {LARGEST} bytes")));
         }
@@ -75,7 +76,7 @@ impl MachineFile {
     }
 }
 
-/// A fault in one line.
+/// A fault as one line.
 fn first_line(fault: &FileFault) -> String {
     fault
         .place
@@ -83,12 +84,12 @@ fn first_line(fault: &FileFault) -> String {
         .map_or_else(|| fault.message.clone(), |place| format!("line {}: {}", place.line, fault.message))
 }
 
-/// A text with the line ends that a browser knows, without a mark.
+/// `text` with the line ends of a browser, without the byte order mark.
 pub(super) fn plain(text: &str) -> String {
     text.strip_prefix(MARK).unwrap_or(text).replace("\r\n", "\n")
 }
 
-/// A text with the mark and the line ends of the one that it replaces.
+/// `text` with the byte order mark and line ends of `before`.
 fn as_before(text: &str, before: &str) -> String {
     let ends = before.matches('\n').count();
     let of_windows = 2 * before.matches("\r\n").count() > ends;

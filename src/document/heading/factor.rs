@@ -1,11 +1,11 @@
 //! A factor in a heading: `lift .001in`, `(0,01 mm)`, `1/100mm`, `10µm`, `mm x 0.01`, `*1000`, `e-3 in`, hundredths.
 //!
-//! A heading is cut into words, numbers and signs. A whole number alone may be that of a cam (`valve 2 mm`); one that touches a unit, that
-//! stands by a sign of a product or quotient, or that is a power of ten beside a unit, multiplies.
+//! A heading is split into words, numbers and signs. A whole number alone may count cams (`valve 2 mm`). A number is a factor if it touches a unit,
+//! follows or precedes a sign of multiplication or division, or is a power of ten next to a unit.
 
 use super::HeadingUnit;
 
-/// Parts of a unit, and words for a multiple, at the beginning of a word.
+/// Beginnings of words for a fraction or a multiple of a unit.
 const PARTS: &[&str] = &[
     "tenth",
     "hundredth",
@@ -21,16 +21,16 @@ const PARTS: &[&str] = &[
     "times",
 ];
 
-/// Units in which steps of instruments are given.
+/// Units of instrument steps.
 const SMALL: &[&str] = &["um", "µm", "μm", "micron", "microns", "mil", "mils", "thou"];
 
 #[derive(Debug, Clone, PartialEq)]
 enum Part {
     Word(String),
     Number(String),
-    /// A sign of a product, a quotient or a power.
+    /// A sign of multiplication, division or power.
     Sign(char),
-    /// A blank, a bracket or another sign.
+    /// A space, bracket or other sign.
     Gap,
 }
 
@@ -45,7 +45,7 @@ impl Part {
         matches!(self, Self::Number(_))
     }
 
-    /// A number that is no number of a cam.
+    /// Whether it is a number that cannot count cams.
     fn multiplies(&self) -> bool {
         let Self::Number(number) = self else { return false };
         let is_power_of_ten = number.len() > 1 && number.starts_with('1') && number.chars().skip(1).all(|c| c == '0');
@@ -53,7 +53,7 @@ impl Part {
     }
 }
 
-/// The factor of a heading, as it stands there.
+/// The factor in a heading, as written.
 pub(super) fn factor_in(heading: &str) -> Option<String> {
     let lower = plain(heading);
     let ordinal = |word: &str| {
@@ -74,7 +74,7 @@ pub(super) fn factor_in(heading: &str) -> Option<String> {
     is_factor.then(|| heading.trim().to_owned())
 }
 
-/// A heading in small letters with one sign for each operation, and decimal points.
+/// A heading in lower case with one sign per operation.
 fn plain(heading: &str) -> String {
     let mut plain = String::new();
     for letter in heading.to_lowercase().chars() {
@@ -109,7 +109,7 @@ fn parts(text: &str) -> Vec<Part> {
             c if c.is_ascii_digit() || (length > 1 && !is_of_word(*c)) || is_exponent(rest, all.last()) => {
                 Part::Number(piece)
             }
-            // Between numbers and units an `x` is a sign.
+            // An `x` between numbers and units is a multiplication sign.
             'x' if length == 1 => Part::Sign('x'),
             c if is_of_word(*c) => Part::Word(piece),
             '*' | '/' | '^' => Part::Sign(*letter),
@@ -130,12 +130,12 @@ fn is_fraction(rest: &[char]) -> bool {
     matches!(rest, ['.' | ',', digit, ..] if digit.is_ascii_digit())
 }
 
-/// `e-3` by itself.
+/// `e-3` without a number before it.
 fn is_exponent(rest: &[char], before: Option<&Part>) -> bool {
     matches!(rest, ['e', '-' | '+', digit, ..] if digit.is_ascii_digit()) && !matches!(before, Some(Part::Word(_)))
 }
 
-/// Letters of a number with its decimals and its exponent.
+/// Length of a number with its decimals and exponent.
 fn number_length(rest: &[char]) -> usize {
     let digit = |at: usize| rest.get(at).is_some_and(char::is_ascii_digit);
     let mut at = 0;
@@ -158,12 +158,12 @@ fn is_decimal(part: &Part) -> bool {
     matches!(part, Part::Number(number) if number.chars().any(|c| !c.is_ascii_digit() && c != '-'))
 }
 
-/// The parts without gaps.
+/// The parts without the gaps.
 fn close(parts: &[Part]) -> Vec<&Part> {
     parts.iter().filter(|part| **part != Part::Gap).collect()
 }
 
-/// A number by a sign of a product or quotient; `x 2` may be a name, `mm x 2` is none.
+/// Whether a number follows or precedes a sign of multiplication or division; `x 2` may be a name, `mm x 2` is not.
 fn is_product(parts: &[Part]) -> bool {
     let parts = close(parts);
     (0..parts.len()).any(|at| {
@@ -181,12 +181,12 @@ fn is_product(parts: &[Part]) -> bool {
     })
 }
 
-/// A number that touches a unit: `10µm`.
+/// Whether a number touches a unit: `10µm`.
 fn touches_a_unit(parts: &[Part]) -> bool {
     parts.windows(2).any(|pair| matches!(pair, [Part::Number(_), unit] if unit.is_unit()))
 }
 
-/// A power of ten or a part beside a unit.
+/// Whether a power of ten or a fraction is next to a unit.
 fn beside_a_unit(parts: &[Part]) -> bool {
     let parts = close(parts);
     parts.windows(2).any(|pair| {

@@ -55,19 +55,19 @@ impl WedgeMeasures {
     }
 }
 
-/// The cylinders at an end of the bed: how many, the sizes of one, and the area of all.
+/// The cylinders at one end of the bed: count, size of one, total area.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "the names say it, with their units")]
 pub struct CylinderMeasures {
     pub cylinders: u32,
-    /// Of one cylinder, as the bore.
+    /// Of one cylinder, like the bore.
     pub piston_area_mm2: f64,
     pub bore_mm: f64,
     pub piston_area_total_mm2: f64,
 }
 
 impl CylinderMeasures {
-    /// Of the area of one piston, m².
+    /// From the area of one piston, m².
     #[must_use]
     pub fn new(piston_area: f64) -> Self {
         const SQUARE: f64 = MILLIMETRES * MILLIMETRES;
@@ -79,13 +79,13 @@ impl CylinderMeasures {
         }
     }
 
-    /// The count with the bore of each.
+    /// Count and bore.
     #[must_use]
     pub fn bore_words(&self) -> String {
         format!("{} cylinders, bore {} mm each", self.cylinders, shown(self.bore_mm))
     }
 
-    /// The count with the sizes of one and of all.
+    /// Count, bore, and piston areas of one and of all.
     #[must_use]
     pub fn words(&self) -> String {
         format!(
@@ -241,7 +241,7 @@ impl AirLaw {
 const ROUNDING_MM: f64 = 1e-9;
 
 impl Equation18 {
-    /// Names the friction that the machine file does not give.
+    /// Names the friction that the machine file omits.
     fn omitted_friction(&self) -> Option<String> {
         let roller = (self.friction_angle_deg == 0.0).then_some("at the roller (translating.friction_angle is 0)");
         let crank = (self.efficiency == 1.0).then_some("in the bell crank (translating.efficiency is 1)");
@@ -300,7 +300,7 @@ pub struct ResidualByDirection {
     pub residual_return_at_x_mm: f64,
 }
 
-/// In the place of a residual force that is not finite.
+/// Text for a residual force that is not finite.
 const UNBOUNDED: &str = "without bound (the bottom hits the piston)";
 
 impl ForceMeasures {

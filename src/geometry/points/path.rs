@@ -136,7 +136,7 @@ impl<'a> ExactPath<'a> {
         })
     }
 
-    /// How many corners it has.
+    /// Number of corners.
     #[must_use]
     pub fn corners(&self) -> usize {
         self.joints(false).0.len()

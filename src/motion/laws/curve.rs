@@ -227,7 +227,7 @@ impl LawCurve {
         self.joints.partition_point(|joint| *joint <= x)
     }
 
-    /// The part of a range of parts, at least one, that holds x or is nearest to it; at a joint the later one.
+    /// The part in `parts` (not empty) that holds x or is nearest to it; at a joint the later one.
     #[must_use]
     pub fn part_within(&self, x: f64, parts: &Range<usize>) -> usize {
         let joints = self.joints.get(parts.start..parts.end.saturating_sub(1)).unwrap_or_default();

@@ -38,7 +38,7 @@ pub const LAWS: &[Law] = &[
 /// The straight line.
 pub const LINE: &str = polynomial::CONSTANT_VELOCITY.name;
 
-/// The law with this name or alias, in any case; `None` of no law.
+/// The law with this name or alias, in any case; `None` if unknown.
 #[must_use]
 pub fn named(name: &str) -> Option<&'static Law> {
     LAWS.iter().find(|law| std::iter::once(&law.name).chain(law.aliases).any(|own| own.eq_ignore_ascii_case(name)))
@@ -59,7 +59,7 @@ pub fn named(name: &str) -> Option<&'static Law> {
 /// ```
 ///
 /// # Errors
-/// [`Refusal`] with the names that there are.
+/// [`Refusal`] with the known names.
 pub fn law(name: &str) -> Result<&'static Law, Refusal> {
     named(name).ok_or_else(|| {
         let known: Vec<&str> = LAWS.iter().map(|law| law.name).collect();

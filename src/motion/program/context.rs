@@ -44,7 +44,7 @@ pub(super) struct ProgramContext {
     pub(super) arm: Option<f64>,
     /// Angular speed of the cam, rad/s.
     pub(super) speed: Option<f64>,
-    /// Whether `motion.rpm` is given with a fault, which is reported already.
+    /// Whether `motion.rpm` has a fault that is already reported.
     pub(super) has_faulty_speed: bool,
     /// First cam angle, and the angle the segments fill, rad; 0 and the stroke of a plate, m.
     pub(super) at: f64,

@@ -41,7 +41,7 @@ const LEAST_CELLS: u32 = 8;
 /// The lift, the velocity, the acceleration and the jerk are continuous on a piece.
 const SMOOTH: u32 = 3;
 
-/// Positions that differ by less than this share of the largest are equal: rounding of sums.
+/// Positions are equal if they differ by less than this share of the largest: rounding of sums.
 const SAME_PLACE: f64 = 1e-9;
 
 /// A rate below this share of its peak is 0 with rounding.
@@ -197,19 +197,19 @@ struct PieceSource {
     parts: Range<usize>,
 }
 
-/// Refuses a segment from one position to another that code gives, with the angle or length that it takes.
+/// Refuses an impossible segment given by code: from one position to another over a width (angle or length).
 fn possible_segment(number: usize, (from, to): (f64, f64), width: f64, rests: bool) -> Result<(), Refusal> {
     let refused = |what: String, remedy: &str| Err(Refusal::new(format!("segment {number}: {what}")).remedy(remedy));
     if ![from, to, width].iter().all(|value| value.is_finite()) {
         return refused("a number is not finite".into(), "give finite numbers");
     }
     if width <= 0.0 {
-        let what = "nothing is left for it: the segments before it take the whole turn or stroke".into();
+        let what = "no angle or length remains: earlier segments take the whole turn or stroke".into();
         return refused(what, "give each segment an angle or length above 0");
     }
     if rests && (to - from).abs() > SAME_PLACE * from.abs().max(to.abs()) {
-        let what = format!("a dwell keeps its position, and it is to end at {to} instead of {from}");
-        return refused(what, "give it the position where it begins, or a law that moves");
+        let what = format!("a dwell keeps its position, but ends at {to} instead of {from}");
+        return refused(what, "end it at the position where it begins, or give it a law");
     }
     Ok(())
 }
@@ -241,14 +241,15 @@ pub struct Program {
     rows: Vec<rows::RowFigures>,
     /// The summaries of the segments, once they are needed.
     summaries: OnceLock<Vec<SegmentSummary>>,
-    /// Whether it would be another one at another speed.
+    /// Whether it depends on the speed.
     timed: bool,
 }
 
 impl Program {
     /// Segments of law (`None` rests), cam angle (rad) and end position (m, or rad of a swing), from a position on.
     ///
-    /// The last segment takes what is left of the turn, whatever angle it has. Each law leads from rest to rest; one that cannot ([`Law::serves_rests`]) leaves a jump where it begins or ends.
+    /// The last segment takes the rest of the turn, whatever its given angle. Each law runs from rest to rest; one that cannot
+    /// ([`Law::serves_rests`]) has a step at its beginning or end.
     ///
     /// ```
     /// use camgen::{Motion, Program, Quantity, law};
@@ -265,8 +266,7 @@ impl Program {
     /// ```
     ///
     /// # Errors
-    /// [`Refusal`] where a number is not finite, a segment has no angle, a rest has another position than that where it begins, or the turn does
-    /// not end where it starts.
+    /// [`Refusal`] if a number is not finite, a segment has no angle, a rest ends at another position, or the turn does not end at its start position.
     pub fn new(quantity: Quantity, start: f64, segments: &[(Option<&'static Law>, f64, f64)]) -> Result<Self, Refusal> {
         let mut program = Self::empty(quantity, 1);
         program.add_laws((start, TAU), segments)?;
@@ -295,7 +295,7 @@ impl Program {
     /// ```
     ///
     /// # Errors
-    /// [`Refusal`] as in [`Program::new`], but that the plate may end at any position.
+    /// [`Refusal`] as in [`Program::new`], except that the plate may end at any position.
     pub fn over_travel(start: f64, segments: &[(Option<&'static Law>, f64, f64)]) -> Result<Self, Refusal> {
         let stroke = segments.iter().map(|(_, over, _)| over).sum();
         let mut program = Self { stroke: Some(stroke), ..Self::empty(Quantity::Length, 1) };
@@ -328,7 +328,7 @@ impl Program {
         Ok(())
     }
 
-    /// The largest position of its segments, or that where they start.
+    /// The largest |position| of its segments, including the start.
     fn largest(&self, start: f64) -> f64 {
         self.segments.iter().map(|segment| segment.to.abs()).fold(start.abs(), f64::max)
     }
@@ -468,7 +468,7 @@ impl Program {
         self.rpm
     }
 
-    /// Whether it would be another one at another speed: for rates per second, and for the speed of a polydyne cam.
+    /// Whether it depends on the speed: by rates per second, or as a polydyne cam.
     #[must_use]
     pub fn is_timed(&self) -> bool {
         self.timed

@@ -36,7 +36,7 @@ pub(crate) fn read(
     Some(Program { timed: depends_on_speed(reader), ..program })
 }
 
-/// Whether a motion without a fault would be another one at another speed.
+/// Whether a motion without a fault depends on the speed.
 fn depends_on_speed(reader: &Reader<'_>) -> bool {
     let of_load = || reader.find(&POLYDYNE).is_some_and(|load| !load.has(&OWN_RPM));
     let per_second = |segment: &TableReader<'_>| {

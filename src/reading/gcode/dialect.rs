@@ -123,7 +123,7 @@ pub(super) fn moves_the_profile(block: &str, control: Option<Controller>) -> Opt
     (!zero(shift)).then_some("moves the datum (G52)")
 }
 
-/// Whether a block of SINUMERIK only shows a message, or ends what moves, turns or scales the profile.
+/// Whether a SINUMERIK block has no effect on the path: it shows a message, or ends a shift, rotation or scaling of the coordinates.
 pub(super) fn is_nothing(block: &str, control: Option<Controller>) -> bool {
     let block = block.to_ascii_uppercase();
     let number = block.strip_prefix('N').map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));

@@ -200,7 +200,7 @@ fn coordinates(
             }
             ("M3" | "M4" | "M5" | "M13" | "M14", _) => turn(line, word, state)?,
             ("M8" | "M9" | "M2" | "M30", _) => {}
-            // Parts of the profile into which the cutter does not fit may be left out, so many blocks (LA) ahead.
+            // M120 may skip parts of the profile that the cutter does not fit; LA is its number of look-ahead blocks.
             ("M120", _) => state.leaves_out = true,
             (word, _) if words.contains(&"M120") && word.starts_with("LA") => {}
             (word, Some(axis)) => {

@@ -29,10 +29,10 @@ pub(super) struct MachineState {
     pub(super) spindle: Spindle,
     /// With what it cuts.
     pub(super) cutting: CuttingState,
-    /// What the program has stated before its moves.
+    /// Words stated before the moves.
     pub(super) readiness: Readiness,
     pub(super) path_mode: PathMode,
-    /// Whether the control may leave out parts of the profile.
+    /// Whether the control may skip parts of the profile.
     pub(super) leaves_out: bool,
     program: CutterProgram,
 }
@@ -47,7 +47,7 @@ impl MachineState {
         self.units.unwrap_or_default().millimetres()
     }
 
-    /// Whether the cutter has moved to a place of the part.
+    /// Whether the cutter has moved in part coordinates.
     pub(super) fn has_moved(&self) -> bool {
         !self.program.moves.is_empty() || self.at != [None; 3]
     }
@@ -68,7 +68,7 @@ impl MachineState {
         Ok(CutterProgram { side_at_end, control, path_tolerances, early, sets_up, leaves_out, ..self.program })
     }
 
-    /// Whether the height is known in the coordinates of the part.
+    /// Whether Z is known in part coordinates.
     pub(super) fn knows_height(&self) -> bool {
         self.at[2].is_some()
     }
@@ -111,7 +111,7 @@ impl MachineState {
         }
     }
 
-    /// What a move from a place relies on.
+    /// Records the words that a move relies on.
     fn relies(&mut self, line: usize, kind: MoveKind, before: [Option<f64>; 3]) {
         let is_arc = matches!(kind, MoveKind::Arc { .. });
         let deep = |z: Option<f64>| z.is_some_and(|z| z < 0.0);

@@ -156,13 +156,13 @@ pub struct CutterProgram {
     pub states: Vec<(usize, CuttingState)>,
     /// Its feeds below the upper face, in the order of its moves, but for those of the rows of a pass of `turned`.
     pub feeds: Vec<CuttingFeed>,
-    /// By how much the control may leave its path, mm, and the line that says so.
+    /// Tolerances of the control's path, mm, each after its line.
     pub path_tolerances: Vec<(usize, f64)>,
-    /// The first moves that rely on what the program had not stated before them, and their lines.
+    /// For each kind of missing statement, the line of the first move that relies on it.
     pub early: Vec<(usize, Unstated)>,
-    /// Whether it sets up its tool, its datum or its height at all; otherwise the operator has, before it is started.
+    /// Whether it sets up tool, datum or height itself; if not, the operator has before the start.
     pub sets_up: bool,
-    /// Whether the control may leave out parts of the profile into which its cutter does not fit (M120 of HEIDENHAIN).
+    /// Whether the control may skip parts of the profile that its cutter does not fit (M120 of HEIDENHAIN).
     pub leaves_out: bool,
 }
 

@@ -1,27 +1,27 @@
-//! How exactly the control keeps to its path: G61 and G64 of LinuxCNC; G60, G64, G641 to G645 with CTOL, ADIS or CYCLE832 of SINUMERIK; cycle 32 of HEIDENHAIN.
+//! Path tolerance of the control: G61 and G64 of LinuxCNC; G60, G64, G641 to G645 with CTOL, ADIS or CYCLE832 of SINUMERIK; cycle 32 of HEIDENHAIN.
 
 use super::dialect::{after, has_word};
 use crate::machine::Controller;
 
-/// Words of SINUMERIK by which the control leaves its path, within CTOL, ADIS or CYCLE832; without them within machine data that the program does not know.
+/// SINUMERIK words for smoothing within CTOL, ADIS or CYCLE832; without a tolerance, within machine data unknown to the program.
 const SMOOTHING: [&str; 6] = ["G64", "G641", "G642", "G643", "G644", "G645"];
 const COMPRESSING: [&str; 4] = ["COMPCAD", "COMPON", "COMPCURV", "COMPSURF"];
 
-/// What a program has said of it.
+/// The path mode stated so far.
 #[derive(Debug, Default)]
 pub(super) struct PathMode {
-    /// By how much the control may leave its path, mm, and the line that says so; infinite where it is without a bound.
+    /// Line and path tolerance, mm; infinite if unbounded.
     is: Option<(usize, f64)>,
-    /// SINUMERIK: the lines that make the control smooth and compress its path, and the tolerance that is stated for both.
+    /// SINUMERIK: the lines that switch on smoothing and compressing, and the tolerance stated for both.
     smooths: Option<usize>,
     compresses: Option<usize>,
     tolerance: Option<f64>,
-    /// Those by which it has moved.
+    /// Lines and tolerances in effect during moves.
     used: Vec<(usize, f64)>,
 }
 
 impl PathMode {
-    /// What a block says, in a program with so many millimetres in its unit.
+    /// Reads a block; `scale` is millimetres per unit of the program.
     pub(super) fn block(&mut self, line: usize, block: &str, control: Option<Controller>, scale: f64) {
         let block = block.to_ascii_uppercase();
         match control {
@@ -40,31 +40,31 @@ impl PathMode {
         }
     }
 
-    /// Takes a tolerance, mm; `None` is the one that the builder of the machine has set.
+    /// Takes a tolerance, mm; `None`: the machine builder's own.
     pub(super) fn keeps_within(&mut self, line: usize, tolerance: Option<f64>) {
         self.is = tolerance.map(|tolerance| (line, tolerance));
     }
 
-    /// Whether the program says how exactly the path is kept.
+    /// Whether the path mode is stated.
     pub(super) fn is_stated(&self) -> bool {
         self.is.is_some()
     }
 
-    /// The tool moves at a feed.
+    /// Records a feed move.
     pub(super) fn moves(&mut self) {
         if let Some(own) = self.is.filter(|own| self.used.last() != Some(own)) {
             self.used.push(own);
         }
     }
 
-    /// Those by which it has moved, mm, and the lines that say so.
+    /// Lines and tolerances, mm, in effect during feed moves.
     pub(super) fn used(self) -> Vec<(usize, f64)> {
         self.used
     }
 
     fn sinumerik(&mut self, line: usize, block: &str, scale: f64) {
         if let Some(word) = after(block, "CYCLE832") {
-            // Without a number it ends.
+            // Without a number the cycle ends.
             self.tolerance = number(word).filter(|number| *number > 0.0).map(|number| scale * number);
             self.smooths = self.tolerance.map(|_| line).or(self.smooths);
         }
@@ -81,7 +81,7 @@ impl PathMode {
     }
 }
 
-/// The number after a word, in parentheses or behind `=`.
+/// The number after a word, in parentheses or after `=`.
 fn number(rest: &str) -> Option<f64> {
     let rest = rest.trim_start_matches(['(', '=', ' ']);
     let end = rest.find(|c: char| !(c.is_ascii_digit() || ['.', '+', '-'].contains(&c))).unwrap_or(rest.len());

@@ -1,45 +1,45 @@
-//! What a move relies on before the program has stated it. A control keeps words of the program before, and every group of them is unknown until it is stated: here
-//! the first move that needs such a group is kept, and what may be reported and what must be refused is judged where a program is.
+//! Finds moves that rely on words not yet stated. A control keeps words of the previous program, so each group of words is unknown until stated.
+//! For each group the first move that needs it is recorded; `safe_start` decides which of them are refused and which only reported.
 
 use super::words::Word;
 use crate::machine::Controller;
 
-/// What a move needs, and the program had not stated.
+/// A statement that a move needs and the program has not made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unstated {
-    /// Whether the control keeps the cutter beside its path: G40, R0.
+    /// Radius compensation: G40, R0.
     Compensation,
-    /// Feeds by the minute: G94.
+    /// Feed per minute: G94.
     FeedMode,
-    /// Centres of arcs from their start: G91.1.
+    /// Arc centres relative to the start: G91.1.
     Centres,
-    /// The length of the tool: G43 H, D, TOOL CALL, or a stop for the operator.
+    /// The tool length: G43 H, D, TOOL CALL, or a stop for the operator.
     Length,
-    /// The length of a tool that the program itself has changed in, or whose length it has lost: G43 H, D.
+    /// The length of a tool that the program has changed in or whose length it has cancelled: G43 H, D.
     LengthOfChanged,
     /// The datum: G54.
     Datum,
-    /// How exactly the path is kept: G61, G64, G642.
+    /// The path mode: G61, G64, G642.
     PathMode,
-    /// A spindle that turns: S, M3.
+    /// A turning spindle: S, M3.
     Spindle,
-    /// The height of the tool, before it moves fast across the part.
+    /// The tool height, before a move across the part.
     Height,
-    /// That the tool is above its place in the plane, before it goes down.
+    /// X and Y, before the tool goes down.
     Place,
-    /// The axes of a move to a reference point (G28): without any, all of them move.
+    /// The axes of a move to the reference point (G28): without any, all axes move.
     Axes,
-    /// Incremental coordinates (G91) of a move to a reference point, which goes by the place that it names.
+    /// Incremental coordinates (G91) for a move to the reference point, which passes through its programmed point.
     WayToReference,
-    /// That a move in machine coordinates is a rapid one (G0).
+    /// Rapid motion (G0) for a move in machine coordinates.
     Motion,
-    /// Absolute coordinates (G90) of a move in machine coordinates, which FANUC leaves out in G91.
+    /// Absolute coordinates (G90) for a move in machine coordinates, which FANUC ignores in G91.
     Absolute,
-    /// That no length of a tool is taken into account (D0) by a move in machine coordinates.
+    /// A tool length of zero (D0) for a move in machine coordinates.
     NoLength,
 }
 
-/// What a program has stated so far.
+/// Statements of a program so far.
 #[derive(Debug, Default)]
 pub(super) struct Readiness {
     control: Option<Controller>,
@@ -52,51 +52,51 @@ pub(super) struct Readiness {
     length: bool,
     absolute: Option<bool>,
     rapid: Option<bool>,
-    /// Whether the program has changed a tool in, or stopped for the operator to do so.
+    /// Whether the program has changed the tool (`changes`), or stopped for the operator (`stopped`).
     changes: bool,
     stopped: bool,
-    /// Whether a length was taken that is lost since; whether G43 holds, and whether SINUMERIK knows an edge.
+    /// Whether a tool length was in effect and is cancelled (`lost`), G43 is active (`adds`), SINUMERIK has a D number (`edge`).
     lost: bool,
     adds: bool,
     edge: bool,
-    /// Whether the tool is at a height of the machine.
+    /// Whether the tool is retracted in machine coordinates.
     retracted: bool,
-    /// Whether the program sets up its tool, its datum or its height at all.
+    /// Whether the program sets up tool, datum or height itself.
     sets_up: bool,
     early: Vec<(usize, Unstated)>,
 }
 
-/// A move in the coordinates of the part.
+/// A move in part coordinates.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PartMove {
     pub(super) line: usize,
     pub(super) rapid: bool,
     pub(super) arc: bool,
-    /// Whether the places in the plane, and the height, were known before it; without those in the plane Z may go down anywhere.
+    /// Whether X and Y (`knew_place`) and Z (`knew_height`) were known before the move; without X and Y, Z may go down anywhere.
     pub(super) knew_place: bool,
     pub(super) knew_height: bool,
-    /// Whether it moves in the plane, or turns the part, and along Z.
+    /// Whether it moves in the plane or rotates the part (`across`), along Z, and downwards.
     pub(super) across: bool,
     pub(super) along_z: bool,
     pub(super) down: bool,
-    /// Whether it cuts below the upper face.
+    /// Whether it cuts below the top face.
     pub(super) cuts: bool,
 }
 
 impl Readiness {
     pub(super) fn of(control: Option<Controller>) -> Self {
-        // The dialogue has its feeds by the minute, its centres in absolute coordinates, and the datum that the operator activates.
+        // Klartext has feed per minute, absolute arc centres, and the datum activated by the operator.
         let dialogue = control == Some(Controller::Heidenhain);
         let centres = control != Some(Controller::LinuxCnc);
         Self { control, feed_mode: dialogue, centres, datum: dialogue, ..Self::default() }
     }
 
-    /// The first moves that came too early, and whether the program sets up its tool, its datum or its height at all.
+    /// The first moves that came too early, and whether the program sets up tool, datum or height itself.
     pub(super) fn found(self) -> (Vec<(usize, Unstated)>, bool) {
         (self.early, self.sets_up)
     }
 
-    /// What a block of letters and numbers states, before its move.
+    /// Records the statements of a block of words, before its move.
     pub(super) fn block(&mut self, words: &[Word]) {
         let sinumerik = self.control == Some(Controller::Sinumerik);
         let value = |letter: char| words.iter().find(|word| word.0 == letter).map(|word| word.1);
@@ -112,12 +112,12 @@ impl Readiness {
         }
         let edge = value('D').filter(|_| sinumerik);
         self.edge |= edge.is_some();
-        // The length of a tool that nobody has named is not known.
+        // The length is unknown if neither program nor operator chose the tool.
         let named = self.changes || self.stopped;
         let (takes, ends) = (words.contains(&('G', 43.0)), words.contains(&('G', 49.0)));
         let taken = match self.control {
             Some(Controller::Sinumerik) => edge.map(|edge| edge > 0.0 && named),
-            // H is modal there, and so is G43 for another H.
+            // H is modal on FANUC, and so is G43 for another H.
             Some(Controller::Fanuc) => (takes || (self.adds && value('H').is_some())).then(|| value('H') != Some(0.0)),
             _ => takes.then(|| value('H').map_or(named, |number| number > 0.0)),
         };
@@ -147,10 +147,10 @@ impl Readiness {
             is(&[61.0, 61.1, 62.0, 64.0]) || (sinumerik && (is(&[60.0]) || (641.0..646.0).contains(&code)));
     }
 
-    /// A tool is changed in: M6, TOOL CALL.
+    /// A tool change: M6, TOOL CALL.
     pub(super) fn tool_changes(&mut self) {
         (self.changes, self.sets_up) = (true, true);
-        // By its call the dialogue takes its length.
+        // In Klartext, TOOL CALL activates the tool length.
         self.length = self.control == Some(Controller::Heidenhain);
         (self.spindle, self.stopped, self.lost) = (false, false, false);
     }
@@ -170,7 +170,7 @@ impl Readiness {
         self.path_mode = true;
     }
 
-    /// M3, M4, M5 of the dialogue.
+    /// M3, M4, M5 in Klartext.
     pub(super) fn spindle_turns(&mut self, turns: bool) {
         self.spindle = turns;
     }
@@ -181,7 +181,7 @@ impl Readiness {
         }
     }
 
-    /// A move to a reference point (G28, G30), by the coordinates that it names, or in machine coordinates (G53).
+    /// A move to a reference point (G28, G30) through its programmed point, or in machine coordinates (G53).
     pub(super) fn leaves_by(&mut self, line: usize, (axes, words): ([bool; 3], &[Word]), knows_height: bool) {
         if words.contains(&('G', 53.0)) {
             self.lacks(line, self.rapid == Some(true), Unstated::Motion);
@@ -197,21 +197,21 @@ impl Readiness {
         self.leaves(line, axes, knows_height);
     }
 
-    /// A move to a place of the machine along these axes.
+    /// A move to a machine position along these axes.
     pub(super) fn leaves(&mut self, line: usize, axes: [bool; 3], knows_height: bool) {
         self.sets_up = true;
         self.lacks(line, !(axes[0] || axes[1]) || knows_height || self.retracted, Unstated::Height);
         if axes[2] {
             self.retracted = true;
             if self.control == Some(Controller::Fanuc) {
-                // It shows G43, and has dropped the length.
+                // FANUC still shows G43, but has cancelled the length.
                 self.lost |= self.length || self.stopped;
                 self.length = false;
             }
         }
     }
 
-    /// A move in the coordinates of the part.
+    /// A move in part coordinates.
     pub(super) fn moves(&mut self, moved: PartMove) {
         let line = moved.line;
         self.lacks(line, self.compensation, Unstated::Compensation);

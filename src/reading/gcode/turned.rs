@@ -51,7 +51,7 @@ struct TurnedState {
     plunged: Option<usize>,
     program: CutterProgram,
     open: Option<TurnedPass>,
-    /// What the program has stated before its moves.
+    /// Words stated before the moves.
     readiness: Readiness,
     path_mode: PathMode,
 }
@@ -204,7 +204,7 @@ impl TurnedState {
         }
     }
 
-    /// What a move from a place relies on.
+    /// Records the words that a move relies on.
     fn relies(&mut self, line: usize, before: [Option<f64>; 4], rapid: bool) {
         let below = |z: Option<f64>| z.is_some_and(|z| z < 0.0);
         self.readiness.moves(PartMove {

@@ -58,7 +58,7 @@ impl DirectoryHandle {
     }
 
     pub(super) fn unlock(&self) {
-        // Closing the handle unlocks it too.
+        // Closing the handle also unlocks the directory.
         let _ = self.0.unlock();
     }
 

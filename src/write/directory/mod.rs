@@ -89,19 +89,19 @@ impl Directory {
         }
     }
 
-    /// Opens a directory, made if missing, without waiting for other runs: for files whose names no other run writes.
+    /// Opens a directory, made if missing, without waiting for other runs: for files that no other run writes.
     pub(super) fn unlocked(path: &Path) -> Result<Self, FilesError> {
         let opened = fs::create_dir_all(path).and_then(|()| DirectoryHandle::open(path));
         let held = opened.map_err(|source| FilesError::Directory { path: path.to_owned(), source })?;
         Ok(Self { held, path: path.to_owned(), made: Vec::new(), locked: false })
     }
 
-    /// The same directory, locked: whichever directory has its path by now. Waits for other runs.
+    /// A locked handle of this directory. Waits for other runs.
     pub(super) fn locked(&self) -> Result<Self, FilesError> {
         self.locked_within(PATIENCE)
     }
 
-    /// The same directory, locked; `None` while another run is in it.
+    /// A locked handle of this directory; `None` while another run has the lock.
     pub(super) fn locked_if_free(&self) -> Result<Option<Self>, FilesError> {
         match self.locked_within(Duration::ZERO) {
             Err(FilesError::Busy { .. }) => Ok(None),
@@ -116,7 +116,7 @@ impl Directory {
         Ok(Self { held, path: self.path.clone(), made: Vec::new(), locked })
     }
 
-    /// Lets other runs into it; it stays open.
+    /// Releases the lock; the directory stays open.
     pub(super) fn unlock(&mut self) {
         if self.locked {
             self.held.unlock();
@@ -173,22 +173,22 @@ impl Directory {
         Ok(bytes)
     }
 
-    /// A file to be read.
+    /// Opens a file to read.
     pub(super) fn file(&self, name: &str) -> io::Result<File> {
         self.held.file(name)
     }
 
-    /// A new file that is read as well.
+    /// Creates a file to write and read.
     pub(super) fn create_to_extend(&self, name: &str) -> io::Result<File> {
         self.held.create_to_extend(name)
     }
 
-    /// An existing file to be read and written on.
+    /// Opens an existing file to read and extend.
     pub(super) fn file_to_extend(&self, name: &str) -> io::Result<File> {
         self.held.file_to_extend(name)
     }
 
-    /// Whether an open file has this name, and no other.
+    /// Whether an open file has this name and no other (hard link).
     pub(super) fn has_only_name(&self, file: &File, name: &str) -> io::Result<bool> {
         self.held.has_only_name(file, name)
     }

@@ -11,7 +11,7 @@ use nalgebra::Vector2;
 
 /// Digits of a number of revolutions.
 const SPEED_DECIMALS: usize = 1;
-/// Digits of a tolerance of the path.
+/// Digits of a path tolerance.
 pub(super) const SMOOTHING_DECIMALS: usize = 6;
 
 /// A program being written.
@@ -21,7 +21,7 @@ pub(super) struct IsoText<'p> {
     text: String,
     /// Where the cutter is, mm.
     at: Vector2<f64>,
-    /// Whether it has come down from its home.
+    /// Whether it has left its home height.
     is_down: bool,
 }
 
@@ -57,7 +57,7 @@ impl IsoText<'_> {
         self.line(&comment);
     }
 
-    /// All that a move relies on, before the first one: the words of another program may still be active.
+    /// States all words that moves rely on: words of another program may still be active.
     fn begin(&mut self, comments: &[String], name: &str) {
         let cutting = &self.program.cutting;
         if self.program.controller == Controller::Fanuc {
@@ -81,16 +81,16 @@ impl IsoText<'_> {
             self.line(line);
         }
         if !cutting.preamble.is_empty() {
-            // Its lines may have made coordinates incremental, as G91 G28 does.
+            // Preamble lines may have set incremental coordinates, as G91 G28 does.
             self.line("G17 G90 G94 G40");
         }
     }
 
-    /// Unit, alone in its block, plane, coordinates, feeds, no offsets of before, and how exactly the path is kept.
+    /// Unit in its own block, plane, coordinates, feed mode, cancelled offsets, and path mode.
     fn state(&mut self) {
         let metric = self.program.units == LengthUnit::Millimetre;
         match self.program.controller {
-            // Feeds are in the unit, too.
+            // G710 and G700 also set the unit of feeds.
             Controller::Sinumerik => {
                 self.line(if metric { "G710" } else { "G700" });
                 self.line("G17 G90 G94 G40");
@@ -113,7 +113,7 @@ impl IsoText<'_> {
         }
     }
 
-    /// Up, in the coordinates of the machine: whatever length of a tool is active.
+    /// Retracts in machine coordinates, whatever tool length is active.
     fn home(&mut self) {
         let home = self.program.cutting.home;
         let z = self.number(MILLIMETRES * home.unwrap_or(0.0));
@@ -127,14 +127,14 @@ impl IsoText<'_> {
         }
     }
 
-    /// Stops for the operator where the machine file does not say all that a cut needs.
+    /// Stops for the operator if the machine file lacks tool or spindle speed.
     fn stop(&mut self) {
         let wanted = by_hand(self.program);
         if wanted.is_empty() {
             return;
         }
         for line in wanted {
-            // LinuxCNC shows such a comment where it stops.
+            // LinuxCNC shows such a comment to the operator.
             let shown = if self.program.controller == Controller::LinuxCnc { format!("MSG, {line}") } else { line };
             self.comment(&shown);
         }
@@ -159,13 +159,13 @@ impl IsoText<'_> {
         plain(self.program.units.of_mm(millimetres), self.decimals)
     }
 
-    /// To the clearance height.
+    /// Moves to the clearance height.
     pub(super) fn up(&mut self) {
         let clearance = self.number(MILLIMETRES * self.program.cutting.clearance);
         self.line(&format!("G0 Z{clearance}"));
     }
 
-    /// Above the start of a pass: in the plane first, and for the first one down from its home with the length of the tool.
+    /// Moves in the plane to the start of a pass; for the first pass then down from home, with the tool length.
     pub(super) fn approach(&mut self, place: &str) {
         self.line(&format!("G0 {place}"));
         if std::mem::replace(&mut self.is_down, true) {
@@ -173,11 +173,11 @@ impl IsoText<'_> {
         }
         let length = match (self.program.controller, self.program.cutting.tool) {
             (Controller::LinuxCnc, Some(tool)) => format!(" G43 H{tool}"),
-            // That of the tool in the spindle.
+            // The length of the tool in the spindle.
             (Controller::LinuxCnc, None) => " G43".to_owned(),
             (Controller::Fanuc, Some(tool)) => format!(" G43 H{tool:02}"),
             (Controller::Sinumerik, _) => " D1".to_owned(),
-            // Set by the operator where the program stopped.
+            // Set by the operator at the stop, or by TOOL CALL.
             (Controller::Fanuc, None) | (Controller::Heidenhain, _) => String::new(),
         };
         let clearance = self.number(MILLIMETRES * self.program.cutting.clearance);

@@ -13,7 +13,7 @@ use nalgebra::Vector2;
 const SPEED_DECIMALS: usize = 1;
 /// Steps of a feed in an inch per minute.
 const TENTHS: f64 = 10.0;
-/// Height of the home, m: just below the end of the travel.
+/// Home height, m: just below the end of travel.
 pub(super) const HOME: f64 = -1e-3;
 
 /// A program being written.
@@ -21,7 +21,7 @@ struct DialogueText<'p> {
     program: &'p MillingProgram,
     decimals: usize,
     blocks: Vec<String>,
-    /// Whether the cutter has come down from its home.
+    /// Whether the cutter has left its home height.
     is_down: bool,
 }
 
@@ -63,7 +63,7 @@ impl DialogueText<'_> {
         format!("X{} Y{}", self.signed(to.x), self.signed(to.y))
     }
 
-    /// All that a move relies on, before the first one: what another program has set may still be active.
+    /// States all words that moves rely on: settings of another program may still be active.
     fn begin(&mut self, comments: &[String]) {
         let cutting = &self.program.cutting;
         self.blocks.extend(comments.iter().map(|comment| format!("; {comment}")));
@@ -88,7 +88,7 @@ impl DialogueText<'_> {
         self.blocks.extend(cutting.preamble.iter().cloned());
     }
 
-    /// The tolerance of the machine's builder again, up, and the spindle stops.
+    /// Restores the machine builder's tolerance, retracts, and stops the spindle.
     fn end(&mut self) {
         self.block("CYCL DEF 32.0 TOLERANCE".to_owned());
         self.block("CYCL DEF 32.1".to_owned());
@@ -98,7 +98,7 @@ impl DialogueText<'_> {
         self.block("M30".to_owned());
     }
 
-    /// Up, in the coordinates of the machine, in which the length of the tool is not counted.
+    /// Retracts in machine coordinates, which exclude the tool length.
     fn home(&mut self, more: &str) {
         let home = self.signed(MILLIMETRES * self.program.cutting.home.unwrap_or(HOME));
         self.block(format!("L Z{home} R0 FMAX M91{more}"));

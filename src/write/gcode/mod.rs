@@ -142,7 +142,7 @@ fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
     head
 }
 
-/// Where the tool goes first, which must suit the machine.
+/// The first move of the tool, which must suit the machine.
 fn first_move(program: &MillingProgram) -> String {
     let usual = if program.controller == Controller::Heidenhain { klartext::HOME } else { 0.0 };
     match (program.controller, program.cutting.home) {
@@ -156,7 +156,7 @@ fn first_move(program: &MillingProgram) -> String {
     }
 }
 
-/// What an operator must do where the program stops before its first move, line by line; nothing where the machine file says all of it.
+/// The operator's tasks at the stop before the first move, as lines; empty if the machine file has tool and spindle speed.
 fn by_hand(program: &MillingProgram) -> Vec<String> {
     let cutting = &program.cutting;
     let of_tool = match program.controller {

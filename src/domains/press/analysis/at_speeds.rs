@@ -26,20 +26,20 @@ pub(super) struct FixedSetting {
     pub(super) residual: f64,
 }
 
-/// A fixed bottom set by a rule of `camgen regimes` for the loading A of a speed.
+/// A fixed bottom set by a rule of `camgen regimes` for the loading A at a speed.
 pub(super) fn left_by_reset(frozen: &FrozenBuffer, reset: Reset) -> FixedSetting {
     let column = column_by(frozen, reset);
     FixedSetting { column, residual: FixedBottom::new(frozen).left(column, 1.0) }
 }
 
-/// Column of a fixed bottom by a rule, m, for the loading A of a speed: `half` and `level` are those of `camgen regimes`.
+/// Column of a fixed bottom, m, by a rule of `camgen regimes` for the loading A at a speed.
 pub(super) fn column_by(frozen: &FrozenBuffer, reset: Reset) -> f64 {
     let fixed = FixedBottom::new(frozen);
     match reset {
         Reset::End => fixed.column(1.0, ScrewRule::End),
         Reset::Half => {
             let worst = fixed.left(fixed.column(1.0, ScrewRule::End), 1.0) / frozen.unit_force;
-            // The air of `end` is too weak in the middle: half of that is put on at its end.
+            // By `end` the air is too weak in mid-stroke: half of that residual is added at the end.
             column_for(frozen.path.stroke(), frozen.end_load() + 0.5 * worst, frozen.exponent)
         }
         Reset::Level => fixed.column(1.0, ScrewRule::Level),

@@ -38,7 +38,7 @@ struct PlainRow {
     rpm: f64,
     a_per_mm: f64,
     column_length_mm: f64,
-    /// Of all cylinders.
+    /// For all cylinders.
     added_volume_mm3: f64,
     residual_max_n: f64,
     residual_share: f64,
@@ -67,7 +67,7 @@ const COLUMNS: &[ListedColumn<PlainRow>] = &[
     ("added_volume_each_mm3", |row| row.added_volume_each_mm3),
 ];
 
-/// The cylinders for an end pressure at the design speed, and the bottoms of a cam that would balance them.
+/// The cylinders for an end pressure at the design speed, and the bottoms of a cam that balances them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 struct FamilyRow {
     end_pressure_pa: f64,

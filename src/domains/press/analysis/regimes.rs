@@ -41,7 +41,7 @@ struct SpeedRow {
     rpm: f64,
     a_per_mm: f64,
     column_length_mm: f64,
-    /// Of all cylinders.
+    /// For all cylinders.
     added_volume_mm3: f64,
     residual_max_n: f64,
     residual_share: f64,

@@ -55,12 +55,12 @@ const LAW_LADDER_TOLERANCE: f64 = 1e-6;
 /// Places at which two motions are compared.
 const PLACES: u32 = 360;
 
-/// What the advice keeps; what is `None` has a default.
+/// Limits that the advice keeps; `None` is the default.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct PressTradeLimits {
     /// Largest residual force, N; by default a ten-thousandth of the largest inertia.
     pub residual: Option<f64>,
-    /// Largest error of the acceleration over its largest; by default that of `--accuracy standard`.
+    /// Largest acceleration error / largest acceleration; by default as for `--accuracy standard`.
     pub acceleration: Option<f64>,
 }
 
@@ -222,7 +222,7 @@ pub fn drive(machine: &DriveMachine, clock: &dyn Fn() -> Duration) -> Result<Ana
         error: ("error", "", "largest error of the crank's speed by the paper's sections"),
         limit: DRIVE_SHARE,
     };
-    // No step makes a machine close that does not.
+    // A machine that does not close fails at every step.
     let failing = |_| {
         let made = drive::analysis(machine, DriveSolver::Energy, STEPS[0].to_radians()).map_err(Refusal::of)?;
         Ok(if Judged::new(made).passed() { Vec::new() } else { vec![closing::CHECK.name.to_owned()] })

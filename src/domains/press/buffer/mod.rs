@@ -18,10 +18,10 @@ use crate::report::Shaft;
 use crank_law::CrankLaw;
 use std::f64::consts::PI;
 
-/// Cylinders at each end of the bed, whose pistons brake it together.
+/// Cylinders at each end of the bed, braking it together.
 pub const CYLINDERS: u32 = 2;
 
-/// Area of all pistons at an end of the bed, m², from that of one.
+/// Area of all pistons at one end of the bed, m², from the area of one.
 #[must_use]
 pub fn total_area(piston_area: f64) -> f64 {
     f64::from(CYLINDERS) * piston_area
@@ -72,7 +72,7 @@ impl Bed {
     }
 }
 
-/// The cylinders at an end of the bed, all alike, sized at the design speed.
+/// The equal cylinders at one end of the bed, sized at the design speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cylinder {
     /// Area F of the piston of one cylinder, m².
@@ -94,7 +94,7 @@ impl Cylinder {
         Self::sized_for(bed, bed.crank_radius, (design_rpm, exponent), (ambient_pressure, end_pressure))
     }
 
-    /// The cylinders for a bed with this largest deceleration over the square of the crank speed, m: A = (q − 1)/a.
+    /// Sizes the cylinders for a = largest deceleration / (crank speed)², m: A = (q − 1)/a.
     #[must_use]
     pub fn sized_for(
         bed: &Bed,
@@ -127,7 +127,7 @@ impl Cylinder {
         self.design_loading * ratio * ratio
     }
 
-    /// Force of all pistons for a pressure ratio p/p0, N, against the ambient pressure behind them.
+    /// Net force of all pistons, N, at a pressure ratio p/p0, with ambient pressure on their other side.
     #[must_use]
     pub fn force(&self, pressure_ratio: f64) -> f64 {
         self.unit_force() * (pressure_ratio - 1.0)

@@ -1,4 +1,4 @@
-//! Whether the cam has less residual force than a fixed bottom at every speed of `camgen regimes`.
+//! Check that the cam has less residual force than a fixed bottom at every speed of `camgen regimes`.
 
 use crate::check::{Check, CheckExplanation, Measure};
 use crate::report::{Bound, Verdict, shown};
@@ -34,7 +34,7 @@ impl Rivals {
     }
 }
 
-/// The measure of the speeds.
+/// The measure over all speeds.
 #[must_use]
 pub fn measure(speeds: &[Rivals]) -> Measure {
     let largest = speeds.iter().map(Rivals::share).fold(0.0, f64::max);

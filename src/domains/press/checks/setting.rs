@@ -19,7 +19,7 @@ pub const CHECK: Check = Check::on_analysis(
     },
 );
 
-/// The measure of a variable v and the bounds of its useful range by a rule.
+/// The measure of v against the bounds of its useful range, by a reset rule.
 #[must_use]
 pub fn measure(variable: f64, [least, most]: [Option<f64>; 2], rule: ScrewRule) -> Measure {
     let fixed = format!("a fixed bottom with its own reset ({}) leaves less", rule.word());

@@ -109,7 +109,7 @@ impl LoadState for PressState {
     }
 }
 
-/// The figures of the cylinders under a law; slope and jump as they are where the law starts.
+/// The figures of the cylinders under a law; slope and jump at its start.
 #[must_use]
 pub(crate) fn air_law(cylinder: &Cylinder, law: &CrankLaw, (dx_max_at_x, dx_max): (f64, f64)) -> AirLaw {
     AirLaw {
@@ -125,7 +125,7 @@ pub(crate) fn air_law(cylinder: &Cylinder, law: &CrankLaw, (dx_max_at_x, dx_max)
     }
 }
 
-/// The force balance of the cylinders under a law in a state; outside the reversal nothing is to balance.
+/// The force balance of the cylinders under a law in a state; none outside the reversal.
 #[must_use]
 pub(crate) fn balance_row(cylinder: &Cylinder, law: &CrankLaw, state: &ReversalState) -> BalanceRow {
     let forces = if state.reversing {

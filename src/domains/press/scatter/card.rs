@@ -6,7 +6,7 @@ use crate::domains::press::machine::Press;
 use crate::report::card::Card;
 use crate::report::shown;
 
-/// The card of the settings by the rule of a report.
+/// The card of the settings, by the rule of the report.
 pub(super) fn of(press: &Press, machine: &str, report: &ScatterReport<'_>) -> Card {
     let (rpm, settings, useful) = (report.cam_rpm, report.settings, &report.useful);
     let outside = |v: f64| useful.v_min.is_some_and(|least| v < least) || useful.v_max.is_some_and(|most| v > most);
@@ -49,7 +49,7 @@ pub(super) fn of(press: &Press, machine: &str, report: &ScatterReport<'_>) -> Ca
     }
 }
 
-/// What a rule sets the screw to.
+/// The screw setting of a rule, in words.
 fn rule_words(rule: &str) -> &'static str {
     match rule {
         "end" => "end, no force is left at the end of the stroke",

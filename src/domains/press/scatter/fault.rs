@@ -223,9 +223,9 @@ impl FrozenBuffer {
         self.unit_force * at.iter().map(size).fold(0.0, f64::max)
     }
 
-    /// Largest size of the residual force of a fixed bottom under a yoke over the stroke, N, without the phase error.
+    /// Largest |residual force| over the stroke of a fixed bottom under a yoke, N, without the phase error.
     ///
-    /// Its air has the length L (w + t) with w = 1 − u/(A L), so that the force is concave in u, with its top at
+    /// The air length is L (w + t) with w = 1 − u/(A L), so the force is concave in u, with its maximum at
     /// w + t = (π τ κ s^κ/(M A L))^(1/(κ+1)).
     #[must_use]
     pub fn largest_of_fixed(&self, fault: &Fault) -> f64 {

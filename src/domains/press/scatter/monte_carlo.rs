@@ -127,14 +127,14 @@ pub struct Samples {
 struct Stationed {
     buffer: FrozenBuffer,
     at: Vec<Station>,
-    /// Largest force of a phase error of a radian at a station, N.
+    /// Largest force per unit phase error over the stations, N/rad.
     phase: f64,
     /// Of the bed, N.
     friction: f64,
     is_cam: bool,
 }
 
-/// Rounding of an upper bound, as a share of it.
+/// Relative rounding error of an upper bound.
 const ROUNDING: f64 = 1e-9;
 
 impl Stationed {
@@ -144,7 +144,7 @@ impl Stationed {
         Self { buffer: *buffer, at, phase, friction, is_cam }
     }
 
-    /// The press after a reset whose screw is off by so much, m.
+    /// The press after a reset with a screw error, m.
     fn set(&self, fault: &Fault, rule: ScrewRule, screw: f64) -> Result<Fault, ScatterError> {
         if rule == ScrewRule::None {
             return Ok(*fault);
@@ -158,7 +158,7 @@ impl Stationed {
         Ok(self.buffer.largest_at(fault, &self.at, self.friction))
     }
 
-    /// What [`Self::largest`] does not exceed, N: by the extremes over the stroke where they are known in closed form, which takes a tenth of its time.
+    /// Upper bound of [`Self::largest`], N: from closed-form extremes over the stroke if known, in a tenth of its time.
     fn bound(&self, fault: &Fault) -> Result<f64, ScatterError> {
         let left = match (&self.buffer.path, self.is_cam) {
             _ if self.buffer.level.is_some() => return self.largest(fault),
@@ -176,7 +176,7 @@ impl Stationed {
     }
 }
 
-/// A cam and a fixed bottom in the same presses. A fixed bottom has no law by which it could be levelled, and is set to its end.
+/// A cam and a fixed bottom in the same presses. The fixed bottom is reset by `end`: without a law it cannot be levelled.
 struct Rivals<'a> {
     cam: Stationed,
     fixed: Stationed,
@@ -189,7 +189,7 @@ impl<'a> Rivals<'a> {
         Self { cam: Stationed::new(cam, true, friction), fixed, sampling }
     }
 
-    /// The press of a sample with the cam as built, with the cam after its reset, and with the fixed bottom after its own.
+    /// The press of a sample with the cam as built, with the cam after its reset, and with the fixed bottom after its own reset.
     fn presses(&self, sample: u32) -> Result<[(&Stationed, Fault); 3], ScatterError> {
         let (fault, screw) = self.sampling.press(self.cam.buffer.exponent, u64::from(sample));
         let rule = self.sampling.rule;
@@ -229,7 +229,7 @@ pub fn draw(cam: &FrozenBuffer, sampling: &Sampling, friction: f64) -> Result<Sa
     })
 }
 
-/// P95 of the largest residual forces of drawn presses, N.
+/// P95 of the largest residual forces of the sampled presses, N.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeftInPractice {
     /// The cam as built.
@@ -240,10 +240,10 @@ pub struct LeftInPractice {
     pub fixed: f64,
 }
 
-/// The share of all presses that [`LeftInPractice`] holds for.
+/// The percentile of [`LeftInPractice`].
 pub const SHARE: f64 = 0.95;
 
-/// P95 of the presses that [`draw`] draws, in a fraction of its time; `None` where they are too few.
+/// P95 of the presses sampled by [`draw`], in a fraction of its time; `None` if there are too few.
 ///
 /// # Errors
 /// As [`draw`].
@@ -276,13 +276,13 @@ pub fn left_in_practice(
     }))
 }
 
-/// The percentile of [`SHARE`] of sizes of which upper bounds are known: only those whose bound reaches it are looked at.
+/// The percentile [`SHARE`] of sizes with known upper bounds; only sizes whose bound reaches it are computed.
 fn ranked(bounds: &[f64], size: impl Fn(&u32) -> Result<f64, ScatterError> + Sync) -> Result<f64, ScatterError> {
     let count = bounds.len() + 1 - rank(bounds.len(), SHARE);
     let mut order: Vec<(f64, u32)> = bounds.iter().copied().zip(0..).collect();
     order.sort_by(|a, b| b.0.total_cmp(&a.0));
     let (mut largest, mut rest): (Vec<f64>, &[(f64, u32)]) = (Vec::new(), &order);
-    // The smallest of the `count` largest sizes so far can only grow.
+    // The `count`th largest size so far can only grow.
     while let Some((bound, _)) = rest.first()
         && largest.get(count - 1).is_none_or(|least| bound >= least)
     {
@@ -296,7 +296,7 @@ fn ranked(bounds: &[f64], size: impl Fn(&u32) -> Result<f64, ScatterError> + Syn
     Ok(largest.get(count - 1).copied().unwrap_or(f64::NAN))
 }
 
-/// Whether at least one of so many presses is beyond the percentile of a share.
+/// Whether at least one of `count` presses is beyond the percentile of a share.
 #[must_use]
 pub fn has_percentile(count: usize, share: f64) -> bool {
     #[expect(clippy::cast_precision_loss, reason = "at most a million")]
@@ -312,7 +312,7 @@ pub fn has_percentile(count: usize, share: f64) -> bool {
     reason = "at most a million"
 )]
 fn rank(count: usize, q: f64) -> usize {
-    // A rounding of q N must not lift its rank.
+    // Rounding of q N must not raise the rank.
     (q * count as f64 - 1e-9).ceil().max(1.0) as usize
 }
 

@@ -22,7 +22,7 @@ pub struct FaultReport {
     /// ΔL of the rules, from the column of the cam; the screw is turned by `screw_end_mm`, from where it is.
     pub column_end_mm: f64,
     pub screw_end_mm: f64,
-    /// Of all cylinders.
+    /// For all cylinders.
     pub added_volume_end_mm3: f64,
     pub added_volume_end_each_mm3: f64,
     pub residual_end_n: f64,
@@ -100,7 +100,7 @@ impl LossReport {
     }
 }
 
-/// The range in which the cam leaves less than a fixed bottom, each with its own setting by a rule.
+/// The range in which the cam has less residual force than a fixed bottom, each reset by the same rule.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it, with their units")]
 pub struct UsefulRange {
@@ -134,7 +134,7 @@ impl UsefulRange {
             }
             (Some(least), None) => format!("below {least} a fixed bottom has less residual force {rule}"),
             (None, Some(most)) => format!("above {most} a fixed bottom has less residual force {rule}"),
-            (None, None) => format!("at no speed has a fixed bottom less residual force {rule}"),
+            (None, None) => format!("at no speed a fixed bottom has less residual force {rule}"),
         }
     }
 }

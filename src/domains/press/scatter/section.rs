@@ -1,4 +1,4 @@
-//! The short section `scatter` in the report of a cam of a press: what is left of its balance in practice.
+//! The short section `scatter` in the report of a press cam: residual force of presses with tolerances.
 
 use super::analysis::{bands_of, cam_of};
 use super::monte_carlo::{self, LeftInPractice};
@@ -28,7 +28,7 @@ struct CamScatter {
     useful: UsefulRange,
 }
 
-/// P95 of the draws of `camgen scatter`, N; `None` where they are too few, or a drawn press cannot be.
+/// P95 of the samples of `camgen scatter`, N; `None` if there are too few, or a sampled press is impossible.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(super) struct Percentiles {
     p95_as_built_n: Option<f64>,
@@ -47,7 +47,7 @@ impl From<Option<LeftInPractice>> for Percentiles {
 }
 
 impl Percentiles {
-    /// After the bounds of all bands; nothing where no press was drawn.
+    /// The words after the bounds of all bands; empty if no press was sampled.
     pub(super) fn words(&self, rule: &str) -> String {
         let (Some(built), Some(reset), Some(fixed)) = (self.p95_as_built_n, self.p95_reset_n, self.p95_fixed_bottom_n)
         else {

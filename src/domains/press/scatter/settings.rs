@@ -28,7 +28,7 @@ const PLACES: u32 = 180;
 /// Halvings of the air at the end of the stroke, and doublings of the column, in which a fixed bottom is bracketed.
 const REACH: i32 = 200;
 
-/// Steps of v, each this many times the one before, in which the end of the useful range is searched, and how many.
+/// Factor between the steps of v in the search for the end of the useful range, and their number.
 const STEP: f64 = 1.25;
 const STEPS: i32 = 20;
 
@@ -87,7 +87,7 @@ impl<'a> FixedBottom<'a> {
         [extreme(-1.0), extreme(1.0)]
     }
 
-    /// The column by a rule at a variable v, m: that of (7) at v = 1 without a reset, that of (7) at v, or the one that leaves least.
+    /// The column by a rule at v, m: by (7) at v = 1 without a reset, by (7) at v, or the one with the least residual force.
     #[must_use]
     pub fn column(&self, variable: f64, rule: ScrewRule) -> f64 {
         let by_end =
@@ -99,14 +99,14 @@ impl<'a> FixedBottom<'a> {
         }
     }
 
-    /// What a column (m) leaves at a variable v, N, at least 0.
+    /// Largest |residual force| of a column (m) at v, N.
     #[must_use]
     pub fn left(&self, column: f64, variable: f64) -> f64 {
         let [least, largest] = self.extremes(column, variable);
         largest.value.max(-least.value)
     }
 
-    /// The column that leaves least at a variable v, m.
+    /// The column with the least residual force at v, m.
     fn level(&self, variable: f64) -> f64 {
         let beyond = |octave: f64| self.cam.path.stroke() * (1.0 + libm::exp2(octave));
         let sum = |octave: f64| {
@@ -119,7 +119,7 @@ impl<'a> FixedBottom<'a> {
         beyond(root::bracketed(sum, low, high, 0.0).unwrap_or(0.0))
     }
 
-    /// The settings of both by a rule for a variable v.
+    /// The settings of cam and fixed bottom by a rule at v.
     ///
     /// # Errors
     /// When no column balances the end.
@@ -137,18 +137,18 @@ impl<'a> FixedBottom<'a> {
         Ok(Setting { variable, column, residual, fixed_column, fixed_residual: self.left(fixed_column, variable) })
     }
 
-    /// What the cam leaves more, each with its own setting by a rule, N.
+    /// Residual force of the cam minus that of the fixed bottom, each reset by the rule, N.
     fn more(&self, variable: f64, rule: ScrewRule) -> Result<f64, ScatterError> {
         let setting = self.setting(variable, rule)?;
         Ok(setting.residual.value.abs() - setting.fixed_residual)
     }
 
-    /// Where the cam begins to leave more, on a side of v = 1.
+    /// The v at which the cam begins to have more residual force, on one side of v = 1.
     fn bound(&self, side: f64, rule: ScrewRule, tolerance: f64) -> Option<f64> {
         let mut inside = 1.0;
         for step in 1..=STEPS {
             let outside = libm::pow(STEP, side * f64::from(step));
-            // Where the air would be used up no press can run, and the range is not bounded by a comparison.
+            // A press without air cannot run: there the comparison gives no bound.
             if self.more(outside, rule).ok()? > 0.0 {
                 let more = |v: f64| self.more(v, rule).unwrap_or(f64::NAN);
                 return root::bracketed(more, inside, outside, tolerance).ok();
@@ -175,14 +175,13 @@ pub fn extremes_of_fixed(cam: &FrozenBuffer, column: f64, variable: f64) -> [Ext
     [pick(|next, best| next < best), pick(|next, best| next > best)]
 }
 
-/// The least v at which the cam leaves less than a fixed bottom, each with its own setting by a rule, to a tolerance; `None` where it does at every
-/// one.
+/// The least v, to a tolerance, at which the cam has less residual force than a fixed bottom, each reset by the rule; `None` if at every v.
 #[must_use]
 pub fn least_useful(cam: &FrozenBuffer, rule: ScrewRule, tolerance: f64) -> Option<f64> {
     FixedBottom::new(cam).bound(-1.0, rule, tolerance)
 }
 
-/// The range of v in which the cam leaves less than a fixed bottom, each with its own setting by a rule; `None` on a side where it always does.
+/// The range of v in which the cam has less residual force than a fixed bottom, each reset by the rule; `None` for a side without a bound.
 #[must_use]
 pub fn useful(cam: &FrozenBuffer, rule: ScrewRule) -> [Option<f64>; 2] {
     [-1.0, 1.0].map(|side| FixedBottom::new(cam).bound(side, rule, 0.0))

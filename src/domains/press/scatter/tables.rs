@@ -161,7 +161,7 @@ pub struct SettingRow {
     pub rpm: f64,
     /// L.
     pub column_mm: f64,
-    /// To all cylinders.
+    /// For all cylinders.
     pub added_volume_mm3: f64,
     pub residual_n: f64,
     pub residual_at_mm: f64,
@@ -187,7 +187,7 @@ fn variables() -> impl Iterator<Item = f64> {
     (4..=26).map(|twentieths| f64::from(twentieths) / 20.0)
 }
 
-/// The settings by a rule for the variables v, with the speed of the main shaft (rpm) at the mass and weather that the cam was cut for.
+/// The settings by a rule for the values of v; `rpm` is the main-shaft speed for which the cam was cut.
 ///
 /// # Errors
 /// When no column balances an end.
@@ -215,7 +215,7 @@ fn row_of(setting: &Setting, cam: &FrozenBuffer, cylinder: &Cylinder, rpm: f64) 
     }
 }
 
-/// The table of the settings, with the rule that they are found by.
+/// The table of the settings, with their rule.
 #[must_use]
 pub fn of_settings(rows: &[SettingRow], rule: ScrewRule) -> Listing {
     let words = rows.iter().map(|_| rule.word().to_owned()).collect();

@@ -209,7 +209,7 @@ fn the_setting_for_a_lighter_forme_and_the_useful_range() {
     }
 }
 
-/// By `end` nothing is left at the end of the stroke, and the column of the fixed bottom is that of (7); without a reset both stay where they are.
+/// By `end` the residual at the end of the stroke is 0 and the fixed bottom's column is by (7); without a reset both columns stay.
 #[test]
 fn settings_follow_the_rule_of_the_screw() {
     // What a fixed bottom leaves, computed from its stationary point by a program of its own. Where the air is compressed to five times its pressure, a column
@@ -237,7 +237,7 @@ fn settings_follow_the_rule_of_the_screw() {
     }
 }
 
-/// The report of a cam and `camgen scatter` have one figure: P95 found by bounds is that of all presses, to the last digit.
+/// The report of a cam and `camgen scatter` agree: P95 found by bounds equals P95 of all presses, to the last digit.
 #[test]
 fn p95_by_bounds_is_that_of_the_draws() {
     let level = ["buffer.balance=level", "buffer.expansion_exponent=1.40"].map(str::to_owned);

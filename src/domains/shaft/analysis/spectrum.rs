@@ -16,7 +16,7 @@ pub(super) struct CriticalSpeeds {
     pub(super) modes: Vec<Mode>,
     /// Order of the load polynomials; none of the paper's method.
     pub(super) order: Option<usize>,
-    /// Why there are fewer than were asked for.
+    /// Why there are fewer than requested.
     pub(super) fewer: Option<String>,
     /// The first critical speed of forward whirl by the exact method, rad/s: what a speed is held against.
     pub(super) forward: f64,
@@ -61,7 +61,7 @@ fn first_forward(shaft: &Shaft) -> Result<f64, Refusal> {
     Ok(found.unwrap_or(f64::NAN))
 }
 
-/// As many modes as there are up to the requested or else the usual number, and why there are fewer than requested.
+/// The modes up to the requested number, or else the usual one; and why there are fewer than requested.
 fn as_many(
     shaft: &Shaft,
     asked: &ShaftOptions,

@@ -51,7 +51,7 @@ pub(super) fn program(
     let figures = run.figures(&found, wishes, &rows.told).placed((turn.at, whole.fill), 1.0);
     let cubic_overshoot = wishes.cubic.then(|| overshoot_of(&program, turn, base, whole));
     let overshoot = cubic_overshoot.unwrap_or(figures.overshoot);
-    // Rows of a turn begin at the first one behind its start.
+    // Rows of a turn begin at the first row after its start.
     let outlier = figures.outlier.map(|outlier| {
         let row = outlier.row.checked_sub(1).and_then(|index| rows.points.get(index));
         RowOutlier { row: row.map_or(outlier.row, |row| row.row + 1), line: row.and_then(|row| row.line), ..outlier }

@@ -171,7 +171,7 @@ fn chosen(table: &TableReader<'_>, file: &Columns, quantity: Quantity) -> Option
     has_positions(table, file, position).then_some(Chosen { angle: Some(angle), position })
 }
 
-/// Columns that are not read, though nobody chose among them.
+/// Names the columns that are not read, unless `columns` chose.
 fn unread(table: &TableReader<'_>, file: &Columns, chosen: &Chosen) -> Option<String> {
     let is_read = |at: &usize| *at == chosen.position || Some(*at) == chosen.angle;
     let name = |at: usize| match file.headings().get(at).filter(|heading| !heading.is_empty()) {
@@ -189,8 +189,8 @@ fn has_positions(table: &TableReader<'_>, file: &Columns, position: usize) -> bo
     let heading = file.headings().get(position).map_or("", String::as_str);
     if is_radius(heading) {
         let message =
-            format!("column {} of `{}` has radii by its heading \"{heading}\", not lifts", position + 1, file.name());
-        let help = "`camgen import --as profile` or `--as pitch` makes a design of radii; columns = [1, 2] takes them as positions";
+            format!("column {} of `{}` has radii, not lifts, by its heading \"{heading}\"", position + 1, file.name());
+        let help = "`camgen import --as profile` or `--as pitch` makes a design from radii; columns = [1, 2] reads them as positions";
         table.fail(&TABLE, message, Some(help.into()));
         return false;
     }
@@ -242,7 +242,7 @@ fn unit_of_heading(
             let help = match why {
                 UnclearHeading::Unknown(_) => "set unit = \"mm\", or correct the heading",
                 UnclearHeading::Counts(_) if what == "positions" => {
-                    "set scale, the travel of one of them, with unit = \"mm\": scale = 0.001 of 1000 counts per millimetre"
+                    "set scale, the travel per count, and unit = \"mm\": scale = 0.001 for 1000 counts per millimetre"
                 }
                 UnclearHeading::Factor(_) if what == "positions" => {
                     "scale says what they are multiplied with, with unit = \"mm\", e.g. scale = 0.01 for hundredths of a millimetre; or correct the heading"

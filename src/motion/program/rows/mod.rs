@@ -46,10 +46,10 @@ pub(super) enum Origin {
     Samples,
 }
 
-/// What is wrong with rows.
+/// A fault of rows.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RowsFault {
-    /// It is that of `mirror`, not of a row.
+    /// It is a fault of `mirror`, not of a row.
     of_mirror: bool,
     /// The index of the row.
     row: usize,
@@ -83,7 +83,7 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// Reports a fault at its key, or at its row.
+    /// Reports a fault at the key `mirror`, or at its row.
     fn report(&self, table: &TableReader<'_>, RowsFault { of_mirror, row, message, help }: RowsFault) {
         match self.origin {
             _ if of_mirror => table.fail(&MIRROR, message, Some(help)),
@@ -92,7 +92,7 @@ impl Rows {
         }
     }
 
-    /// The turn that they cover, or a report of why they cover none.
+    /// The turn that they cover; else reports why they cover none.
     fn turn(&mut self, table: &TableReader<'_>, fill: f64) -> Option<turn::Turn> {
         let mirrored = table.has(&MIRROR) && table.get(&MIRROR)?;
         let rest = if table.has(&REST) { Some(table.get(&REST)?) } else { None };
@@ -179,7 +179,7 @@ pub struct RowNoise {
     pub smoothed: f64,
 }
 
-/// The row that is farthest off the curve of its neighbours, compared with what is allowed; positions in m or rad.
+/// The row with the largest distance from the curve of its neighbours / allowed distance; positions in m or rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RowOutlier {
     /// Its number, from 1 on.
@@ -188,9 +188,9 @@ pub struct RowOutlier {
     pub line: Option<usize>,
     /// Its cam angle, rad.
     pub at: f64,
-    /// Its position less that of the curve of its neighbours.
+    /// Its position minus the curve of its neighbours.
     pub off: f64,
-    /// How far it may be off, by the scatter and the rounding of the rows and by what the derivatives of the motion do there.
+    /// Allowed distance, from the scatter and rounding of the rows and the derivatives of the motion there.
     pub allowed: f64,
 }
 
@@ -215,7 +215,7 @@ pub struct RowFigures {
     pub smoothing: Option<Smoothing>,
     /// What errors of the rows do to the acceleration, where they are seen and not smoothed.
     pub noise: Option<RowNoise>,
-    /// The row farthest off its neighbours; `None` of few rows.
+    /// The row farthest off its neighbours; `None` if there are too few rows.
     pub outlier: Option<RowOutlier>,
     /// What was read otherwise than as it stands, in words.
     pub told: Vec<String>,
@@ -232,7 +232,7 @@ impl RowFigures {
         Self { segment: Some(index), ..self.placed(range, travel) }
     }
 
-    /// With the line of the outlier in a file whose rows they are.
+    /// Adds the file line of the outlier.
     pub(super) fn at_lines(self, file: &Columns) -> Self {
         let line = |outlier: RowOutlier| {
             let row = outlier.row.checked_sub(1).and_then(|index| file.rows.get(index));
@@ -300,7 +300,7 @@ impl RowWishes {
         wishes.checked().map_err(|(message, help)| table.fail(&DEGREE, message, Some(help.into()))).ok()
     }
 
-    /// These wishes, or why they contradict each other and a remedy.
+    /// These wishes; if they contradict each other, the message and remedy.
     fn checked(self) -> Result<Self, (String, &'static str)> {
         if self.cubic && (self.smooth.is_some() || self.shape == RowShape::Monotonic) {
             let other = if self.smooth.is_some() { "smooth" } else { "shape = \"monotonic\"" };

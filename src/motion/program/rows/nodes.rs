@@ -230,7 +230,7 @@ impl RowRun<'_> {
         }
     }
 
-    /// The row that is farthest off its neighbours, numbered among these.
+    /// The row farthest off its neighbours, by its number among these rows.
     fn outlier(&self) -> Option<RowOutlier> {
         let rows: Vec<(f64, f64)> = self.knots.iter().copied().zip(self.values.iter().copied()).collect();
         let samples = match self.ends {

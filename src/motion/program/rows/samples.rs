@@ -1,4 +1,4 @@
-//! A motion through samples that code has: read as rows of a file are.
+//! A motion through samples given by code, read like rows of a file.
 
 use super::turn::Turn;
 use super::{Origin, RowPlace, RowShape, RowWishes, Rows, curve, rounding};
@@ -10,15 +10,15 @@ use crate::motion::program::keys::LARGEST_SWING;
 use crate::refusal::Refusal;
 use std::f64::consts::TAU;
 
-/// In which unit positions are looked at for their last digits: millimetres of a length.
+/// Unit in which the rounding of positions is detected: millimetres for lengths.
 const TYPED: f64 = 1e-3;
-/// Positions that differ by less than this share of the largest do not move.
+/// Positions that differ by less than this share of the largest are equal.
 const NO_MOTION: f64 = 1e-12;
 
-/// How a curve goes through samples.
+/// The curve through samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SampleCurve {
-    /// How it goes from sample to sample.
+    /// Its shape between samples.
     pub shape: RowShape,
     /// Its degree, 5 or 3.
     pub degree: u8,
@@ -26,10 +26,10 @@ pub struct SampleCurve {
     pub smooth: Option<Smooth>,
 }
 
-/// By how much a curve may leave samples.
+/// The largest deviation of a curve from samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Smooth {
-    /// Half of the step to which they are rounded.
+    /// Half of their rounding step.
     Auto,
     /// m or rad.
     By(f64),
@@ -63,8 +63,8 @@ impl SampleCurve {
 }
 
 impl Program {
-    /// The closed curve of least jerk through samples, cam angles (rad) and positions (m, or rad of a swing), or near them. They must cover the
-    /// turn as the rows of a table must, and are checked in the same way: `overshoot`, `noise`, `outlier`.
+    /// The closed curve of least jerk through or near samples: cam angles (rad) and positions (m, or rad of a swing). They must cover the
+    /// turn like the rows of a table, and have the same checks: `overshoot`, `noise`, `outlier`.
     ///
     /// ```
     /// use camgen::{Motion, Program, Quantity, SampleCurve};
@@ -80,7 +80,7 @@ impl Program {
     /// ```
     ///
     /// # Errors
-    /// [`Refusal`] where samples are not finite, not in order or do not cover a turn, or where the curve cannot be made so.
+    /// [`Refusal`] if samples are not finite, not in order or do not cover a turn, or if there is no such curve.
     pub fn through(
         quantity: Quantity,
         (angles, positions): (&[f64], &[f64]),
@@ -107,7 +107,7 @@ impl Program {
 fn rows_of(angles: &[f64], positions: &[f64]) -> Result<Rows, Refusal> {
     if angles.len() != positions.len() {
         let message = format!("{} angles and {} positions", angles.len(), positions.len());
-        return Err(Refusal::new(message).remedy("give as many of both"));
+        return Err(Refusal::new(message).remedy("give one position for each angle"));
     }
     if let Some(index) = angles.iter().zip(positions).position(|(at, value)| !(at.is_finite() && value.is_finite())) {
         return Err(Refusal::new(format!("sample {} is not finite", index + 1)).remedy("give finite numbers"));
@@ -130,7 +130,7 @@ fn possible(quantity: Quantity, positions: &[f64]) -> Result<(), Refusal> {
     let (reach, unit) = if quantity == Quantity::Angle { (LARGEST_SWING, "rad") } else { (LONGEST, "m") };
     let size = positions.iter().fold(0.0_f64, |most, position| most.max(position.abs()));
     if size > reach {
-        let message = format!("the position must be at most {reach:.6e} {unit}, and reaches {size:.6e} {unit}");
+        let message = format!("the position must be at most {reach:.6e} {unit}, but reaches {size:.6e} {unit}");
         return Err(Refusal::new(message).remedy("give positions in metres, or radians of a swing"));
     }
     let first = positions.first().copied().unwrap_or(0.0);

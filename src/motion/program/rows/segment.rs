@@ -105,7 +105,7 @@ impl SplineRows {
             found = monotonic.map_err(|at| contradiction(knots, &found, at))?;
         }
         let mut figures = run(knots, typed, self.rounding, ends).figures(&found, self.wishes, &[]);
-        // The start of the segment is no point.
+        // The start of the segment is not one of the given points.
         figures.outlier = figures.outlier.map(|outlier| RowOutlier { row: outlier.row.saturating_sub(1), ..outlier });
         Ok((spline::chain(knots, &found.jets()), figures))
     }

@@ -33,10 +33,10 @@ pub(super) struct Turn {
 }
 
 impl Turn {
-    /// The turn or lobe of a width, rad, that rows cover.
+    /// The turn or lobe of a width, rad, covered by rows.
     ///
     /// # Errors
-    /// What is wrong with a row.
+    /// The fault of a row.
     pub(super) fn of(
         fill: f64,
         rows: &mut Rows,
@@ -87,13 +87,13 @@ impl Turn {
         Ok(Self { at: within_a_turn(first.at), knots, values, dwells, spacing })
     }
 
-    /// The turn with its rows later by an angle, rad.
+    /// The turn with its rows shifted by an angle, rad.
     pub(super) fn moved(self, by: f64) -> Self {
         Self { at: within_a_turn(self.at + by), ..self }
     }
 }
 
-/// An angle (rad) within a turn of 0, so that the angles of reports are those of a turn.
+/// An angle (rad) reduced to within one turn of 0, for reports.
 fn within_a_turn(angle: f64) -> f64 {
     if angle.abs() >= TAU { libm::fmod(angle, TAU) } else { angle }
 }
