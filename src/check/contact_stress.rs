@@ -21,7 +21,7 @@ pub const CHECK: Check = Check {
         formula: "p² = F E*/(π b R) in a line whose length b is the thickness of the cam, or in a groove the reach of the roller, 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, 1/R = 1/ρ + 1/r with ρ below 0 where the profile is concave; Hertz's ellipse under a crown or a sphere \
                   (K. L. Johnson, Contact Mechanics)",
         usual: "depends on the material; of hardened steel 1500 MPa in running contact, the fatigue limit of ISO 281, and in a point at rest 4200 MPa (ISO 76)",
-        change: "a thicker cam or a deeper groove under a roller as wide, a larger roller, a larger `follower.*.crown_radius`, a larger `cam.base_radius`, a harder `cam.material`, or `limits.contact_stress`",
+        change: "a thicker cam or a deeper groove with a roller of that width, a larger roller, a larger `follower.*.crown_radius`, a larger `cam.base_radius`, a harder `cam.material`, or `limits.contact_stress`",
     },
 };
 

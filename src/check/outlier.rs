@@ -17,16 +17,14 @@ const fn of_unit(unit: &'static str) -> Check {
         name: "outlier",
         on: CheckScope::Cam,
         unit,
-        about: "How far a row of a table, a point or a sample is off the curve through its neighbours: one wrong digit is a bump that the cam is \
-                made with.",
+        about: "Distance of a table row, a point or a sample from the curve through its neighbours: one wrong digit makes a bump on the cam.",
         explained: CheckExplanation {
             bound: Bound::AtMost,
-            formula: "|position − polynomial through four or six neighbours| of the row where that is largest compared with its limit, of 20 rows \
-                      or more",
-            usual: "3 times what the divided differences of its neighbours alone show there, 3.5 steps of the rounding, 12 standard deviations of the \
-                    scatter: rows of laws whose acceleration jumps stay below. Of fewer than 72 rows, uneven ones, and beside a jump of the \
-                    velocity 18 times",
-            change: "correct the row, or leave it out; points that are meant so are given with more rows around them",
+            formula: "|position − polynomial through four or six neighbours| of the row with the largest ratio to its limit; at least 20 rows",
+            usual: "the largest of 3 times the bend shown by the divided differences of its neighbours alone, 3.5 rounding steps and 12 standard \
+                    deviations of the scatter; correct rows of laws with acceleration steps stay below. 18 instead of 3 times for fewer than 72 \
+                    rows, for uneven rows and next to a velocity step",
+            change: "correct the row, or leave it out; for an intended bump give more rows around it",
         },
     }
 }

@@ -18,7 +18,8 @@ pub struct BarrelData {
 
 const ROLLER_HEIGHT: Field<f64> = Field::quantity(
     "roller_height",
-    "how far the roller reaches into a groove, the length of its line of contact: less than the depth by the clearance at the floor and by a chamfer; the depth of the groove when absent",
+    "reach of the roller into a groove, its contact length: the depth of the groove minus the clearance at the floor and a chamfer; the depth of \
+     the groove when absent",
     Optional("9 mm"),
     Length,
     above(0.0, LONGEST),

@@ -171,7 +171,7 @@ const DECIMALS: Field<f64> = Field::number(
 .also(&["digits"]);
 const PREAMBLE: Field<Vec<String>> = Field::texts(
     "preamble",
-    "lines between the change of the tool and the first move to the part, e.g. the coolant, or another datum than G54",
+    "lines between the tool change and the first move to the part, e.g. the coolant, or another datum than G54",
     Optional("[\"G55\", \"M8\"]"),
 )
 .also(&["header", "start"]);
@@ -205,8 +205,8 @@ const SPINDLE: Field<f64> = Field::number(
 .also(&["speed", "s", "rpm"]);
 const TOOL: Field<f64> = Field::number(
     "tool",
-    "number of the tool: a program changes it in, takes its length, and its radius for G41 and G42; without it a program stops (M0) for the operator \
-     to load the tool, and the radius is that of number 1",
+    "number of the tool for the tool change, its length, and its radius for G41 and G42; without it a program stops (M0) for the operator to load \
+     the tool, and the radius has number 1",
     Optional("1"),
     within(1.0, LARGEST_TOOL),
 );
@@ -244,8 +244,8 @@ const CLEARANCE: Field<f64> = Field::quantity(
 .also(&["safe_height", "retract"]);
 const HOME: Field<f64> = Field::quantity(
     "home",
-    "Z, in the coordinates of the machine, to which the tool rises before its change and at the end; when absent 0 mm for linuxcnc and sinumerik, -1 mm \
-     for heidenhain, and the reference point (G28) for fanuc",
+    "Z in machine coordinates to which the tool rises before the tool change and at the end; when absent 0 mm for linuxcnc and sinumerik, -1 mm for \
+     heidenhain, and the reference point (G28) for fanuc",
     Optional("-1 mm"),
     Length,
     within(-LONGEST, LONGEST),

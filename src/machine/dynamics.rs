@@ -186,13 +186,13 @@ const NATURAL_FREQUENCY: Field<f64> = Field::quantity(
 );
 const RATIO: Field<f64> = Field::number(
     "damping",
-    "damping ratio of the load against what damping_against says, below 1",
+    "damping ratio of the load, below 1 (see damping_against)",
     Default("0"),
     within(0.0, 1.0 - 1e-9),
 );
 const AGAINST: Field<DampingAgainst> = Field::words(
     "damping_against",
-    "what the damping acts against: \"frame\", a force 2 ζ ω m x' on the load; \"follower\", the damping of the train itself, 2 ζ ω m (x' - y')",
+    "\"frame\": damping force 2 ζ ω m x' on the load; \"follower\": damping force 2 ζ ω m (x' - y') within the train",
     Default("frame"),
     &["frame", "follower"],
     &[DampingAgainst::Frame, DampingAgainst::Follower],

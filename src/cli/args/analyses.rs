@@ -295,7 +295,7 @@ pub(crate) struct SizeArgs {
 /// The ball of a measuring machine, if measured points are its centres.
 #[derive(Debug, Args)]
 pub(crate) struct BallArgs {
-    /// Radius of the ball whose centres the points are, half of --ball-diameter [default: 0, points on the profile]
+    /// Radius of the ball, if the points are its centres; half of --ball-diameter [default: 0, points on the profile]
     #[arg(long = "ball", value_name = "RADIUS", value_parser = cutter_radius, allow_hyphen_values = true)]
     ball_radius: Option<f64>,
 
@@ -350,12 +350,12 @@ pub(crate) struct ImportArgs {
     #[arg(long, value_name = "WHAT", ignore_case = true)]
     pub(in crate::cli) from: Option<ImportForm>,
 
-    /// What the second numbers of FILE are: lift, or radii of the profile, or of the pitch curve, on which the centre of the roller runs
-    /// [default: as its headings say]
+    /// Second numbers of FILE: lift, or radii of the profile or of the pitch curve (path of the roller's centre)
+    /// [default: by its headings]
     #[arg(long = "as", value_name = "WHAT", ignore_case = true)]
     pub(in crate::cli) taken_as: Option<ImportAs>,
 
-    /// On which curve points lie: profile or centre (of the roller) [default: as their headings say; profile for x and y]
+    /// Curve of the points: profile or centre (of the roller) [default: by their headings; profile for x and y]
     #[arg(long, value_name = "CURVE", ignore_case = true, value_parser = word::<PointsOf>())]
     pub(in crate::cli) points_of: Option<PointsOf>,
 

@@ -436,7 +436,7 @@ pub(super) struct TradeArgs {
     pub(super) residual: Option<f64>,
 
     /// Largest error of the acceleration that the advice keeps, as a share of the motion's largest, e.g. 2%
-    /// [default: 5%, that of --accuracy standard]
+    /// [default: 5%, as --accuracy standard]
     #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     pub(super) acceleration: Option<f64>,
 

@@ -49,7 +49,7 @@ pub(super) const START: Field<LengthOrAngle> = Field::length_or_angle(
 .also(&["position", "start_position", "initial_position"]);
 pub(super) const AT: Field<f64> = Field::quantity(
     "at",
-    "cam angle of the first segment; a formula, a series, points and the rows of a table are later by it",
+    "cam angle of the first segment; a formula, a series, points and table rows are shifted by it, too",
     Default("0 deg"),
     Angle,
     within(-TAU, TAU),

@@ -7,7 +7,7 @@ use crate::report::Bound;
 pub const CHECK: Check = Check::on_analysis(
     "added_volume",
     "mm3",
-    "The volume that is added to all cylinders at an end together for a slower speed; none can be taken away for a faster one.",
+    "The total volume added to all cylinders at one end for a slower speed; none can be removed for a faster one.",
     CheckExplanation {
         bound: Bound::AtLeast,
         formula: "V = (L_p − L) 2F, equation (15); the least over the speeds",

@@ -7,7 +7,7 @@ use crate::report::{Bound, Verdict, shown};
 pub const CHECK: Check = Check::on_analysis(
     "fixed_bottom",
     "1",
-    "Largest residual force of the cam at another speed / that of a fixed bottom, both with their columns reset by `--reset`. Above 1 the press runs \
+    "Largest residual force of the cam / that of a fixed bottom, at another speed and with both columns reset by `--reset`. Above 1 the press runs \
      more smoothly without a cam at that speed.",
     CheckExplanation {
         bound: Bound::AtMost,

@@ -9,11 +9,11 @@ use crate::report::{Bound, shown};
 pub const CHECK: Check = Check::on_analysis(
     "setting",
     "1",
-    "The one variable v of forme, speed and weather, against the range in which the cam with its screw reset leaves less than a fixed bottom with \
-     its own reset, both by `--reset`.",
+    "The one variable v of forme, speed and weather, against the range in which the cam has less residual force than a fixed bottom, each with its \
+     screw reset by `--reset`.",
     CheckExplanation {
         bound: Bound::AtLeast,
-        formula: "v = (n/n_c)² (m/m_c)/(p0'/p0); the limit is where both settings by the rule of `--reset` leave the same",
+        formula: "v = (n/n_c)² (m/m_c)/(p0'/p0); at the limit both have the same residual force after `--reset`",
         usual: "camgen's own rule: v within that range",
         change: "a cam that is cut for a speed nearer to this one (--rpm), or a fixed bottom",
     },
