@@ -67,7 +67,7 @@ fn other_speeds_have_the_known_figures() {
     assert!(svg.contains("Residual force") && svg.contains("25 rpm"));
 }
 
-/// A report counts the cylinders, and gives area and volume of one and of all: they hold the bed at the end of the stroke together.
+/// A report gives the number of cylinders, and area and volume of one and of all; together they hold the bed at the end of the stroke.
 #[test]
 fn reports_give_one_cylinder_and_all_of_them() {
     let number = |of: &serde_json::Value, key: &str| of[key].as_f64().unwrap_or_else(|| panic!("no {key}: {of}"));
@@ -87,7 +87,7 @@ fn reports_give_one_cylinder_and_all_of_them() {
             (number(told, "cylinders"), number(told, "bore_mm"), number(told, "piston_area_total_mm2"));
         close(count * number(told, "piston_area_mm2"), total);
         close(count * std::f64::consts::PI * bore * bore / 4.0, total);
-        // 21288.1 N at 2 at, 1 at above the air around.
+        // 21288.1 N at 2 at, 1 at above ambient.
         assert!((1e-6 * total * 98_066.5 / 21_288.1 - 1.0).abs() < 1e-5, "{args:?}: {total}");
     }
     let words = run(0, &["rotary", "--dry-run"]).out;
@@ -100,7 +100,7 @@ fn reports_give_one_cylinder_and_all_of_them() {
     close(2.0 * of(row, "added_volume_each_mm3"), of(row, "added_volume_mm3"));
 }
 
-/// At 12 rpm a fixed bottom that is reset by the same rule has less residual force than the cam for 35 rpm.
+/// At 12 rpm a fixed bottom reset by the same rule has less residual force than the cam for 35 rpm.
 #[test]
 fn a_speed_at_which_a_fixed_bottom_is_better_warns() {
     for rule in ["end", "half", "level"] {
@@ -111,7 +111,7 @@ fn a_speed_at_which_a_fixed_bottom_is_better_warns() {
             assert!(near.out.contains("pass  fixed_bottom"), "{machine} {rule}: {}", near.out);
         }
     }
-    // By (7), as `camgen regimes --without-cam` has it.
+    // By (7), as in `camgen regimes --without-cam`.
     let rows = |args: &[&str]| report(&run(0, &[args, &["--rpm", "20", "--dry-run", "--json"]].concat()));
     for rule in ["end", "half", "level"] {
         let cam = rows(&["regimes", "--reset", rule])["regimes"]["speeds"][0].clone();
@@ -124,7 +124,7 @@ fn a_speed_at_which_a_fixed_bottom_is_better_warns() {
     }
 }
 
-/// A speed at which the outline misses the last micrometre of air has no residual force, in words instead of `inf`.
+/// At a speed at which the outline misses the last micrometre of air, words replace a residual force of `inf`.
 #[test]
 fn a_bottom_that_hits_the_piston_is_told_in_words() {
     let told = run(1, &["rotary", "--rpm", "5000", "--dry-run"]).out;
@@ -132,7 +132,7 @@ fn a_bottom_that_hits_the_piston_is_told_in_words() {
     assert!(told.contains("the bottom hits the piston"), "{told}");
 }
 
-/// Equation (18) without keys of friction is solved without friction, and the report says so.
+/// Equation (18) without friction keys is solved without friction, with a note in the report.
 #[test]
 fn a_plate_without_friction_keys_says_that_friction_is_omitted() {
     let omitted = |sets: &[&str]| {

@@ -1,4 +1,4 @@
-//! Barrels that `camgen make` sizes: flanks that would fold at the floor, and developed views whose curves run ahead of the cam angle.
+//! Barrels sized by `camgen make`: flanks that would fold at the floor, and developed views with curves ahead of the cam angle.
 
 use crate::common::program::{finding, make, report};
 
@@ -6,8 +6,8 @@ const NEAR_RATIO_1: [&str; 2] =
     [include_str!("barrel_designs/near_ratio_1.toml"), include_str!("barrel_designs/near_ratio_2.toml")];
 const FOLDS: [&str; 2] = [include_str!("barrel_designs/folds.toml"), include_str!("barrel_designs/steep.toml")];
 
-/// With an arm about as long as its pivot distance the flanks run ahead of the cam angle at another rate than 1: the distance from the exact curve is
-/// found all the same.
+/// With an arm about as long as its pivot distance the flanks do not advance at the rate of the cam angle; the distance from the exact curve is
+/// still found.
 #[test]
 fn a_developed_view_of_an_arm_near_ratio_1_passes() {
     for text in NEAR_RATIO_1 {
@@ -17,8 +17,8 @@ fn a_developed_view_of_an_arm_near_ratio_1_passes() {
     }
 }
 
-/// At a pressure angle a flank meets the floor nearer to the shaft than the roller's axis does: there it folds first, and `auto` gives a size at which
-/// no check of the flanks fails.
+/// At a pressure angle a flank meets the floor nearer to the shaft than the roller's axis does and folds there first; `auto` gives a size at which no
+/// check of the flanks fails.
 #[test]
 fn a_flank_that_folds_at_the_floor_is_undercut_and_auto_avoids_it() {
     for (text, outer) in FOLDS.iter().zip(["29 mm", "38 mm"]) {

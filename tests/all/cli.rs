@@ -329,7 +329,7 @@ fn an_output_directory_that_cannot_be_is_told_and_old_files_stay() {
     assert_eq!(fs::read_to_string(kept).expect("old"), "old");
 }
 
-/// A dry run writes nothing in any case: what a failed check says of files is meant for the run without it.
+/// A dry run never writes, so the message of a failed check describes the run without --dry-run.
 #[test]
 fn a_failed_check_of_a_dry_run_says_what_would_be_written() {
     for args in [&["rotary", "--set", "limits.contact_stress=1MPa"][..], &["regimes", "--rpm", "40"]] {
@@ -345,7 +345,7 @@ fn a_failed_check_of_a_dry_run_says_what_would_be_written() {
     }
 }
 
-/// No key gives a plane cam the mesh of a conoid: the message asks for nothing.
+/// No key gives a plane cam the mesh of a conoid, so the message asks for none.
 #[test]
 fn a_format_of_another_body_is_left_out() {
     let run = camgen(&["make", "feeder", "--format", "stl"]);

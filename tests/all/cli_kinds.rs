@@ -274,7 +274,7 @@ fn trade_measures_a_ladder_and_advises() {
             );
         }
         assert!(report["advice"].as_str().is_some_and(|advice| advice.contains("cheapest")), "{report}");
-        // The advice keeps the default limit of the acceleration too: made with its flags the cam passes.
+        // The advice also keeps the default acceleration limit: a cam made with its flags passes.
         let advised = found.iter().find(|row| row["rank"] == 1).expect("an advice");
         assert!(of(advised, "acceleration_share") <= 0.05, "{advised}");
         // The stages add up to the total.

@@ -196,7 +196,7 @@ fn what_makes_no_pair_is_refused_with_the_reason() {
         let machine = machine(text, &[set]).expect("in range");
         let refused =
             Spec::of_program(machine, None).expect("a motion").assemble().expect_err("no counter").to_string();
-        // The change that it names is tried.
+        // The named change passes.
         let (_, rest) = refused.split_once(&format!("{key} = \"")).unwrap_or_else(|| panic!("{set}: {refused}"));
         let (value, _) = rest.split_once('"').expect("a value");
         pair(text, &[&format!("{key}={value}")]);
@@ -206,7 +206,7 @@ fn what_makes_no_pair_is_refused_with_the_reason() {
 /// A pair whose counter disc folds on the smallest main disc.
 const FOLDS: &str = include_str!("conjugate/folds.toml");
 
-/// The size is that of both discs, in `make` as in `size`; every change that a counter disc names passes.
+/// `make` and `size` consider both discs; every change named for a counter disc passes.
 #[test]
 fn auto_and_size_consider_both_discs() {
     let base = |report: &Value, section: &str| report[section]["base_radius_mm"].as_f64();

@@ -1,5 +1,5 @@
-//! One refusal for a motion, whether a file or code gives it: the cases of `tests/cases/motions.json`, which the tests of the Python package read
-//! too.
+//! The same refusal for a motion from a file and from code: the cases of `tests/cases/motions.json`, also read by the tests of the Python
+//! package.
 
 use crate::common::program::{Run, camgen_in, finding, report};
 use camgen::motion::laws::law;
@@ -15,7 +15,7 @@ fn cases() -> Vec<Value> {
     serde_json::from_str(CASES).expect("cases")
 }
 
-/// Angles in degrees and positions in mm: those of a case, or a harmonic at each degree with a wrong row.
+/// Angles in degrees and positions in mm: given by a case, or a harmonic at each degree with a wrong row.
 fn rows_of(case: &Value) -> Option<Vec<[f64; 2]>> {
     if let Some(wrong) = case["wrong"].as_array() {
         let (at, off) = (wrong[0].as_u64().expect("a row"), wrong[1].as_f64().expect("mm"));
@@ -29,7 +29,7 @@ fn rows_of(case: &Value) -> Option<Vec<[f64; 2]>> {
     Some(case["rows"].as_array()?.iter().map(pair).collect())
 }
 
-/// The motion of a case as a file says it.
+/// The motion of a case as a file.
 fn in_file(case: &Value) -> String {
     let mut text = String::from("name = \"case\"\n[motion]\nrpm = 100\nstart = \"0 mm\"\n");
     if let Some(rows) = rows_of(case) {
@@ -54,7 +54,7 @@ fn made(text: &str) -> Run {
     camgen_in(directory, &["make", "cam.toml", "--json", "--dry-run"])
 }
 
-/// The motion of a case as code says it.
+/// The motion of a case as code.
 fn in_code(case: &Value) -> Result<Program, Refusal> {
     if let Some(rows) = rows_of(case) {
         let angles: Vec<f64> = rows.iter().map(|row| row[0].to_radians()).collect();
@@ -77,7 +77,7 @@ fn in_code(case: &Value) -> Result<Program, Refusal> {
     Program::new(Quantity::Length, 0.0, &segments)
 }
 
-/// The checks that fail of a cam with a motion from code.
+/// The failed checks of a cam with a motion from code.
 fn failed(motion: Program) -> Vec<String> {
     let spec = Spec::builder("case").roller(0.010).base_radius(0.100).rpm(100.0).motion(motion).expect("a motion");
     let proven = spec.solve().expect("a cam").draw(5e-6).expect("drawn").prove().expect("proved");
@@ -108,7 +108,7 @@ fn a_motion_from_code_is_refused_as_that_of_a_file() {
     }
 }
 
-/// A motion of one's own, with its lift moved or a derivative changed.
+/// A user's own motion with a shifted lift or a changed derivative.
 #[derive(Debug)]
 struct Own(fn(Jet) -> Jet);
 

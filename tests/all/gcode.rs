@@ -99,7 +99,7 @@ fn a_planted_fault_is_refused_for_its_own_reason() {
     let arcs: Vec<usize> =
         (0..lines.len()).filter(|at| lines[*at].starts_with("G2 ") || lines[*at].starts_with("G3 ")).collect();
     let middle = arcs[arcs.len() / 2];
-    // Where less than half of the moves follow: a program that keeps its cutter for more is one of the profile.
+    // In the last quarter: a program with compensation on half of its moves is read as a program of the profile.
     let late = arcs[3 * arcs.len() / 4];
     let with = |at: usize, line: Option<String>| {
         let kept = lines
@@ -123,7 +123,7 @@ fn a_planted_fault_is_refused_for_its_own_reason() {
         ("G91", with(middle, Some(format!("G91\n{old}"))), "G91"),
         ("inches", with(plunge, Some(format!("G20\n{}", lines[plunge]))), "inch"),
         ("another plane", with(plunge, Some(format!("G18\n{}", lines[plunge]))), "plane"),
-        // To its home the cutter may not leave while it is kept.
+        // The cutter may not go home with compensation on.
         (
             "kept on a side to the end",
             with(middle, Some(format!("G41 D1\n{old}"))),
@@ -201,7 +201,7 @@ fn a_program_that_a_control_reads_otherwise_is_refused() {
     for controller in [Controller::Fanuc, Controller::LinuxCnc, Controller::Sinumerik] {
         let text = program(&cam, request(controller, None));
         let word = if controller == Controller::Fanuc { "G41 D01" } else { "G41 D1" };
-        // On SINUMERIK D1 of the length holds for the radius as well.
+        // On SINUMERIK D1 gives both length and radius.
         let without = text.replace(word, "G41").replace("G0 D1 Z5.0", "G0 Z5.0");
         assert!(why(&without, None).contains("without a number of its radius"), "{controller:?}");
         for line in ["G68 X0 Y0 R10", "G92 X1 Y0", "G51 X0 Y0 P2", "TRANS X10"] {
@@ -732,7 +732,7 @@ fn everyday_words_of_controls_are_read() {
     assert!(why_refused(&cam, &fanuc, None).contains("not by a name"));
 }
 
-/// The words of the head on which a move relies: without one of them the program is refused, and its message says what to write.
+/// Words of the head that moves rely on: without one of them the program is refused, and the message names the word to write.
 #[test]
 fn a_move_before_what_it_relies_on_is_refused() {
     use Controller::{Fanuc, Heidenhain, LinuxCnc, Sinumerik};
@@ -750,7 +750,7 @@ fn a_move_before_what_it_relies_on_is_refused() {
                 ("G53 G0 Z0.0\nT1", "G28\nT1", "in all axes"),
                 ("G53 G0 Z0.0\nT1", "G0 G28 Z0\nT1", "by coordinates of the part"),
                 ("G0 G43 H1 Z5.0", "G0 Z5.0", "write G43"),
-                // The place that it has gone to is another one then.
+                // Its position is then another one.
                 ("G0 G43 H1 Z5.0", "G0 G43 H1 Z5.0\nG55", "datum changes"),
             ][..],
         ),
@@ -790,13 +790,13 @@ fn a_move_before_what_it_relies_on_is_refused() {
         let text = program(&cam, request(controller, cutter));
         assert!(checked(&cam, &text, cutter).is_ok_and(|found| found.0), "{controller:?}");
         for (from, to, why) in faults {
-            // In the head alone, but for R0.
+            // In the head only, except R0.
             let wrong = if *from == " R0" { text.replace(from, to) } else { text.replacen(from, to, 1) };
             assert_ne!(wrong, text, "{controller:?} {from}");
             let found = why_refused(&cam, &wrong, cutter);
             assert!(found.contains(why), "{controller:?} {from}: {found}");
         }
-        // Across and down at once, and down before it is across.
+        // Across and down at once, and down before across.
         let (across, down) = if controller == Heidenhain { ("L X", "L Z+5") } else { ("G0 X", "G0 ") };
         let lines: Vec<&str> = text.lines().collect();
         let at = lines.iter().position(|line| line.contains(across)).expect("a first move");
@@ -805,7 +805,7 @@ fn a_move_before_what_it_relies_on_is_refused() {
         swapped.swap(at, at + 1);
         let found = why_refused(&cam, &(swapped.join("\n") + "\n"), cutter);
         assert!(found.contains("before X and Y are known"), "{controller:?}: {found}");
-        // With the length of the tool, which the move down takes.
+        // With the tool length of the move down.
         let slanted = match lines[at + 1].strip_prefix("G0") {
             Some(lowered) => lines[at].to_owned() + lowered,
             None => lines[at].replacen(" R0", " Z+5.0 R0", 1),
@@ -817,7 +817,7 @@ fn a_move_before_what_it_relies_on_is_refused() {
     }
 }
 
-/// Without a tool or a spindle in the machine file the program stops for the operator, and says what to set; without its stop it is refused.
+/// Without tool or spindle in the machine file the program stops for the operator and lists the settings; without its stop it is refused.
 #[test]
 fn a_program_without_a_tool_stops_for_it() {
     for controller in CONTROLLERS {
@@ -839,7 +839,7 @@ fn a_program_without_a_tool_stops_for_it() {
     }
 }
 
-/// Words that say nothing new, or take back what moves the profile, pass; so does a program that leaves all of its setting up to the operator.
+/// Words without effect, or that cancel a shift of the profile, pass; so does a program that leaves the whole set-up to the operator.
 #[test]
 fn harmless_words_and_a_bare_path_are_taken() {
     use Controller::{Fanuc, Heidenhain, LinuxCnc, Sinumerik};
@@ -868,7 +868,7 @@ fn harmless_words_and_a_bare_path_are_taken() {
             assert!(found.as_ref().is_ok_and(|found| found.0), "{controller:?} {line}: {found:?}");
         }
     }
-    // One that loses its bound in the middle is refused.
+    // A program that loses its bound in the middle is refused.
     let exact = program(&cam, request(Sinumerik, cutter)).replace("G642 CTOL=0.001", "G60");
     assert!(checked(&cam, &exact, cutter).is_ok_and(|found| found.0));
     for (words, why) in
@@ -896,7 +896,7 @@ fn harmless_words_and_a_bare_path_are_taken() {
     assert!(why_refused(&bare, &never, cutter).contains("place that is not known"));
 }
 
-/// A path of lines alone is that of a cutter's centre where the control does not keep its cutter beside it.
+/// A path of lines only, without compensation, is a cutter-centre path.
 #[test]
 fn a_program_without_arcs_takes_the_diameter_of_the_cutter() {
     let (cam, cutter) = (cam("feeder", &SHOP), Some(4e-3));

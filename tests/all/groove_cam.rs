@@ -172,7 +172,7 @@ fn the_force_changes_flank_where_the_acceleration_changes_sign() {
         let jump = 2.0 * curves.contact(piece, angle).curve.speed / 0.015;
         near((switch.spin[1] - switch.spin[0]).abs(), jump);
     }
-    // Without a spring the free follower keeps its velocity until its distance from the motion is the play k/cos α.
+    // Without a spring the free follower keeps its velocity until its distance from the motion equals the play k/cos α.
     let curves = camgen::body::curves(&groove).expect("plane");
     let at = |angle: f64| {
         let (piece, inside) = curves.motion.locate(angle);
@@ -260,7 +260,7 @@ fn the_size_of_a_groove_is_that_of_its_blank() {
     }
 }
 
-/// The line of contact is as long as the roller reaches into the groove, whatever the thickness of the disc; what is named as a remedy passes.
+/// The contact length is the reach of the roller into the groove, whatever the thickness of the disc; the named remedy passes.
 #[test]
 fn the_contact_is_as_long_as_the_roller_reaches() {
     let stress = |sets: &[&str]| {

@@ -1,8 +1,8 @@
-//! What files say of themselves: every line of a head is read, and an altered one is refused with its line.
+//! Heads of files: every line is read, and an altered one is refused with its line.
 
 use crate::common::program::{Run, camgen_in, files};
 
-/// A line of a head with its first number larger by one, then with another last word.
+/// A line of a head with its first number increased by one, then with another last word.
 fn altered(text: &str) -> Vec<String> {
     let value = text.find(": ").unwrap_or(0);
     let digit = text[value..].find(|c: char| c.is_ascii_digit()).map(|at| value + at);
@@ -18,7 +18,7 @@ fn altered(text: &str) -> Vec<String> {
     number.into_iter().chain(word).collect()
 }
 
-/// The lines of a head with where their statement begins, but for the mark of camgen and the settings of a drive.
+/// The lines of a head with the beginning of their statement, without camgen's mark and the settings of a drive.
 fn head(name: &str, text: &str) -> Vec<(usize, usize)> {
     let lines = text.lines().enumerate();
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
@@ -32,7 +32,7 @@ fn head(name: &str, text: &str) -> Vec<(usize, usize)> {
     own.filter_map(|(index, line)| Some((index, begins(line)?)))
         .filter(|(index, at)| {
             let statement = text.lines().nth(*index).map_or("", |line| &line[*at..]);
-            // What was asked of it is not known to a check that does not ask the same.
+            // A check without the same options does not know the requested values.
             !["camgen ", "velocity_tolerance", "acceleration_tolerance"].iter().any(|word| statement.starts_with(word))
         })
         .collect()
@@ -66,7 +66,7 @@ fn every_line_is_judged(design: &str, make: &[&str], check: &[&str]) -> usize {
                 run = judge(run.directory, &text.lines().enumerate().map(with).collect::<String>());
                 let said = format!("{}{}", run.out, run.err);
                 assert!(run.code == 1 || run.code == 2, "{design} {name} passes with `{other}`: {said}");
-                // Those that say how the numbers are meant are refused by the numbers.
+                // Statements about units or form contradict the numbers first.
                 let numbers = ["follower", "slave", "interpolation", "closed", "ball", "given", "points"];
                 let named = said.contains(&format!("line {}", index + 1));
                 assert!(named || numbers.iter().any(|word| other.contains(word)), "{design} {name} `{other}`: {said}");
@@ -81,7 +81,7 @@ fn every_line_is_judged(design: &str, make: &[&str], check: &[&str]) -> usize {
 fn an_altered_line_of_a_head_is_refused() {
     let servo = "servo-csv,servo-xyva,servo-twincat,servo-isg";
     let all = format!("points,gauge,inspect,{servo}");
-    // One or two alterations of each line that states something.
+    // One or two alterations of each statement.
     assert!(every_line_is_judged("feeder", &["--format", &all], &[]) >= 60);
     assert!(every_line_is_judged("lever", &["--format", servo], &[]) >= 28);
     assert!(every_line_is_judged("wedge", &["--format", "points"], &[]) >= 18);
@@ -96,7 +96,7 @@ fn an_altered_line_of_another_table_of_points_is_refused() {
     }
 }
 
-/// Lines that a shop adds, a head that it leaves out, and a table that is checked within a coarser tolerance.
+/// Lines added by a shop, a missing head, and a table checked within a coarser tolerance.
 #[test]
 fn other_lines_of_a_head_are_remarks() {
     let directory = tempfile::tempdir().expect("a directory");
@@ -114,7 +114,7 @@ fn other_lines_of_a_head_are_remarks() {
         {
             std::fs::write(run.directory.path().join(name), other).expect("written");
             run = camgen_in(run.directory, &[&["check", name, "feeder"], more].concat());
-            // The rows of a list of places have the zone of the tolerance that it was made for.
+            // The rows of an inspection list have the zone of the tolerance it was made for.
             if name == "cam-inspect.csv" && !more.is_empty() {
                 assert!(run.code == 1 && run.out.contains("the zone is not ±0.01 mm"), "{}{}", run.out, run.err);
             } else {
@@ -124,7 +124,7 @@ fn other_lines_of_a_head_are_remarks() {
     }
 }
 
-/// Plain lines of places state their unit, in whatever word, or nothing.
+/// Plain inspection lines state their unit, in any spelling, or nothing.
 #[test]
 fn plain_lines_of_places_may_state_their_unit() {
     for (units, own, others, wrong) in [

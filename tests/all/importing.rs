@@ -14,7 +14,7 @@ fn import(content: &[u8], args: &[&str]) -> Run {
     camgen_in(directory, &[&["import", "old.csv"], args].concat())
 }
 
-/// A lift of 20 mm by a cycloid, at a share of the rise, or behind it at one of what is left of the return.
+/// A cycloidal lift of 20 mm at a share of the rise, or after it at a share of the remaining return.
 fn cycloid(up: f64, left: f64) -> f64 {
     let share = if up < 1.0 { up } else { left.clamp(0.0, 1.0) };
     20.0 * (share - (TAU * share).sin() / TAU)
@@ -291,7 +291,7 @@ fn the_lift_on_an_outline_is_exact() {
     }
 }
 
-/// Positions that turn back more often than a cam does.
+/// Positions with more reversals than a cam has.
 #[test]
 fn no_law_is_looked_for_in_noise() {
     let noisy =
@@ -305,7 +305,7 @@ fn no_law_is_looked_for_in_noise() {
     assert!(run.code == 2 && run.err.contains("rises and returns: laws are fitted to at most 100"), "{}", run.err);
 }
 
-/// A harmonic cam by angle and radius, degrees and mm, whose first rise begins at 30 degrees: of its profile under a knife, or of the pitch curve of a
+/// A harmonic cam by angle and radius, degrees and mm, with its first rise from 30 degrees: the profile under a knife edge, or the pitch curve of a
 /// roller of 20 mm.
 fn polar(head: &str, base: f64) -> String {
     let row = |degree: u32| {
@@ -358,7 +358,7 @@ fn radii_are_asked_for_and_give_the_base_radius() {
     }
 }
 
-/// What lies at an angle of its own stays there; of other points the design states by how much they were turned.
+/// Data with their own angles keep them; for other points the design states their rotation.
 #[test]
 fn the_design_states_by_how_much_it_was_turned() {
     let plane = points("x,y", plain);
@@ -378,13 +378,13 @@ fn the_design_states_by_how_much_it_was_turned() {
     assert_eq!(number(&report(&import(plane.as_bytes(), &keyed))["import"]["turn_deg"]), 0.0);
 }
 
-/// A head with what becomes of the points.
+/// A head and a transformation of the points.
 type Placed<'a> = (&'a str, &'a dyn Fn(f64, f64) -> (f64, f64));
 
-/// Points of the mirror image and in another unit are no measurement of this cam; those that are turned are one.
+/// Points of the mirror image or in another unit do not measure this cam; turned points do.
 #[test]
 fn compare_refuses_points_in_another_frame() {
-    // The mirror image of an even cam is the same cam, turned; of one that rises faster than it falls it is another.
+    // The mirror image of a symmetric cam is the same cam, turned; the mirror image of one that rises faster than it falls is another cam.
     let even: Lift = |degree| 45.0 + cycloid(degree / 120.0, (280.0 - degree) / 120.0);
     let uneven: Lift = |degree| 45.0 + cycloid(degree / 90.0, (280.0 - degree) / 150.0);
     let place = |radius: Lift, head: &str, of: &dyn Fn(f64, f64) -> (f64, f64)| {

@@ -259,18 +259,18 @@ fn answer_to(toml: &str, command: &str) -> engine::EngineAnswer {
     engine::answer(&request)
 }
 
-/// The values of an answer that a page shows; `None` where no cam can be made.
+/// The values in an answer for a page; `None` if no cam can be made.
 fn values(answer: &engine::EngineAnswer) -> Option<BTreeMap<String, String>> {
     serde_json::from_value(answer.found.get("values")?.clone()).ok()
 }
 
-/// The values that a page shows of a text.
+/// The values that a page shows for a text.
 fn shown(toml: &str) -> BTreeMap<String, String> {
     let answer = answer_to(toml, "");
     values(&answer).unwrap_or_else(|| panic!("{toml}: {:?}", answer.found.get("faults")))
 }
 
-/// A number that is a hundredth larger, with its unit.
+/// A number one hundredth larger, with its unit.
 fn stepped(typed: &str) -> Option<String> {
     let typed = typed.trim_start_matches('Ø');
     let end = typed.find(|c: char| !c.is_ascii_digit() && !"+-.e".contains(c)).unwrap_or(typed.len());
@@ -278,7 +278,7 @@ fn stepped(typed: &str) -> Option<String> {
     number.parse::<f64>().ok().map(|number| format!("{}{unit}", 1.01 * number))
 }
 
-/// A page shows every value of a text, and a value that is a little larger is written to the same key in the same unit, whatever else it has.
+/// A page shows every value of a text, and a slightly larger value is written to the same key in the same unit.
 fn assert_shown(name: &str, toml: &str, of_page: &BTreeMap<String, String>) -> usize {
     let of_file = keys_of(toml);
     for (key, value) in of_file.iter().filter(|(key, _)| *key != "cam.keyway") {
@@ -306,7 +306,7 @@ fn the_page_shows_every_value_of_every_design() {
     assert!(tried > 300, "{tried}");
 }
 
-/// Every radius that a design of the page can give by its diameter, on two designs.
+/// Every radius that can be given by its diameter, on two designs.
 #[test]
 fn a_diameter_is_shown_as_it_is() {
     let length = |text: &str| units::parse(text, Dimension::Length).ok();
@@ -338,13 +338,13 @@ fn a_diameter_is_shown_as_it_is() {
                     break;
                 }
             }
-            // Of a belt brake there is no page.
+            // A belt brake has no page.
             assert!(tried > 0 || path.starts_with("brake"), "{path}");
         }
     }
 }
 
-/// Values in all forms in which a file may have them.
+/// Values in all forms allowed in a file.
 #[test]
 fn a_page_shows_values_in_the_form_of_the_file() {
     let design = |cam: &str, segments: &str| {
@@ -378,7 +378,7 @@ fn a_page_shows_values_in_the_form_of_the_file() {
     }
     assert!(!of_page.contains_key("cam.bore_radius") && !of_page.contains_key("follower.roller.radius"), "{of_page:?}");
     assert_eq!(shown(&design("", segments)).get("cam.body").map(String::as_str), Some("disc"));
-    // The other key of a table for which a word stood keeps it, and a list of inline tables can grow.
+    // A word given instead of a table stays in the table's other key, and a list of inline tables can grow.
     let text = engine::changed_text(&text, &[set("cam.keyway.width", "6 mm")]).expect("changed");
     let keys = keys_of(&text);
     let of = |key: &str| keys.get(key).map(String::as_str);
@@ -393,7 +393,7 @@ fn a_page_shows_values_in_the_form_of_the_file() {
     assert_eq!(of_page.get("motion.segment[3].law").map(String::as_str), Some("3-4-5"), "{text}");
 }
 
-/// What a page shows in an empty limit is the limit of the check.
+/// An empty limit shows the limit of the check.
 #[test]
 fn usual_limits_are_those_of_the_checks() {
     for (name, keys) in [("feeder", 3), ("lever", 3), ("conjugate", 3)] {

@@ -408,13 +408,13 @@ fn straight_flanks_are_lines() {
     assert_eq!(note(&found, "cutter_radius"), "nothing is concave");
     let run = make(include_str!("../cases/tangent-cam.toml"), &["--out", ".", "--format", "csv,svg,points,inspect"]);
     assert_eq!(run.code, 0, "{}{}", run.out, run.err);
-    // Arcs and lines are the exact outline: no number of tangent arcs is the best possible one.
+    // Arcs and lines are the exact outline, so there is no best possible number of tangent arcs.
     assert!(
         run.out.contains("2 lines (those of the exact outline)") && !run.out.contains("best possible"),
         "{}",
         run.out
     );
-    // In every table a straight flank has a radius of curvature of `inf`, whatever the sign of its rounding.
+    // In every table the radius of curvature of a straight flank is `inf`, whatever the sign of the rounding error.
     for ending in [".csv", "-inspect.csv"] {
         let table = fs::read_to_string(run.directory.path().join(format!("cam-make-600rpm{ending}"))).expect("a table");
         let mut rows = table.lines().filter(|line| !line.starts_with('#'));

@@ -500,7 +500,7 @@ fn points_of_a_lobe_only_are_refused_or_rest() {
     assert!(low > -0.08 && high < 8.1, "{low} {high}");
 }
 
-/// Rows of a lobe by 3-4-5 with a dwell, at so many places of a turn, in mm with four decimals; one of them off.
+/// `count` rows of a lobe by 3-4-5 with a dwell, in mm with four decimals; the row in `wrong` is off by its number.
 fn lobe(count: u32, wrong: Option<(u32, f64)>) -> String {
     let row = |index: u32| {
         let degree = 360.0 * f64::from(index) / f64::from(count);
@@ -512,7 +512,7 @@ fn lobe(count: u32, wrong: Option<(u32, f64)>) -> String {
     (0..count).map(row).collect()
 }
 
-/// One row off its neighbours fails with its number and its line, however the rows are smoothed; correct rows pass.
+/// A row off its neighbours fails with its number and line, however the rows are smoothed; correct rows pass.
 #[test]
 fn a_wrong_row_fails_with_its_number_and_line() {
     for (count, keys) in [(360, ""), (360, "smooth = \"auto\""), (180, ""), (120, ""), (90, "shape = \"monotonic\"")] {
@@ -538,7 +538,7 @@ fn a_wrong_row_fails_with_its_number_and_line() {
 #[test]
 fn at_moves_rows_and_points() {
     let position = |keys: &str, rows: &str| {
-        // Four rows of an uneven motion overshoot, which fails and is not asked here.
+        // Four rows of an uneven motion overshoot, which fails another check.
         let report = report(&run(&design(keys), ("lift.csv", rows)));
         number(&report["motion"]["segments"][0]["from_deg"])
     };
@@ -567,7 +567,7 @@ fn headings_with_factors_counts_or_radii_are_refused() {
         refused(&of_table("", &with(heading)), &["whose size is unknown", "scale"]);
     }
     refused(&of_table("", &with("radius mm")), &["has radii", "--as pitch"]);
-    // Between commas a decimal comma cuts a heading in two.
+    // In a comma-separated file a decimal comma splits a heading.
     refused(&of_table("", "deg,lift 0,01mm\n0,0\n90,5\n180,8\n270,5\n"), &["has a factor"]);
 }
 

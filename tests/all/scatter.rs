@@ -39,7 +39,7 @@ fn its_files_have_the_columns_that_are_relied_on() {
     assert_eq!(text(&told, "-card.svg").matches("<svg").count(), 1);
 }
 
-/// Table and card follow `--reset` and name the rule; the card states how many cylinders share the force.
+/// Table and card follow `--reset` and name the rule; the card gives the number of cylinders that share the force.
 #[test]
 fn card_and_settings_follow_the_rule_of_the_screw() {
     let mut cards = Vec::new();
@@ -159,7 +159,7 @@ fn what_cannot_be_is_refused_with_its_cause() {
     }
 }
 
-/// P95 in the report of a cam is that of `camgen scatter`: one figure, under a yoke and at both ends of a linkage.
+/// P95 in the report of a cam equals P95 of `camgen scatter`, under a yoke and at both ends of a linkage.
 #[test]
 fn report_of_a_cam_has_the_p95_of_the_draws() {
     let six_bar = |end| vec!["dpi-six-bar", "--end", end];

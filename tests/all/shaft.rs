@@ -44,7 +44,7 @@ fn the_program_tells_the_known_figures() {
 }
 
 /// The tables: both sides of a step, the asymptote of a stiff support, the lift over a turn.
-/// A massless shaft with a thin disc has one forward critical speed: it is given, with a note, however many are asked for.
+/// A massless shaft with a thin disc has one forward critical speed; it is reported with a note if more are requested.
 #[test]
 fn fewer_critical_speeds_than_asked_are_given_with_a_note() {
     let directory = tempfile::tempdir().expect("a directory");

@@ -1,4 +1,4 @@
-//! Motions that depend on the speed of the cam, for each way to give it.
+//! Speed-dependent motions, for each way to give the speed.
 
 use crate::common::program::{make, report};
 
@@ -25,7 +25,7 @@ base_radius = "60 mm"
 [limits]
 "#;
 
-/// A velocity per second is read at the speed that is used, by `--rpm` as by `motion.rpm`.
+/// A velocity per second is read at the speed in use, from `--rpm` or `motion.rpm`.
 #[test]
 fn rates_per_second_are_those_at_the_speed_that_is_used() {
     let motion =
@@ -34,7 +34,7 @@ fn rates_per_second_are_those_at_the_speed_that_is_used() {
     assert!(by_flag == by_key && by_flag != of_file && !by_flag.is_null(), "{by_flag} {by_key}");
 }
 
-/// A faulty speed is one fault: the file is not blamed for lacking it, too.
+/// A faulty speed is one fault: it is not also reported as missing.
 #[test]
 fn a_faulty_speed_is_one_fault() {
     let run = make(PER_SECOND, &["--dry-run", "--set", "motion.rpm=-5"]);

@@ -38,7 +38,7 @@ fn ran(code: i32, text: &str, args: &[&str]) -> Run {
     run
 }
 
-/// Runs camgen in a directory that stays.
+/// Runs camgen in a directory that is kept.
 fn ended_in(directory: &TempDir, args: &[&str]) -> (i32, String) {
     let run = Command::cargo_bin("camgen").expect("the program").current_dir(directory.path()).args(args).output();
     let run = run.expect("it runs");
@@ -141,7 +141,7 @@ fn the_bytes_do_not_depend_on_threads_or_stretches() {
     assert_eq!(bytes("2").0, study.header() + &String::from_utf8(whole).expect("text"));
 }
 
-/// What an interrupted run leaves in `output`: a table of which so many bytes were saved, and what came after them.
+/// Makes the `output` of an interrupted run: the first `saved` bytes of a table, and unsaved bytes `after` them.
 fn interrupted(table: &str, saved: usize, after: &[u8]) -> TempDir {
     let directory = with(SWEEP);
     let output = directory.path().join("output");
@@ -170,7 +170,7 @@ fn an_interrupted_run_is_continued_with_the_same_bytes() {
     let ends: Vec<usize> = whole.match_indices('\n').map(|(at, _)| at + 1).collect();
     let forged = format!("4{}", &whole[ends[3] + 1..]);
     for saved in [0, ends[0], ends[4], whole.len()] {
-        // Nothing, half a line, zeros as after a power failure, and rows that nobody computed.
+        // Nothing, half a line, zeros as after a power failure, and rows not computed.
         for after in [b"".as_slice(), b"4,1", &[0; 30], forged.as_bytes()] {
             let run = camgen_in(interrupted(&whole, saved, after), &["study", "study.toml", "--quiet"]);
             assert_eq!(run.code, 0, "{}", run.err);
@@ -180,7 +180,7 @@ fn an_interrupted_run_is_continued_with_the_same_bytes() {
     }
 }
 
-/// Rows are continued only if they are those that were saved.
+/// Rows are continued only if they are the saved ones.
 #[test]
 fn rows_that_were_changed_are_not_continued() {
     let whole = text_of(ran(0, SWEEP, &["--quiet"]).directory.path(), "study.csv");
@@ -196,7 +196,7 @@ fn rows_that_were_changed_are_not_continued() {
         let run = camgen_in(run.directory, &["study", "study.toml", "--quiet", "--restart"]);
         assert_eq!((run.code, text_of(run.directory.path(), "study.csv")), (0, whole.clone()), "{}", run.err);
     }
-    // A part without its marker, and one with a marker that is none, is not camgen's.
+    // A part without its marker, or with an invalid one, is not camgen's.
     for marker in [None, Some("{\"study\": "), Some("mine")] {
         let directory = interrupted(&whole, whole.len(), b"");
         let path = part(&directory).with_extension("part.json");
@@ -213,7 +213,7 @@ fn rows_that_were_changed_are_not_continued() {
     }
 }
 
-/// What the user has under a name of a study stays as it is, and is named.
+/// A user's file under a name of a study stays unchanged and is reported.
 #[cfg(unix)]
 #[test]
 fn files_links_and_pipes_in_the_way_of_a_study_stay() {
@@ -245,7 +245,7 @@ fn files_links_and_pipes_in_the_way_of_a_study_stay() {
     }
 }
 
-/// A base, and a table that a study sets, lie in the folder of the study or below it, or where the user allows it.
+/// A base, and a table set by a study, must be in the folder of the study or below it, or in a folder that the user allows.
 #[test]
 fn a_study_names_no_file_elsewhere() {
     let (directory, elsewhere) = (with(SWEEP), tempfile::tempdir().expect("a directory"));
@@ -267,7 +267,7 @@ fn a_study_names_no_file_elsewhere() {
     assert_eq!(code, 0, "{told}");
 }
 
-/// Faults of a long study file cost no more than those that are reported.
+/// The faults of a long study file take no more time than the reported ones.
 #[test]
 fn many_unknown_columns_are_refused_at_once() {
     let names = |begin: &str| (0..30_000).map(|i| format!("\"{begin}.f{i}\"")).collect::<Vec<_>>().join(", ");
@@ -275,11 +275,11 @@ fn many_unknown_columns_are_refused_at_once() {
     let begun = std::time::Instant::now();
     let run = ran(2, &text, &["--dry-run"]);
     assert!(run.err.contains("the report has no figure \"cam.f0\""), "{}", run.err);
-    // Here, without optimisation; 8 s with it before.
+    // Limit for a build without optimisation; before, an optimised build took 8 s.
     assert!(begun.elapsed().as_secs() < 20, "{:?}", begun.elapsed());
 }
 
-/// The names of the files of a study are none of camgen's own.
+/// A study file with an odd name has files with plain names.
 #[test]
 fn a_study_file_with_an_odd_name_has_files_with_plain_names() {
     for (name, stem) in [(".camgen.toml", "camgen"), ("-a.toml", "a"), ("con.toml", "machine-con")] {
@@ -292,7 +292,7 @@ fn a_study_file_with_an_odd_name_has_files_with_plain_names() {
     }
 }
 
-/// The files of a stem under which a study makes a table are not written by another command.
+/// No other command writes files of the stem of a running study.
 #[test]
 fn a_stem_in_use_is_refused() {
     let directory = with(SWEEP);
