@@ -8,13 +8,12 @@ from a program, or a move is put where it is dangerous, and `camgen check` must 
 
 usage: cold_start.py CAMGEN_BINARY DIRECTORY [--count N] [--seed S]
 """
-import argparse
 import re
-import subprocess
 import sys
-from pathlib import Path
+from random import Random
 
 import barrel
+import cases
 import conjugate
 import gcode
 import wedge
@@ -240,8 +239,7 @@ def design(random):
         while found["kind"] != "disc":
             found, text, _ = gcode.design(random)
         return kind, text, ["--set", "cut.form=polar", "--cutter-diameter", "120mm"], controls[:3]
-    size = random.choice([None, random.uniform(1.0, found["radius"] * 0.95)])
-    return found["kind"], text, ["--cutter-diameter", f"{2 * size!r}mm"] if size else [], controls
+    return found["kind"], text, gcode.diameter(gcode.cutter_radius(found, random)), controls
 
 
 # Words of the head of which a program for a control needs each, as they stand there.
@@ -307,25 +305,17 @@ def harmless(text, control):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("binary")
-    parser.add_argument("directory", type=Path)
-    parser.add_argument("--count", type=int, default=15)
-    parser.add_argument("--seed", type=int, default=1)
-    asked = parser.parse_args()
-    random = __import__("random").Random(asked.seed)
-    folder = asked.directory / "cold_start"
-    folder.mkdir(parents=True, exist_ok=True)
+    asked = cases.given("cold_start", 15)
+    random, folder = Random(int(asked.seed)), asked.directory
     rs274 = gcode.interpreter()
     programs = refused = taken = dirty = 0
     for index in range(asked.count):
         kind, text, words, controls = design(random)
-        cut = ["[cut]"]
         tool, spindle, lines = random.random() < 0.6, random.random() < 0.6, random.random() < 0.5
-        cut += ["tool = 1"] if tool else []
+        cut = ["tool = 1"] if tool else []
         cut += ["spindle = 2400"] if spindle else []
         cut += ["depth_per_pass = \"5 mm\""] if random.random() < 0.4 else []
-        text = text.replace("[limits]", "\n".join(cut) + "\n[limits]") if "[limits]" in text else text + "\n" + "\n".join(cut) + "\n"
+        text = gcode.with_cut(text, cut)
         for control in controls:
             shop = {"heidenhain": ["M8"], "fanuc": ["M8", "G55"]}.get(control, ["M8", "G91 G28 Z0" if control == "linuxcnc" else "G0 SUPA Z0 D0"])
             more = ["--set", f"cut.preamble=[{', '.join(repr(line) for line in shop)}]".replace("'", '"')] if lines else []
@@ -356,7 +346,7 @@ def main():
     found, text, _ = gcode.design(random)
     while found["kind"] != "disc" or make(asked.binary, folder, text, "gcode").returncode:
         found, text, _ = gcode.design(random)
-    text = text.replace("[limits]", '[cut]\ntool = 1\nspindle = 2400\ndepth = "4 mm"\n[limits]')
+    text = gcode.with_cut(text, ["tool = 1", "spindle = 2400", 'depth = "4 mm"'])
     for control, ending in CONTROLS.items():
         for size in ([], ["--cutter-diameter", "2mm"]):
             done = make(asked.binary, folder, text, "gcode", "--controller", control, *size)
@@ -366,7 +356,7 @@ def main():
 
             def checked(other):
                 file.write_text(other)
-                return subprocess.run([asked.binary, "check", str(file), "--design", str(folder / "design.toml"), *size], capture_output=True, text=True)
+                return gcode.check(asked.binary, folder, file, *size)
 
             for name, other in altered(program, control):
                 done = checked(other)

@@ -9,14 +9,15 @@ programs, and `camgen check` must refuse each.
 
 usage: gcode.py CAMGEN_BINARY DIRECTORY [--count N] [--seed S]
 """
-import argparse
 import os
 import re
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+from random import Random
 
+import cases
 import groove
 import numpy as np
 import rib
@@ -300,6 +301,27 @@ def design(random):
     return found, text, depth
 
 
+def cutter_radius(found, random):
+    """A cutter for a design, mm, or None."""
+    return random.choice([None, random.uniform(1.0, found["radius"] * 0.95)])
+
+
+def diameter(radius):
+    """The flag for a cutter of a radius, mm; none for None."""
+    return ["--cutter-diameter", f"{2 * radius!r}mm"] if radius else []
+
+
+def with_cut(text, keys):
+    """A design with the table `cut`."""
+    cut = "\n".join(["[cut]", *keys]) + "\n"
+    return text.replace("[limits]", cut + "[limits]") if "[limits]" in text else text + "\n" + cut
+
+
+def check(binary, folder, file, *words):
+    """`camgen check` of a program and the design in a folder; the finished process."""
+    return subprocess.run([binary, "check", str(file), "--json", "--design", str(folder / "design.toml"), *words], capture_output=True, text=True)
+
+
 def fault_texts(text, control, random):
     """Programs with one planted fault each."""
     lines = text.splitlines()
@@ -342,27 +364,19 @@ def fault_texts(text, control, random):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("binary")
-    parser.add_argument("directory", type=Path)
-    parser.add_argument("--count", type=int, default=15)
-    parser.add_argument("--seed", type=int, default=1)
-    asked = parser.parse_args()
-    random = __import__("random").Random(asked.seed)
-    folder = asked.directory / "gcode"
-    folder.mkdir(parents=True, exist_ok=True)
+    asked = cases.given("gcode", 15)
+    random, folder = Random(int(asked.seed)), asked.directory
     rs274 = interpreter()
     worst, made, run, planted, ground = [0.0, 0.0], 0, 0, 0, 0
     for index in range(asked.count):
         found, text, depth = design(random)
         control = list(CONTROLS)[index % 4]
-        cutter = random.choice([None, random.uniform(1.0, found["radius"] * 0.95)])
-        cut = ["[cut]", f'direction = "{random.choice(["climb", "conventional"])}"']
+        cutter = cutter_radius(found, random)
+        cut = [f'direction = "{random.choice(["climb", "conventional"])}"']
         cut += random.choice([[], [f'depth_per_pass = "{random.uniform(3, 9)!r} mm"']])
         cut += random.choice([[], ["spindle = 2400", "tool = 1", 'preamble = ["M8"]', 'postamble = ["M9"]']])
-        text = text.replace("[limits]", "\n".join(cut) + "\n[limits]")
-        words = ["--controller", control]
-        words += ["--cutter-diameter", f"{2 * cutter!r}mm"] if cutter else []
+        text = with_cut(text, cut)
+        words = ["--controller", control, *diameter(cutter)]
         done = make(asked.binary, folder, text, "gcode", *words)
         if done.returncode == 1:
             broken = failed(done)
@@ -403,21 +417,20 @@ def main():
                     continue
                 file = folder / f"planted{CONTROLS[control]}"
                 file.write_text(other)
-                done = subprocess.run([asked.binary, "check", str(file), "--json", "--design", str(folder / "design.toml"), "--cutter-diameter", f"{2 * cutter!r}mm"], capture_output=True, text=True)
+                done = check(asked.binary, folder, file, *diameter(cutter))
                 # A symmetric cam is the same either way round.
                 assert done.returncode in (1, 2) or name == "another way round", (index, name, done.stdout, done.stderr)
                 planted += 1
             path.write_text(program)
             (folder / "design.toml").write_text(text)
         if index % 3 == 0:
-            size = ["--cutter-diameter", f"{2 * radius!r}mm"] if radius else []
-            check = lambda path: subprocess.run([asked.binary, "check", str(path), "--json", "--design", str(folder / "design.toml"), *size], capture_output=True, text=True)
-            done = check(path)
+            size = diameter(radius)
+            done = check(asked.binary, folder, path, *size)
             assert done.returncode == 0, (index, done.stdout[-2000:], done.stderr)
             for name, other in fault_texts(program, control, random):
                 file = folder / f"planted{CONTROLS[control]}"
                 file.write_text(other)
-                done = check(file)
+                done = check(asked.binary, folder, file, *size)
                 assert done.returncode in (1, 2) and (done.returncode == 2 or "program" in failed(done)), (index, name, control, done.stdout, done.stderr)
                 planted += 1
     assert made > asked.count // 2, made
