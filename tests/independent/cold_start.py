@@ -1,10 +1,10 @@
-"""Runs programs of `--format gcode` on controls of which nothing is known: every group of words, every offset and every position is unknown until the program
+"""Runs programs of `--format gcode` on controls in an unknown state: every group of words, every offset and every position is unknown until the program
 states it, and the first move that reads one of them too early is a fault.
 
 Shares nothing with camgen. Random discs, rings, grooves, ribs, pairs, plates and barrels, ground discs among them, for every control, with and without a tool, a
 spindle, a cutter and lines of a shop; each program must run, and end at its home with coolant and spindle off. Programs for LinuxCNC also run in its own
-interpreter `rs274`, where it can be had, after words of another program have been left active: the moves must be the same. Then one word of the head is removed
-from a program, or a move is put where it is dangerous, and `camgen check` must refuse it; what a shop may write as well it must take.
+interpreter `rs274`, if available, with words of another program still active: the moves must be the same. Then one word of the head is removed
+from a program, or a dangerous move is inserted, and `camgen check` must refuse it; it must accept harmless lines of a shop.
 
 usage: cold_start.py CAMGEN_BINARY DIRECTORY [--count N] [--seed S]
 """
@@ -23,7 +23,7 @@ CONTROLS = gcode.CONTROLS
 
 
 class Cold:
-    """A control that knows nothing."""
+    """A control in an unknown state."""
 
     def __init__(self, control):
         self.control, self.known, self.at = control, {}, {}
@@ -45,7 +45,7 @@ class Cold:
     def stops(self):
         self.by_hand = True
         self.known.setdefault("tool", "by hand")
-        # An operator can set a length only where the program says none itself.
+        # An operator can set a length only if the program sets none.
         if self.control in ("fanuc", "heidenhain"):
             self.known.setdefault("length", "by hand")
 
@@ -75,7 +75,7 @@ class Cold:
         self.at |= to
 
     def turning_without(self, _):
-        # Of a disc that is ground the wheel stays over the axis.
+        # For a ground disc the wheel stays over the axis.
         return {"Y"} if "C" in self.turning else set()
 
     def ends(self, line):
@@ -119,7 +119,7 @@ def iso(text, control):
         if "49" in codes:
             state.known.pop("length", None)
         if "43" in codes:
-            # Without a number it is that of the tool in the spindle, on LinuxCNC alone.
+            # Without a number, on LinuxCNC only, it is the length of the tool in the spindle.
             assert values.get("H", 0) > 0 or (control == "linuxcnc" and "tool" in state.known), f"line {line}: a length of no tool"
             assert "H" not in values or values["H"] == state.known.get("tool", values["H"]), f"line {line}: the length of another tool"
             state.known["length"] = values.get("H", "tool")
@@ -213,18 +213,18 @@ def run(text, control):
 
 
 def after_another_program(path, folder, rs274):
-    """Whether LinuxCNC makes the same moves of a program after words of another one were left active."""
+    """Checks that LinuxCNC makes the same moves of a program with words of another one still active."""
     left = "G20 G18 G91 G90.1 G93 G55 G64\nG10 L2 P1 X0 Y0 Z0\nG92 X3 Y4 Z5\nG43.1 Z7\n"
     dirty = folder / "dirty.ngc"
     dirty.write_text(left + path.read_text())
     size = lambda moves: [(rapid, [round(float(number), 6) for number in (*moved[0], *moved[-1])]) for _, rapid, moved, _ in moves]
     clean, other = (size(gcode.linuxcnc(file, folder, rs274, 2.0)) for file in (path, dirty))
-    # Its first move comes from where it was.
+    # The first moves begin at different positions.
     assert clean[2:] == other[2:] and len(clean) == len(other), (path, next(pair for pair in zip(clean[2:], other[2:]) if pair[0] != pair[1]))
 
 
 def design(random):
-    """A design: its name, its text, the words of `make` for it, and the controls that have a program for it."""
+    """A design: its kind, its text, its flags for `make`, and the controls with a program for it."""
     kind = random.choice(["flat", "flat", "flat", "flat", "pair", "plate", "barrel", "ground"])
     controls = list(CONTROLS)
     if kind == "barrel":
@@ -242,21 +242,21 @@ def design(random):
     return found["kind"], text, gcode.diameter(gcode.cutter_radius(found, random)), controls
 
 
-# Words of the head of which a program for a control needs each, as they stand there.
+# Required words of the head for each control, as written.
 NEEDED = {
     "linuxcnc": ["G21\n", "G17 ", "G90 ", " G94", "G91.1 ", "G40 ", "G61\n", "G53 G0 Z0.0\n", "G54\n", " G43 H1", "S2400 M3\n"],
     "fanuc": ["G21\n", "G17 ", "G94 ", "G40 ", "G91 G28 Z0.\n", "G54\n", "G43 H01 ", "S2400 M3\n"],
     "sinumerik": ["G710\n", "G17 ", "G90 ", "G94 ", " G40", "G642 CTOL=0.001\n", " CTOL=0.001", "G0 SUPA Z0.0 D0\n", " D0", "G54\n", "D1 ", "S2400 M3\n"],
     "heidenhain": [" R0", "TOOL CALL 1 Z S2400", " M3", "L Z-1.0 R0 FMAX M91\n"],
 }
-# Lines that are dangerous before the first move of a pass.
+# Dangerous lines before the first move of a pass.
 DANGEROUS = {
     "linuxcnc": ["G28", "G28 Z0", "G0 X0 Y0 Z5", "G0 Z5", "G64", "G1 X5 F100"],
     "fanuc": ["G28", "G28 Z0.", "G91 G28 Z-30.", "G0 X0. Y0. Z5.", "G0 G43 H01 Z5.", "G91 G53 G0 Z0."],
     "sinumerik": ["CYCLE832()\nG64", "CYCLE832()\nCOMPCAD", "G0 X0 Y0 Z5", "G0 D1 Z5"],
     "heidenhain": ["L Z+5 R0 FMAX", "L X+0 Y+0 Z+5 R0 FMAX"],
 }
-# Lines that a shop may have there.
+# Harmless lines of a shop in the same position.
 HARMLESS = {
     "linuxcnc": ["G64 P0.004", "G92.1", "G54 G92.1", "G90 G92.2 G80", "G91 G28 Z0\nG90", "M8", "G55"],
     "fanuc": ["G61", "G91 G28 Z0.\nG90", "M8", "G80 G15 G50 G69"],
@@ -272,7 +272,7 @@ def first_of_pass(lines, control):
 
 
 def altered(text, control):
-    """Programs without one word, or with one dangerous line: what was changed, and the text."""
+    """Programs without one word, or with one dangerous line: the change and the text."""
     lines = text.splitlines(keepends=True)
     first = first_of_pass(lines, control)
     # The head, its first move across, and its first move down.

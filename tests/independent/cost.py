@@ -56,7 +56,7 @@ def once(words, directory, addresses):
 
 
 def slowness():
-    """How much slower the machine is now than one at rest, at least 1."""
+    """Slowdown of the machine compared with one at rest, at least 1."""
     start, value = time.process_time(), 0
     for step in range(LOOP):
         value = (31 * value + step) & 0xFFFF

@@ -39,7 +39,7 @@ class Machine:
         self.at, self.side, self.moves = [None, None, None], 0, []
 
     def goes_home(self):
-        """Z to a place of the machine that is not known here."""
+        """Z to a machine position, unknown here."""
         self.at[2] = None
 
     def go(self, line, rapid, to, centre=None, left=False):
@@ -63,12 +63,12 @@ class Machine:
 
 
 def plain(block):
-    """A block without comments, and without what SINUMERIK says in words."""
+    """A block without comments and without words of SINUMERIK."""
     block = re.sub(r"\(.*?\)|;.*|\bCTOL=[\d.]+", "", block).upper()
     return re.sub(r"^TRANS$", "", block).replace("SUPA", "G53").replace(" ", "")
 
 
-# Words that set a control to what cold_start.py tests.
+# Words of the set-up, tested by cold_start.py.
 SETTING = {"43", "49", "54", "61", "64", "642", "80", "92.2"}
 
 

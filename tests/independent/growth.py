@@ -1,8 +1,8 @@
-"""Looks for run times that grow faster than what is read: every reader at sizes n, 2n and 4n.
+"""Looks for run times that grow faster than the input: every reader at sizes n, 2n and 4n.
 
 Drawings (lines, arcs, polylines, splines, blocks, layers, ends that branch, that nearly touch, that coincide), solids, programs in every dialect,
 tables of points, of servo drives, of inspection and of a gauge, lift tables, outlines and machine files. The time of a run is that of the
-processor less that of an empty file, the least of up to three runs, so that a busy machine does not matter. Four times the size may take eight
+processor minus the time for an empty file, the least of up to three runs, so that a busy machine does not matter. Four times the size may take eight
 times as long (work in proportion takes four times, quadratic work sixteen times); runs below a tenth of a second are not judged.
 
 usage: growth.py CAMGEN_BINARY DIRECTORY [--sizes SHARE] [--only WORD] [--verbose]
@@ -57,7 +57,7 @@ def spline(poles):
 
 
 def vertices_of(text):
-    """The vertices of the first polyline of a file of camgen, with the bulge of the segment behind each."""
+    """The vertices of the first polyline of a camgen file, with the bulge of the segment after each."""
     lines = [one.strip() for one in text.splitlines()]
     groups = list(zip(lines[::2], lines[1::2]))
     at, found = groups.index(("0", "LWPOLYLINE")) + 1, []
@@ -83,7 +83,7 @@ def between(a, b, share):
 
 
 def along(vertices, count):
-    """About so many points of a closed polyline."""
+    """About `count` points of a closed polyline."""
     pairs = list(zip(vertices, vertices[1:] + vertices[:1]))
     lengths = [math.hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairs]
     found = []
@@ -94,7 +94,7 @@ def along(vertices, count):
 
 
 def finer(text, times):
-    """A table with interpolated rows between its rows; what is not numbers stays."""
+    """A table with interpolated rows between its rows; other lines stay."""
     number = re.compile(r"[-+]?\d[\d.eE+-]*")
     rows, found = text.splitlines(), []
     for row, following in zip(rows, rows[1:] + [""]):
@@ -109,7 +109,7 @@ def finer(text, times):
 
 
 class Made:
-    """The files of camgen from which larger ones are made."""
+    """camgen's files, from which larger ones are made."""
 
     def __init__(self, binary, directory):
         def make(out, *words):
@@ -187,7 +187,7 @@ def drawings(made, rng):
 
 
 def solid(made, count, doubled=False):
-    """The solid of camgen with more instances, or the same lines again with other numbers."""
+    """camgen's solid with more instances, or with the same lines again under other numbers."""
     text = made.text(".step")
     head, rest = text.split("DATA;", 1)
     data, tail = rest.split("ENDSEC;", 1)
@@ -201,7 +201,7 @@ def solid(made, count, doubled=False):
 
 
 def program(made, control, count):
-    """The program of camgen along its path in so many straight moves."""
+    """camgen's program with its path as `count` straight moves."""
     points = along(made.path, count)
     lines = made.programs[control].splitlines()
     is_move = lambda text: re.match(r"(N?\d+ )?(G[123] X|L X|C X|CC X)", text) and "FMAX" not in text and "G0" not in text
@@ -215,7 +215,7 @@ def program(made, control, count):
 
 
 def checked(made, rng):
-    """Everything that `check` reads, with the end of the name of its file."""
+    """All inputs of `check`, with the ending of the file name."""
     for name, size, text in drawings(made, rng):
         yield f"drawing, {name}", ".dxf", size, text
     yield "solid, points", ".step", 25_000, lambda n: solid(made, n)
@@ -244,7 +244,7 @@ def designs(motion):
 
 
 def commands(made, rng):
-    """What other commands read: the name of the file, its text and the command; tables lie next to the design."""
+    """Inputs of other commands: file name, text and command; tables are next to the design."""
     as_table = lambda n, noise, command: ("rows.csv", rows(n, noise, rng), command)
     imported = ["import", "rows.csv", "--from", "table", "--follower", "roller,diameter=20mm", "--dry-run"]
     yield "import, exact rows", 2_500, lambda n: as_table(n, 0, imported)
@@ -268,7 +268,7 @@ def commands(made, rng):
 
 
 def seconds(words, directory):
-    """Time of the processor of a run, and its exit code."""
+    """Processor time of a run, and its exit code."""
     limit = lambda: resource.setrlimit(resource.RLIMIT_CPU, (PATIENCE, PATIENCE))
     run = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=directory, preexec_fn=limit)
     _, status, used = os.wait4(run.pid, 0)
@@ -277,7 +277,7 @@ def seconds(words, directory):
 
 
 def growth(sizes, prepared, directory, empty):
-    """Times at n, 2n and 4n, and by how much the last is more than the first; the codes of the runs."""
+    """Times at n, 2n and 4n, last time / first time, and the exit codes."""
     def measured(size, times):
         words = prepared(size)
         runs = [seconds(words, directory) for _ in range(times)]
@@ -323,7 +323,7 @@ def main():
         sizes = [max(8, int(words.sizes * times * size)) for times in (1, 2, 4)]
         times, grows, codes = growth(sizes, prepared, words.directory, empty)
         total += 1
-        # A size that is refused before it is read has no time to compare.
+        # A size refused before reading has no time to compare.
         is_judged = times[2] >= JUDGED and (codes[0] == codes[2] or 2 not in (codes[0], codes[2]))
         judged += is_judged
         bad = (is_judged and grows > MOST_GROWTH) or not set(codes) <= {0, 1, 2}

@@ -2,7 +2,7 @@
 
 Shares nothing with camgen but the machine files: the laws are those of laws.py and are differentiated here, the centre of a roller is a point of its
 mechanism in the frame of the cam, the force along the normal follows from virtual work, the curvature of a flank from differences of its normals, and the
-pressure is that of a half-elliptic strip as wide as Hertz's contact. The line of contact is as long as roller and flank really meet: through the
+pressure is that of a half-elliptic strip as wide as Hertz's contact. The contact line is as long as roller and flank really touch: through the
 thickness, down to the end of the roller in a groove, between the ends of a globoid. Then a limit below that stress is set: the design must fail, and
 each change that the report names must pass.
 
@@ -27,13 +27,13 @@ from laws import motion
 STEP = np.radians(0.05)  # of differences
 MODULUS = 1 / compliance("steel")
 BODIES = ["disc", "groove", "ring", "conjugate", "rib", "yoke", "barrel", "globoid"]
-# Of three points along a line of contact in place of many, and of the point at which the force is taken to act.
+# Errors of three points along a contact line instead of many, and of the assumed point of the force.
 ROUND = {"barrel": 0.02, "globoid": 0.02}
 PLANE = 2e-3
 
 
 def hertz(force, curvature, length):
-    """Largest pressure in MPa: of a force in N, a reduced curvature in 1/mm, and a length in mm."""
+    """Largest pressure in MPa from a force in N, a reduced curvature in 1/mm, and a length in mm."""
     half = np.sqrt(4 * force / (np.pi * length * 1e-3 * curvature * 1e3 * MODULUS))
     return 1e-6 * np.where(force > 0, 2 * force / (np.pi * np.where(force > 0, half, 1.0) * length * 1e-3), 0.0)
 
@@ -100,7 +100,7 @@ def surface(line, axis, v, theta, step=STEP):
 
 
 def bent(line, axis, v, theta, offset):
-    """Sum of both principal curvatures of the flank at a signed distance along the normal, 1/mm: as a turn of the normal per way."""
+    """Sum of both principal curvatures of the flank at a signed distance along the normal, 1/mm: rotation of the normal per distance."""
     def at(theta, v):
         place, normal = surface(line, axis, v, theta)
         return place + offset * normal, normal
@@ -115,7 +115,7 @@ def bent(line, axis, v, theta, offset):
 
 
 def swept(line, axis, way, theta, force, reach, touching, contact):
-    """Pressure of a roller on a flank in space at a cam angle: where `touching` says so along its reach, `way` the move of its centre line per unit."""
+    """Pressure of a roller on a flank in space at a cam angle, over the part of its reach selected by `touching`; `way` is the move of its centre line per unit of the lift."""
     radius, distances = contact
     if force == 0:
         return 0.0
@@ -162,7 +162,7 @@ def of_barrel(found, theta, force, reach):
 
 
 def moved_line(found, angle):
-    """Across and along of the centre line of a barrel's roller with the follower moved by `lift` (mm or rad)."""
+    """Centre line of a barrel's roller, across and along, with the follower moved by `lift` (mm or rad)."""
     position = motion(found["segments"], 0.0, np.degrees(np.atleast_1d(angle)) % 360)[0]
     if not found["swings"]:
         return found["offset"], position + found["lift"]
@@ -190,7 +190,7 @@ def of_globoid(found, theta, force, end):
                 off = found["distance"] - np.hypot(points[:, 0], points[:, 1])
                 between = np.abs(np.arctan2(points[:, 2], off)) <= end + 1e-9
                 inside = np.hypot(off, points[:, 2]) >= outside * (1 - 1e-9)
-                # A roller that is entering bears nothing yet.
+                # An entering roller carries no force yet.
                 return between & inside if between.all() else np.zeros(len(points), bool)
             if abs(place(angle, np.zeros(1))[1]) > end + 0.3:
                 continue
@@ -204,7 +204,7 @@ def with_material(text, more=""):
 
 
 def case(body, rng):
-    """The text of a machine file, and a function that computes its contact stresses, of the first cam and of those made with it, MPa."""
+    """The text of a machine file, and a function that computes its contact stresses, of the first cam and of the others made with it, MPa."""
     theta = np.radians(np.arange(0.125, 360, 0.25))
     if body in ("groove", "ring", "disc"):
         found = groove.design(rng) | {"body": body if body != "disc" else "disc", "ccw": False}
@@ -282,7 +282,7 @@ def stress_of(report):
 
 
 def remedies(note):
-    """The changes that a note promises to pass: lists of --set."""
+    """The changes that would pass by a note: lists of --set."""
     found = []
     for clause in (note or "").split("; "):
         if " would " in clause:

@@ -191,7 +191,7 @@ def moves(live, binary, directory, command, name, count, every, generator):
 
 
 def keys_of(toml):
-    """The keys of a text with their values as they are typed."""
+    """The keys of a text with their values as typed."""
     def walk(path, value):
         if isinstance(value, dict):
             for name, inside in value.items():
@@ -203,7 +203,7 @@ def keys_of(toml):
             yield path, str(value).lower() if isinstance(value, bool) else value
 
     found = dict(walk("", tomllib.loads(toml)))
-    # A word in the place of a table stands for two of its keys.
+    # A word given instead of a table stands for two of its keys.
     if word := found.pop("cam.keyway", None):
         found |= {"cam.keyway.width": word, "cam.keyway.depth": word}
     return found
@@ -216,7 +216,7 @@ def number_of(typed):
 
 
 def values_shown(live, count, generator):
-    """Every field shows the value of the file, and one step of a slider writes this value and nothing else: the next number in the same unit."""
+    """Every field shows the value of the file, and one step of a slider changes only this value, to the next number in the same unit."""
     fields = live.page.evaluate("Object.fromEntries([...document.querySelectorAll('.field')].map((e) => e.querySelector('input, select')).map((e) => [e.id.slice(4), e.value]))")
     given = keys_of(live.toml())
     for key, value in given.items():
@@ -240,7 +240,7 @@ def values_shown(live, count, generator):
     return len(fields)
 
 
-# Diameters in every place, a body that is a default, words in capitals, inches, a list of inline tables.
+# Diameters for all radii, a body given as its default, words in capitals, inches, a list of inline tables.
 FORMS = """name = "forms"
 motion = { rpm = 120, start = "0 in", segment = [{ law = "cycloidal", over = "90°", to = "0.4 in" }, { law = "Dwell", over = "90 deg" }, { law = "3-4-5", to = "0 in" }] }
 [follower.roller]
@@ -258,7 +258,7 @@ pressure_angle = "40 deg"
 
 
 def forms(browser, binary, directory, generator):
-    """A design whose values are in other forms than those of the embedded ones, and limits of which the usual ones are shown."""
+    """A design with values in other forms than the embedded designs, and empty limits that show the usual ones."""
     (directory / "forms.toml").write_text(FORMS)
     with Serving(binary, directory, "forms.toml") as address:
         live = Live(browser, address, "http://127.0.0.1:")

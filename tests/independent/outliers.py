@@ -2,7 +2,7 @@
 
 Half of the tables have one row that is off by 50 um or more: `make` must exit 1 because of `outlier` and name that row and its line. The others are
 correct, however they are rounded, scattered, sampled unevenly or by however few rows, and whatever law they follow: nothing may be flagged.
-Wrong rows are drawn where they can be seen: tables of 90 to 720 rows, and errors of at least four times what the rows beside them bend.
+Wrong rows are chosen to be detectable: in tables of 90 to 720 rows, with errors of at least four times the bend of the neighbouring rows.
 
 usage: outliers.py CAMGEN_BINARY DIRECTORY [--count N] [--seed N] [--only N]
 The long run: --count 400, 200 of each.
@@ -35,7 +35,7 @@ SMOOTH = {
     "cycloidal": lambda x: x - math.sin(TAU * x) / TAU,
     "modified sine": modified_sine,
 }
-# Their acceleration jumps, and that of the last two the velocity.
+# Laws with an acceleration step; the last two have a velocity step.
 OTHERS = {
     "parabola": lambda x: 2 * x * x if x < 0.5 else 1 - 2 * (1 - x) ** 2,
     "harmonic": lambda x: (1 - math.cos(math.pi * x)) / 2,
@@ -81,7 +81,7 @@ class Case:
 
     @staticmethod
     def spoil(rng, values):
-        """The index of a row that is made wrong by more than its neighbours bend: the fourth difference around it."""
+        """Makes a row wrong by more than the bend of its neighbours, the fourth difference around it; returns its index."""
         count = len(values)
         for _ in range(1000):
             at = rng.randrange(count)
@@ -110,7 +110,7 @@ def judged(binary, directory, seed, index):
         "min_convex_pitch_radius_over_roller = 0\n")
     run = subprocess.run([binary, "make", "cam.toml", "--json", "--dry-run"], cwd=folder, capture_output=True, text=True, timeout=120)
     if not run.stdout.startswith("{"):
-        # An outline that cannot be drawn has no report.
+        # A cam without an outline has no report.
         return "no outline", None if case.wrong is None else f"{index}: {run.stderr[:200]}"
     found = [check for check in json.loads(run.stdout)["checks"] if check["check"] == "outlier" and check["verdict"] == "fail"]
     if case.wrong is None:

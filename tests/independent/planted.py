@@ -3,7 +3,7 @@
 For each command that writes (and for the page of `camgen serve`) the names of its files are learnt from a run in an empty directory. Then each of
 them, the names of camgen's records, of temporary files, and of those of earlier versions is taken by something of the user: what was planted, and
 the file or directory that it leads to, must be as before, unless it is a plain file and `--overwrite` was given; every run must end in time, and
-with exit code 0 only if all its files are there.
+with exit code 0 only if all its files exist.
 
 usage: planted.py CAMGEN_BINARY DIRECTORY [--count N] [--seed N] [--jobs N]
 
@@ -25,7 +25,7 @@ import urllib.request
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-# Nothing takes so long, unless it hangs; s.
+# Longest time of a run that does not hang, s.
 PATIENCE = 60
 STUDY = """name = "small"
 base = "feeder"
@@ -53,21 +53,21 @@ COMMANDS = {
     "serve": [],
 }
 RECORDS = [".camgen.json", ".camgen-1.json", ".camgen-commit", ".camgen-commit-1", ".camgen-new-1-0", ".camgen-new-7-0"]
-# What camgen adds to the name of a file until it is whole, or has added in earlier versions.
+# Endings of unfinished files, of this and earlier versions.
 ADDED = [".part", ".part.json", ".tmp", ".part.json.tmp", ".camgen-new", ".new"]
 KINDS = ["a file", "a link", "a link to nothing", "a link to a directory", "a link to a device", "a hard link", "a pipe", "a socket", "a directory",
          "a device", "a read-only file", "a file like a record", "a file like a marker"]
 
 
 def listed(binary, where, command):
-    """The names that a command writes, and how it ended."""
+    """The names written by a command, and its exit."""
     inputs(binary, where, command)
     done = run(binary, where, COMMANDS[command])
     return sorted(os.listdir(where / "out")), done
 
 
 def inputs(binary, where, command):
-    """The files that a command reads."""
+    """The input files of a command."""
     where.mkdir(parents=True)
     (where / "small.toml").write_text(STUDY, encoding="utf-8")
     shown = subprocess.run([binary, "machines", "show", "feeder"], capture_output=True, check=True)
@@ -130,7 +130,7 @@ def served(binary, where, more):
 
 
 def digest(path):
-    """What is under a name, without opening pipes and devices."""
+    """State of the entry under a name, without opening pipes and devices."""
     data = os.lstat(path)
     kind = stat.S_IFMT(data.st_mode)
     if kind == stat.S_IFREG:
@@ -143,7 +143,7 @@ def digest(path):
 
 
 def plant(path, kind, victim, folder):
-    """Puts something of the user under a name; whether that can be done here."""
+    """Puts a user's entry under a name; returns whether that is possible here."""
     try:
         if kind == "a file":
             path.write_text("mine\n", encoding="utf-8")
@@ -175,7 +175,7 @@ def plant(path, kind, victim, folder):
 
 
 def tried(binary, root, command, name, kind, overwrite, names):
-    """What is wrong after a run with something planted; None if it cannot be planted."""
+    """The faults of a run with a planted entry; None if it cannot be planted."""
     where = root / f"{command}-{hashlib.sha256(f'{name}{kind}{overwrite}'.encode()).hexdigest()[:12]}"
     shutil.rmtree(where, ignore_errors=True)
     inputs(binary, where, command)
@@ -195,7 +195,7 @@ def tried(binary, root, command, name, kind, overwrite, names):
     if "panicked" in told:
         wrong.append("it panicked")
     plain = stat.S_ISREG(before[0][0])
-    # A temporary name of camgen's own, and a file that the user allows to be replaced.
+    # camgen's own temporary name, or a file that the user allows to be replaced.
     replaceable = name.startswith(".camgen-new-") and kind not in ("a directory", "a pipe", "a socket", "a device")
     replaceable = replaceable or name == ".camgen.json" and kind == "a file like a record" or plain and overwrite and (name in names or name == ".camgen.json")
     after = digest(path) if os.path.lexists(path) else None
@@ -221,7 +221,7 @@ def main():
     options = parser.parse_args()
     binary, root = options.binary.resolve(), (options.directory / "planted").resolve()
     shutil.rmtree(root, ignore_errors=True)
-    # Names of sockets are short.
+    # Socket paths must be short.
     root.mkdir(parents=True)
     os.chdir(root)
     chance, wrong, done = random.Random(options.seed), [], {}

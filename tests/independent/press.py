@@ -163,7 +163,7 @@ def press(rng):
 
 
 def cylinders(told, both, wrong):
-    """One cylinder and all of them, from the area that together carries the force (m²): a press built by the bore of one, as often as it is told, brakes the bed."""
+    """One cylinder and all of them against the area that carries the force (m²): a press built with the reported bore and number of cylinders brakes the bed."""
     count, bore = X(told["cylinders"]), X(told["bore_mm"]) / 1000
     wrong.close(count * PI * bore**2 / 4, both, "area of all bores")
     wrong.close(count * X(told["piston_area_mm2"]), 1e6 * both, "area of all pistons")
@@ -183,7 +183,7 @@ def fixed_bottom(p, n, rule, row, wrong, slack):
     else:
         due = with_end(most)
         due = with_end(most + worst(due) / 2) if rule == "half" else due
-        # A column many strokes long is a difference of near pressures.
+        # A column many strokes long has nearly equal pressures, whose difference is inaccurate.
         wrong.close(own, due, "column of a fixed bottom", CLOSE * max(1.0, float(due / r)))
     wrong.close(row["fixed_residual_max_n"], worst(own), "residual of a fixed bottom", 1e-9, 10 * slack)
     return X(row["fixed_residual_max_n"])

@@ -221,7 +221,7 @@ def one(binary, directory, number, rng):
 
 
 def braked_by_all(law, m, cam, wrong):
-    """A press built by the report: as many cylinders as it counts, each of its bore, hold the bed at the end of the stroke by the gas in them."""
+    """A press built by the report: the reported number of cylinders of the reported bore hold the bed at the end of the stroke by their gas."""
     each = math.pi * (law["bore_mm"] / 1000) ** 2 / 4
     volume = each * cam.closed / (each * cam.column)
     pressure = float(m.p0) * Gas(float(m.k), volume.min() * 0.99, 1.01).at(volume[-1])
@@ -316,7 +316,7 @@ def percentiles(part, cam, m, draws, wrong, rounding):
 
 
 def settings(part, cam, m, column, rule, wrong, rounding):
-    """The settings over v by a rule: what cam and fixed bottom leave, nothing at the end of the stroke by `end`, least by `level`, the columns of v = 1 by `none`."""
+    """The settings over v by a rule: residual forces of cam and fixed bottom: 0 at the end of the stroke by `end`, least by `level`; by `none` the columns of v = 1."""
     first = next(row for row in part["settings"] if row["v"] == 1.0)
     for row in part["settings"][::5]:
         true = dict(mass=row["v"], speed=1.0, ambient=1.0, kappa=float(m.k), closing=1.0, air=1.0, column=row["column_mm"] / 1000 - column, lead=0.0)

@@ -201,7 +201,7 @@ def crowded(program):
 
 
 def idle(program):
-    """As many connections as are open at a time, and all of them say nothing: the page is answered at once."""
+    """All connections are in use and none sends a request: the page is still answered at once."""
     streams = [socket.create_connection(("127.0.0.1", program.port), timeout=LONGEST) for _ in range(32)]
     time.sleep(0.2)
     begin = time.time()
@@ -213,7 +213,7 @@ def idle(program):
 
 
 def unreadable(program, path, text):
-    """Text that could not be read again is not saved, and a file that a link replaces is neither read nor written through it."""
+    """Text that could not be read again is not saved, and a file replaced by a link is neither read nor written through it."""
     kept = path.read_bytes()
     for toml in ("", " \n", "a = 1\n", text + "#" + "x" * (2 << 20) + "\n", text.replace("[cam]", "[cams]"), "name = ", text + "\x00", "[]", text[: len(text) // 2]):
         done = program.posted("/save", design=0, toml=toml, before=text)
@@ -240,7 +240,7 @@ def unreadable(program, path, text):
 
 
 def saves_killed(binary, directory, count, seed):
-    """Kills at random moments of a save, and at each of its calls; how many came, and the calls of a save."""
+    """Kills at random moments of a save, and at each of its calls; returns the number of kills, and the calls of a save."""
     where = directory / "kills"
     where.mkdir()
     path = where / "own.toml"
@@ -249,7 +249,7 @@ def saves_killed(binary, directory, count, seed):
     path.chmod(0o600)
 
     def saved(program, old):
-        """Asks for the other text; what is there after a kill is the old text or the new one, and nothing that the next save does not take away."""
+        """Asks for the other text; after a kill the file is the old text or the new one, with no remains that the next save does not remove."""
         try:
             program.ask("POST", "/save", json.dumps({"design": 0, "toml": texts[1 - old], "before": texts[old]}).encode())
         except OSError:

@@ -234,12 +234,12 @@ column = "cam.prime_radius_mm"
 column = "checks.pressure_angle.value"
 """
 COMMAND = ["study", "front.toml", "--quiet", "--page"]
-# Calls that change something, or are the last before it.
+# System calls that change files, or are the last before that.
 CALLS = ("open", "openat", "write", "fsync", "renameat", "unlinkat", "ftruncate", "flock", "fchmod")
 
 
 class Bench:
-    """A study, the files of an unbroken run of it, and how long that takes."""
+    """A study, the files of an uninterrupted run, and its time."""
 
     def __init__(self, binary, directory, rows):
         self.binary, self.root, self.text = binary, directory / "broken", PARETO.replace("ROWS", str(rows))
@@ -269,11 +269,11 @@ class Bench:
                                 stderr=subprocess.DEVNULL, start_new_session=True)
 
     def continued(self, case, what):
-        """The same command again, with nothing in its way."""
+        """The same command again, undisturbed."""
         names = {"front.csv", "front.json", "front-front.csv", "front.html"}
         there = self.found(case)
         partly = names & set(there) if names - set(there) else set()
-        # Of a set that is being put in place some may be there, if its record is.
+        # Some files of a set may be in place if its record exists.
         assert not partly or ".camgen-commit" in there, f"{what}: {sorted(there)}"
         done = subprocess.run([self.binary, *COMMAND], cwd=case, capture_output=True, text=True, check=False)
         assert done.returncode == 0, f"{what}: the same command ends with {done.returncode}: {done.stderr}"
@@ -283,13 +283,13 @@ class Bench:
 
 
 def killed_at_random(bench, count, seed):
-    """Kills at random moments, some of them twice, before the same command; how many came."""
+    """Kills at random moments, some runs twice, then runs the same command; returns the number of kills."""
     chance, came = random.Random(seed), 0
     for number in range(count):
         case = bench.case(f"random-{number}")
         for _ in range(chance.choice([1, 1, 1, 2])):
             process = bench.begun(case)
-            # Half of them at the end, where the files get their names.
+            # Half of the kills at the end, when the files get their names.
             share = chance.uniform(0.0, 1.2) if number % 2 else chance.uniform(0.85, 1.1)
             try:
                 process.wait(share * bench.seconds)
@@ -302,7 +302,7 @@ def killed_at_random(bench, count, seed):
 
 
 def killed_at_calls(bench, count, seed):
-    """Kills at the calls that write; how many came, and of how many. None without strace."""
+    """Kills at the calls that write; returns the numbers of kills and of calls. None without strace."""
     if shutil.which("strace") is None:
         return None
     case, log = bench.case("calls"), bench.root / "log"
@@ -328,7 +328,7 @@ def killed_at_calls(bench, count, seed):
 
 
 def stopped(bench, name):
-    """A case in which a run was killed with rows saved."""
+    """A case with a run killed after rows were saved."""
     for attempt in range(20):
         case = bench.case(name)
         process = bench.begun(case)
@@ -344,7 +344,7 @@ def stopped(bench, name):
 
 
 def forged(bench, count, seed):
-    """Rows that nobody computed are refused, or made again; how many of each."""
+    """Forged rows are refused, or made again; returns the number of each."""
     case, part, saved = stopped(bench, "forged")
     kept = {path.name: path.read_bytes() for path in (case / "output").iterdir()}
     rows = part.read_bytes()[: saved["bytes"]].splitlines(keepends=True)
@@ -389,7 +389,7 @@ def forged(bench, count, seed):
 
 
 def stop_while_it_computes(process, out):
-    """Stops a study that has its table open, and is not writing a name at this moment."""
+    """Stops a study with an open table, at a moment at which it is not writing a name."""
     while process.poll() is None:
         if (out / "front.csv.part").exists():
             os.killpg(process.pid, signal.SIGSTOP)
@@ -405,7 +405,7 @@ def stop_while_it_computes(process, out):
 
 
 def at_once(bench):
-    """Under the stem of a running study no other command writes; under another one it does."""
+    """Under the stem of a running study no other command writes; under another stem it does."""
     case = bench.case("at-once")
     process = bench.begun(case)
     stop_while_it_computes(process, case / "output")
@@ -425,7 +425,7 @@ def at_once(bench):
 
 
 def full_disks(bench):
-    """A disk that is full at some moment, and then is not: nothing is lost. None if none can be mounted."""
+    """A disk that is full for some time: nothing is lost. None if none can be mounted."""
     sizes = (4, 16, 60, 120, 200, 260, 320, 400, 500)
     for size in sizes:
         case = bench.case("disk")
@@ -447,7 +447,7 @@ def full_disks(bench):
 
 
 def broken(binary, directory, rows, count, seed):
-    """Everything that may befall a study; lines of figures."""
+    """All tests of interrupted studies; returns lines of figures."""
     bench = Bench(binary, directory, rows)
     came = killed_at_random(bench, count, seed)
     yield f"{count} studies killed at random moments, {came} kills came: all end by the same command"
