@@ -304,6 +304,15 @@ def harmless(text, control):
         yield line, "".join(lines[:first]) + "".join(f"{number}{own}\n" for own in line.split("\n")) + "".join(lines[first:])
 
 
+def passing_disc(binary, folder, random):
+    """A disc that passes its checks: without a mass, because no spring presses its follower on."""
+    while True:
+        found, text, _ = gcode.design(random)
+        text = re.sub(r"(?m)^(mass|inertia) = .*\n", "", text)
+        if found["kind"] == "disc" and make(binary, folder, text, "gcode").returncode == 0:
+            return text
+
+
 def main():
     asked = cases.given("cold_start", 15)
     random, folder = Random(int(asked.seed)), asked.directory
@@ -343,9 +352,7 @@ def main():
                         continue
                     raise AssertionError((index, kind, control, "runs without its stop"))
     # One program for each control, altered.
-    found, text, _ = gcode.design(random)
-    while found["kind"] != "disc" or make(asked.binary, folder, text, "gcode").returncode:
-        found, text, _ = gcode.design(random)
+    text = passing_disc(asked.binary, folder, random)
     text = gcode.with_cut(text, ["tool = 1", "spindle = 2400", 'depth = "4 mm"'])
     for control, ending in CONTROLS.items():
         for size in ([], ["--cutter-diameter", "2mm"]):
