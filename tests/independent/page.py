@@ -240,7 +240,7 @@ def prints(page, path):
     assert 1 <= pages <= (7 if path.stem == "beside" else 5), f"{path.name} has {pages} pages"
     if shutil.which("pdftoppm"):
         filled = [filled_share(path, number) for number in range(1, pages + 1)]
-        assert all(share > 0.55 for share in filled[:-1]) and filled[-1] > 0.15, f"{path.name}: pages filled to {filled}"
+        assert all(share > 0.5 for share in filled[:-1]) and filled[-1] > 0.15, f"{path.name}: pages filled to {filled}"
     return pages
 
 
