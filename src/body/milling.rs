@@ -9,7 +9,7 @@ use crate::geometry::MILLIMETRES;
 use crate::geometry::blocks::{Block, Grid};
 use crate::geometry::contour::{Contour, Edge, Segment};
 use crate::geometry::edge_tree::EdgeTree;
-use crate::geometry::lead_in::{LeadInForm, depth};
+use crate::geometry::lead_in::{self, LeadInForm, depth};
 use crate::machine::{Controller, CuttingData, MillingDirection, RadiusCompensation};
 use crate::numeric::parallel;
 use crate::profile::outline::{Fit, Outline, OutlineError, SegmentKind, Side};
@@ -82,12 +82,23 @@ pub struct MillingPass {
     pub words: String,
     /// Whether the cutter is on the left of its path (G41), else on the right.
     pub cutter_left: bool,
-    /// Where the control begins to keep its cutter on the left or right, before `start`, and where it ends to; mm.
-    pub compensated: Option<[Vector2<f64>; 2]>,
+    /// How the control takes up the radius of its cutter, if it keeps the cutter on the profile.
+    pub compensated: Option<Compensation>,
     /// Where the cutter goes down, mm.
     pub start: Vector2<f64>,
     /// To the flank, round it, and away from it.
     pub blocks: Vec<Block>,
+}
+
+/// The ends of a pass on which the control keeps its cutter, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Compensation {
+    /// Where the cutter goes down; from here to the start of the pass the control takes up its radius.
+    pub from: Vector2<f64>,
+    /// Where it ends the compensation.
+    pub to: Vector2<f64>,
+    /// The largest radius of a cutter that keeps clear of the metal on both.
+    pub largest_radius: f64,
 }
 
 /// Why there is no program.
@@ -112,6 +123,15 @@ const LEADS: [f64; 6] = [5.0, 2.5, 1.2, 0.6, 0.3, 0.1];
 const COMPENSATED_LEADS: [f64; 4] = [10.0, 5.0, 2.5, 1.2];
 /// A lead-in of this many radii of the cutter is large enough for every control.
 const LARGER: f64 = 1.1;
+/// Lengths of the straight ways on which the control takes up its compensation, over the size of the lead-in, in the order in which they are tried.
+const APPROACHES: [f64; 3] = [1.0, 2.0, 4.0];
+/// A cutter whose radius is not given must be smaller than this share of the distance from the start of the lead-in to its end: the radius of an arc.
+const COMPENSATED_SHARE: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Share of that from which on a lead-in is taken at once, and the least radius of a cutter for which one is of use, mm.
+const WHOLLY: f64 = 0.999;
+const LEAST_COMPENSATED: f64 = 0.5;
+/// Halvings in which the largest radius is found.
+const RADIUS_HALVINGS: u32 = 20;
 /// Depth below which a lead-in only touches the flank, as a share of the tolerance.
 const TOUCHES: f64 = 0.1;
 /// Radii that differ by less are equal, m.
@@ -382,13 +402,24 @@ fn passes(
     Ok(found)
 }
 
-/// The straight ways before the lead-in and behind the lead-out on which the control takes up its compensation and ends it.
-fn approach([to, from]: &[Segment; 2]) -> [Segment; 2] {
-    let size = (to.start - to.end).norm();
-    [
-        Segment { start: to.start - to.start_tangent() * size, end: to.start, bulge: 0.0 },
-        Segment { start: from.end, end: from.end + from.end_tangent() * size, bulge: 0.0 },
-    ]
+/// A lead-in and a lead-out, with the ways on which the control takes up its compensation and ends it.
+struct Leads {
+    to: Segment,
+    from: Segment,
+    compensated: Option<Compensation>,
+}
+
+/// The largest radius up to a wanted one, mm, that is clear.
+fn largest(wanted: f64, is_clear: impl Fn(f64) -> bool) -> f64 {
+    if is_clear(wanted) {
+        return wanted;
+    }
+    let (mut clear, mut wide) = (0.0, wanted);
+    for _ in 0..RADIUS_HALVINGS {
+        let middle = 0.5 * (clear + wide);
+        *(if is_clear(middle) { &mut clear } else { &mut wide }) = middle;
+    }
+    clear
 }
 
 impl Flank<'_> {
@@ -410,15 +441,12 @@ impl Flank<'_> {
             let (words, cutter_left) = (self.words.clone(), self.cutter_left);
             return Ok(MillingPass { words, cutter_left, compensated: None, start: at, blocks: round });
         };
-        let [to, from] = leads;
-        let to = Segment { end: at, ..to };
-        let from = Segment { start: at, ..from };
+        let to = Segment { end: at, ..leads.to };
+        let from = Segment { start: at, ..leads.from };
         let blocks = [grid.blocks(&[to]), round, grid.blocks(&[from])].concat();
         let start = grid.point(to.start);
-        let compensated = cutter.is_none().then(|| {
-            let [into, out] = approach(&[to, from]);
-            [grid.point(into.start), grid.point(out.end)]
-        });
+        let compensated =
+            leads.compensated.map(|ends| Compensation { from: grid.point(ends.from), to: grid.point(ends.to), ..ends });
         Ok(MillingPass { words: self.words.clone(), cutter_left: self.cutter_left, compensated, start, blocks })
     }
 
@@ -429,7 +457,7 @@ impl Flank<'_> {
         ends: (&Segment, &Segment),
         (cutter, room): (Option<f64>, Option<f64>),
         tolerance: f64,
-    ) -> Result<Option<[Segment; 2]>, Refusal> {
+    ) -> Result<Option<Leads>, Refusal> {
         if self.metal.is_empty() {
             return Ok(None);
         }
@@ -443,11 +471,16 @@ impl Flank<'_> {
             None => (LeadInForm::Arc, LEADS.to_vec()),
         };
         let fits = |size: &&f64| **size >= least && room.is_none_or(|room| **size <= room);
-        for size in sizes.iter().filter(fits) {
-            let leads = self.lead(ends, form, *size);
-            let ways = if cutter.is_none() { approach(&leads) } else { leads };
-            if leads.iter().chain(&ways).all(|way| self.is_free(way, tolerance)) {
+        if cutter.is_none() {
+            let radius = request.cutter_radius.map(|radius| MILLIMETRES * radius);
+            let all = sizes.iter().filter(fits).map(|size| self.lead(ends, form, *size));
+            if let Some(leads) = self.compensated(all, radius, tolerance) {
                 return Ok(Some(leads));
+            }
+        } else {
+            let mut all = sizes.iter().filter(fits).map(|size| self.lead(ends, form, *size));
+            if let Some([to, from]) = all.find(|leads| leads.iter().all(|lead| self.is_free(lead, tolerance))) {
+                return Ok(Some(Leads { to, from, compensated: None }));
             }
         }
         if cutter.is_some() && request.lead_in.is_none() {
@@ -479,6 +512,55 @@ impl Flank<'_> {
                 [to, Segment { start: at, end: at + (away(off) + off) * size, bulge }]
             }
         }
+    }
+
+    /// The first of some leads that keep a cutter of a radius (mm) clear of the metal, from the point at which it goes down on; without a radius the first that
+    /// do so for every cutter smaller than the lead-in, or those with room for the largest one.
+    fn compensated(
+        &self,
+        all: impl Iterator<Item = [Segment; 2]>,
+        radius: Option<f64>,
+        tolerance: f64,
+    ) -> Option<Leads> {
+        let mut best: Option<Leads> = None;
+        for ([to, from], stretch) in all.flat_map(|leads| APPROACHES.map(|stretch| (leads, stretch))) {
+            let size = (to.start - to.end).norm();
+            let (before, after) = (to.start_tangent() * (stretch * size), from.end_tangent() * (stretch * size));
+            let ends = [to.start - before, from.end + after];
+            let lead_in = [Segment { start: ends[0], end: to.start, bulge: 0.0 }, to];
+            let lead_out = [from, Segment { start: from.end, end: ends[1], bulge: 0.0 }];
+            if !lead_in.iter().chain(&lead_out).all(|way| self.is_free(way, tolerance)) {
+                continue;
+            }
+            let usual = COMPENSATED_SHARE * size;
+            let wanted = radius.map_or(usual, |radius| radius.max(usual));
+            let is_clear = |radius: f64| self.is_clear([&lead_in, &lead_out], radius, tolerance);
+            let largest_radius = largest(wanted, is_clear);
+            let leads =
+                Leads { to, from, compensated: Some(Compensation { from: ends[0], to: ends[1], largest_radius }) };
+            let is_enough = match radius {
+                Some(radius) => largest_radius >= radius,
+                None => largest_radius >= WHOLLY * usual,
+            };
+            if is_enough {
+                return Some(leads);
+            }
+            let room = |leads: &Leads| leads.compensated.map_or(0.0, |ends| ends.largest_radius);
+            if radius.is_none() && largest_radius > best.as_ref().map_or(LEAST_COMPENSATED, room) {
+                best = Some(leads);
+            }
+        }
+        best
+    }
+
+    /// Whether a cutter of a radius, mm, only touches the metal while the control takes up its radius and ends it.
+    fn is_clear(&self, [lead_in, lead_out]: [&[Segment; 2]; 2], radius: f64, tolerance: f64) -> bool {
+        let side = if self.cutter_left { 1.0 } else { -1.0 };
+        let ways = [
+            lead_in::path_of_centre(lead_in, side, radius),
+            lead_in::path_of_centre(&lead_in::reversed(lead_out), -side, radius),
+        ];
+        ways.iter().all(|way| lead_in::depth_along(self.metal, way, radius, TOUCHES * tolerance) <= tolerance)
     }
 
     /// Whether a lead-in only touches the metal.

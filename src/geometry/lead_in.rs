@@ -46,22 +46,63 @@ pub fn segment(contour: &Contour, form: LeadInForm, size: f64) -> Option<Segment
     })
 }
 
-/// How deep an edge cuts into the metal on the left of a chain, mm, 0 where it stays outside; found to within `fine` (mm).
+/// How deep an edge cuts into the metal on the left of a chain, mm, 0 if it stays outside; found to within `fine` (mm).
 #[must_use]
 pub fn depth(tree: &EdgeTree, edge: &Edge, fine: f64) -> f64 {
-    // No place is farther from another than this times the difference of their shares.
+    depth_of_disc(tree, edge, 0.0, fine)
+}
+
+/// How deep a disc of a radius (mm), whose centre moves along an edge, cuts into the metal on the left of a chain, mm, 0 if it stays outside; found to
+/// within `fine` (mm).
+#[must_use]
+pub fn depth_of_disc(tree: &EdgeTree, edge: &Edge, radius: f64, fine: f64) -> f64 {
+    // No point is farther from another than this times the difference of their shares.
     let length = match edge {
         Edge::Segment(segment) => segment.length(),
         Edge::Cubic(cubic) => cubic.legs().iter().map(|leg| 3.0 * leg.norm()).fold(0.0, f64::max),
     };
-    let (mut along, mut deepest) = (0.0, f64::NEG_INFINITY);
-    // No point is nearer to the chain than its distance less the way to it.
-    while along <= length {
-        let left = tree.nearest(edge.at(along / length).0).map_or(f64::INFINITY, |nearest| nearest.left);
+    let left_of = |point: Vector2<f64>| tree.nearest(point).map_or(f64::NEG_INFINITY, |nearest| nearest.left);
+    let mut deepest = left_of(edge.start()).max(-radius);
+    let mut along = 0.0;
+    // A point is at most the way to it nearer to the metal than another one.
+    while along <= length && length > 0.0 {
+        let left = left_of(edge.at(along / length).0);
         deepest = deepest.max(left);
-        along += (-left).max(fine).max(LEAST_STEP * length);
+        along += (deepest - left).max(fine).max(LEAST_STEP * length);
     }
-    deepest.max(0.0)
+    radius + deepest
+}
+
+/// The path of the centre of a cutter of a radius (mm) along a way in to a profile whose first segment takes up the compensation: it begins on the way
+/// and ends beside it, on the left if `side` is 1, on the right if it is −1. The others are parallels.
+#[must_use]
+pub fn path_of_centre(way: &[Segment], side: f64, radius: f64) -> Vec<Segment> {
+    let offset = |tangent: Vector2<f64>| Vector2::new(-tangent.y, tangent.x) * (side * radius);
+    let Some((first, rest)) = way.split_first() else { return Vec::new() };
+    let next = rest.first().map_or_else(|| first.end_tangent(), Segment::start_tangent);
+    let taken_up = Segment { end: first.end + offset(next), bulge: 0.0, ..*first };
+    let parallel = |segment: &Segment| Segment {
+        start: segment.start + offset(segment.start_tangent()),
+        end: segment.end + offset(segment.end_tangent()),
+        bulge: segment.bulge,
+    };
+    std::iter::once(taken_up).chain(rest.iter().map(parallel)).collect()
+}
+
+/// A way in the other sense.
+#[must_use]
+pub fn reversed(way: &[Segment]) -> Vec<Segment> {
+    way.iter().rev().map(|segment| Segment { start: segment.end, end: segment.start, bulge: -segment.bulge }).collect()
+}
+
+/// How deep a cutter of a radius (mm) cuts into the metal of any of the chains along paths of its centre, mm.
+#[must_use]
+pub fn depth_along(trees: &[EdgeTree], centre: &[Segment], radius: f64, fine: f64) -> f64 {
+    let of_tree = |tree: &EdgeTree| {
+        let depths = centre.iter().map(|segment| depth_of_disc(tree, &Edge::Segment(*segment), radius, fine));
+        depths.fold(0.0, f64::max)
+    };
+    trees.iter().map(of_tree).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

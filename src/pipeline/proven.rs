@@ -275,6 +275,7 @@ fn written_programs(
     let read = |(program, bytes): (&MillingProgram, &Vec<u8>)| WrittenProgram {
         cuts: program.cuts.clone(),
         cutter: program.cutter.map(|radius| MILLIMETRES * radius),
+        kept: request.cutter_radius.filter(|_| program.cutter.is_none()).map(|radius| MILLIMETRES * radius),
         middle: MILLIMETRES * request.fit.band().0,
         depth: milling::depth_of(body),
         program: read_gcode::read_for(bytes, Some(program.controller)).map_err(|why| why.to_string()),

@@ -125,9 +125,11 @@ impl Cam {
                 return Err(Error::Cutter(refusal.remedy("give the radius of the cutter")));
             }
         };
+        let given = expected.cutter.or(request.cutter_radius).filter(|_| kept);
         let programs = Ok(vec![WrittenProgram {
             cuts: (0..cuts.len()).collect(),
             cutter,
+            kept: given.map(|radius| MILLIMETRES * radius),
             middle: MILLIMETRES * request.fit.band().0,
             depth: depth_of(self.body()),
             program: Ok(program),

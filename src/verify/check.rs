@@ -65,6 +65,8 @@ pub struct WrittenProgram {
     pub cuts: Vec<usize>,
     /// Radius of the cutter whose centre is moved, mm; `None` where the control keeps its cutter on the profile.
     pub cutter: Option<f64>,
+    /// Radius of the cutter that the control keeps on the profile, mm, if it is given.
+    pub kept: Option<f64>,
     /// How far the middle of the tolerance band lies inwards of the exact profile, mm.
     pub middle: f64,
     /// How deep is cut, mm; `None` where it is not known.

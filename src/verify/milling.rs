@@ -73,6 +73,8 @@ struct LevelPass<'m> {
     /// mm below the upper face.
     depth: f64,
     moves: &'m [CutterMove],
+    /// The side of the cutter as it goes down.
+    side_before: CutterSide,
 }
 
 /// The passes of a program, in the order of its moves.
@@ -115,7 +117,9 @@ fn passes(program: &CutterProgram) -> Result<Vec<LevelPass<'_>>, ProgramFault> {
 
 fn pass(program: &CutterProgram, start: usize, end: usize) -> Option<LevelPass<'_>> {
     let moves = program.moves.get(start..end)?;
-    Some(LevelPass { depth: -moves.first()?.to[2], moves })
+    let before = start.checked_sub(1).and_then(|before| program.moves.get(before));
+    let side_before = before.map_or(CutterSide::Centre, |moved| moved.side);
+    Some(LevelPass { depth: -moves.first()?.to[2], moves, side_before })
 }
 
 /// What the first pass of a program leaves, counter-clockwise; `None` where it does not close, or the way round it leaves nothing.
@@ -136,6 +140,8 @@ struct ClosedPass<'m> {
     contour: Contour,
     /// Whether the loop runs counter-clockwise.
     left: bool,
+    /// The side of the cutter as it goes down.
+    side_before: CutterSide,
 }
 
 impl<'m> ClosedPass<'m> {
@@ -156,7 +162,7 @@ impl<'m> ClosedPass<'m> {
         let contour = Contour::of(edges.into_iter().map(Edge::Segment));
         let left = contour.area_and_centroid().0 > 0.0;
         let contour = if left { contour } else { contour.reversed() };
-        Ok(Self { way_in, round, way_out, contour, left })
+        Ok(Self { way_in, round, way_out, contour, left, side_before: pass.side_before })
     }
 
     /// The edges of its lead-in and lead-out.
@@ -207,6 +213,7 @@ fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedPro
             return Err(ProgramFault { why, value: deep, at: Some(way.start()) });
         }
     }
+    let room = if written.cutter.is_none() { cleared(&closed, &metal, (written.kept, limit))? } else { String::new() };
     deep_enough(&cuts, written, &deepest)?;
     if program.side_at_end != CutterSide::Centre {
         return Err(ProgramFault::new("the program ends while the control keeps the cutter beside its path"));
@@ -216,12 +223,131 @@ fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedPro
         Some(radius) => format!("the centre of a cutter Ø{} mm", shown(2.0 * radius)),
         None => "the profile, along which the control keeps its cutter".to_owned(),
     };
-    let unknown = remarks(evidence.body, written) + &leaves_its_path(program, limit);
+    let unknown = room + &remarks(evidence.body, written) + &leaves_its_path(program, limit);
     let (depth, passes) = (passes.iter().map(|pass| pass.depth).fold(0.0, f64::max), passes.len());
     let noun = if passes == 1 { "pass" } else { "passes" };
     let note =
         format!("{how}, {blocks} moves in {passes} {noun} to {} mm, as the control reads them{unknown}", shown(depth));
     Ok(JudgedProgram { value: worst.0, at: worst.1, note })
+}
+
+/// Radii of cutters up to which their way is judged where none is given, mm, and halvings in which the largest one is found.
+const LARGEST_KEPT: f64 = 25.0;
+const RADIUS_HALVINGS: u32 = 20;
+/// The least radius of a cutter that can be meant, mm.
+const LEAST_KEPT: f64 = 0.05;
+
+/// What a note says of the room of a cutter while the control takes up its radius; a fault if a given one, or any, cuts into the metal there.
+fn cleared(
+    closed: &[ClosedPass<'_>],
+    metal: &[EdgeTree],
+    (radius, limit): (Option<f64>, f64),
+) -> Result<String, ProgramFault> {
+    let ways: Vec<TakingUp> = closed.iter().flat_map(|pass| [pass.taking_up(), pass.ending()]).collect();
+    let deepest = |radius: f64| {
+        let depths = ways.iter().map(|way| (way.depth(metal, (radius, FINE_SHARE * limit)), way.at()));
+        depths.fold((0.0, None), |worst, next| if next.0 > worst.0 { next } else { worst })
+    };
+    if let Some(radius) = radius {
+        let (deep, at) = deepest(radius);
+        if deep <= limit {
+            return Ok(String::new());
+        }
+        let (diameter, depth) = (shown(2.0 * radius), shown(deep));
+        let why = format!(
+            "a cutter Ø{diameter} mm cuts {depth} mm into the cam as the control takes up its radius or ends it"
+        );
+        return Err(ProgramFault { why, value: deep, at });
+    }
+    if deepest(LARGEST_KEPT).0 <= limit {
+        return Ok(String::new());
+    }
+    let (mut clear, mut wide) = (0.0, LARGEST_KEPT);
+    for _ in 0..RADIUS_HALVINGS {
+        let middle = 0.5 * (clear + wide);
+        *(if deepest(middle).0 <= limit { &mut clear } else { &mut wide }) = middle;
+    }
+    if clear < LEAST_KEPT {
+        let why = "every cutter cuts into the cam as the control takes up its radius or ends it".to_owned();
+        return Err(ProgramFault { why, value: f64::INFINITY, at: deepest(wide).1 });
+    }
+    let largest = (TENTHS * clear).floor() / TENTHS;
+    Ok(format!(
+        "; a cutter of a radius up to {} mm is clear of the cam there, --cutter-diameter judges another",
+        shown(largest)
+    ))
+}
+
+/// Radii are named in tenths of a millimetre.
+const TENTHS: f64 = 10.0;
+
+/// The way of a cutter at the end of a pass on which the control takes up its radius, in the sense towards the profile.
+struct TakingUp {
+    /// Before the control does so: of the centre itself.
+    plain: Vec<Segment>,
+    /// From there on.
+    kept: Vec<Segment>,
+    /// 1 if the cutter is on the left of this way, −1 if on the right.
+    side: f64,
+    /// Whether the radius was taken up before the cutter went down.
+    is_taken_up: bool,
+    /// The end on the profile.
+    end: Vector2<f64>,
+}
+
+impl TakingUp {
+    fn depth(&self, metal: &[EdgeTree], (radius, fine): (f64, f64)) -> f64 {
+        let mut centre = self.plain.clone();
+        if !self.is_taken_up {
+            centre.extend(lead_in::path_of_centre(&self.kept, self.side, radius));
+        }
+        if self.plain.is_empty() && self.kept.is_empty() && !self.is_taken_up {
+            // The cutter goes down on the profile.
+            centre.push(Segment { start: self.end, end: self.end, bulge: 0.0 });
+        }
+        lead_in::depth_along(metal, &centre, radius, fine)
+    }
+
+    fn at(&self) -> Option<Vector2<f64>> {
+        self.plain.iter().chain(&self.kept).map(|segment| segment.start).next()
+    }
+}
+
+impl ClosedPass<'_> {
+    /// The way in.
+    fn taking_up(&self) -> TakingUp {
+        let is_plain = |moved: &&CutterMove| moved.side == CutterSide::Centre;
+        let plain = self.way_in.iter().take_while(is_plain).count();
+        let (plain, kept) = self.way_in.split_at_checked(plain).unwrap_or_default();
+        TakingUp {
+            plain: plain.iter().flat_map(CutterMove::segments).collect(),
+            kept: kept.iter().flat_map(CutterMove::segments).collect(),
+            side: self.side(),
+            is_taken_up: self.side_before != CutterSide::Centre,
+            end: self.round.first().map_or_else(Vector2::zeros, CutterMove::start),
+        }
+    }
+
+    /// The way out, in the sense towards the profile.
+    fn ending(&self) -> TakingUp {
+        let kept = self.way_out.iter().take_while(|moved| moved.side != CutterSide::Centre).count();
+        // The move that ends the compensation leads from beside the profile to the path itself.
+        let ending = (kept + 1).min(self.way_out.len());
+        let (kept_moves, plain) = self.way_out.split_at_checked(ending).unwrap_or_default();
+        let segments = |moves: &[CutterMove]| -> Vec<Segment> { moves.iter().flat_map(CutterMove::segments).collect() };
+        TakingUp {
+            plain: lead_in::reversed(&segments(plain)),
+            kept: lead_in::reversed(&segments(kept_moves)),
+            side: -self.side(),
+            is_taken_up: kept == self.way_out.len(),
+            end: self.round.first().map_or_else(Vector2::zeros, CutterMove::start),
+        }
+    }
+
+    /// 1 if the control keeps the cutter on the left of the pass, −1 if on the right.
+    fn side(&self) -> f64 {
+        if self.round.first().is_some_and(|moved| moved.side == CutterSide::Left) { 1.0 } else { -1.0 }
+    }
 }
 
 /// A pass along the flanks that it cuts: at least one, and none wrongly; whether the metal lies around it.

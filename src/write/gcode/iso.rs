@@ -206,7 +206,7 @@ impl IsoText<'_> {
         let cutting = &self.program.cutting;
         let (plunge, along) = (self.feed(cutting.plunge_feed), self.feed(cutting.feed));
         self.comment(&pass.words);
-        let start = pass.compensated.map_or(pass.start, |[from, _]| from);
+        let start = pass.compensated.map_or(pass.start, |ends| ends.from);
         self.approach(&format!("X{} Y{}", self.number(start.x), self.number(start.y)));
         self.at = start;
         self.line(&format!("G1 Z{} F{plunge}", self.number(-depth)));
@@ -225,9 +225,9 @@ impl IsoText<'_> {
         for block in &pass.blocks {
             self.block(block, feed.take().as_deref());
         }
-        if let Some([_, to]) = pass.compensated {
+        if let Some(ends) = pass.compensated {
             self.line("G40");
-            self.block(&Block::Line { to }, None);
+            self.block(&Block::Line { to: ends.to }, None);
         }
         self.up();
     }

@@ -114,7 +114,7 @@ impl DialogueText<'_> {
         let cutting = &self.program.cutting;
         let (plunge, along) = (self.feed(cutting.plunge_feed), self.feed(cutting.feed));
         self.block(format!("; {}", pass.words));
-        let start = pass.compensated.map_or(pass.start, |[from, _]| from);
+        let start = pass.compensated.map_or(pass.start, |ends| ends.from);
         let first = !std::mem::replace(&mut self.is_down, true);
         let starts = if first && cutting.spindle.is_some() { " M3" } else { "" };
         self.block(format!("L {} R0 FMAX{starts}", self.place(start)));
@@ -137,8 +137,8 @@ impl DialogueText<'_> {
                 }
             }
         }
-        if let Some([_, to]) = pass.compensated {
-            self.block(format!("L {} R0", self.place(to)));
+        if let Some(ends) = pass.compensated {
+            self.block(format!("L {} R0", self.place(ends.to)));
         }
         self.up();
     }

@@ -179,11 +179,8 @@ fn by_hand(program: &MillingProgram) -> Vec<String> {
     wanted.flat_map(|(_, line)| folded(&plain_text(line))).collect()
 }
 
-/// The radius that a cutter must stay below where the control keeps it on the profile, mm: that of the lead-in.
+/// The radius that a cutter must stay below if the control keeps it on the profile, mm.
 fn largest_compensated(program: &MillingProgram) -> f64 {
-    let of = |pass: &milling::MillingPass| {
-        let [from, _] = pass.compensated?;
-        Some((pass.start - from).norm() * std::f64::consts::FRAC_1_SQRT_2)
-    };
-    program.passes.iter().filter_map(of).fold(f64::INFINITY, f64::min)
+    let ends = program.passes.iter().filter_map(|pass| pass.compensated);
+    ends.map(|ends| ends.largest_radius).fold(f64::INFINITY, f64::min)
 }
