@@ -1,6 +1,7 @@
 //! The unit that a heading of a column names: `angle (rad)`, `lift, mm`, `cam_deg`, `Crank angle [°]`.
 
 mod factor;
+mod names;
 
 use crate::units::{self, Dimension};
 
@@ -86,6 +87,10 @@ const WORDS: &[(&str, &str)] = &[
     ("microinch", "µin"),
     ("microinches", "µin"),
     ("uin", "µin"),
+    ("yard", "yd"),
+    ("yards", "yd"),
+    ("permille", "‰"),
+    ("promille", "‰"),
     ("cad", "deg"),
     ("%", "%"),
     ("percent", "%"),
@@ -93,58 +98,44 @@ const WORDS: &[(&str, &str)] = &[
 
 /// Units that are known but not read, so that a column in them is refused instead of taken for another one.
 const OTHERS: &[&str] =
-    &["gon", "s", "ms", "sec", "dm", "ft", "µin", "rev", "rpm", "mm/deg", "mm/rad", "nm", "km", "‰"];
-
-/// What a bracket in a heading may say besides a unit.
-const DESCRIPTIONS: &[&str] = &[
-    "absolute",
-    "actual",
-    "arm",
-    "cam",
-    "corrected",
-    "crank",
-    "engine",
-    "exhaust",
-    "filtered",
-    "follower",
-    "inlet",
-    "intake",
-    "measured",
-    "nominal",
-    "offset",
-    "outlet",
-    "position",
-    "raw",
-    "roller",
-    "shaft",
-    "smoothed",
-    "tappet",
-    "valve",
-];
+    &["gon", "s", "ms", "sec", "dm", "ft", "yd", "µin", "rev", "rpm", "mm/deg", "mm/rad", "nm", "km", "‰"];
 
 /// Words for counts of an instrument; a count is a position only if its size is given.
 const COUNTS: &[&str] = &[
     "adc",
     "bit",
     "bits",
+    "cnt",
+    "cnts",
     "count",
     "counts",
+    "cts",
     "digit",
     "digits",
     "encoder",
+    "imp",
+    "imps",
     "impulse",
+    "impulsen",
+    "impulses",
+    "incr",
     "increment",
     "increments",
+    "inkr",
+    "inkrement",
     "inkremente",
     "lsb",
+    "lsbs",
     "mv",
     "pulse",
     "pulses",
     "raw",
+    "schritte",
     "step",
     "steps",
     "tick",
     "ticks",
+    "tics",
     "v",
     "volt",
     "volts",
@@ -179,7 +170,8 @@ impl HeadingUnit {
     /// The unit of a heading: that in brackets, or its last word that is a unit; `None` where it names none.
     ///
     /// # Errors
-    /// [`UnclearHeading`] where a bracket, or the word after `in`, is no unit that is known, or a factor stands beside the unit.
+    /// [`UnclearHeading`] where a bracket, the word after `in`, or one behind a quantity that is no usual name is no unit that is known, or a
+    /// factor stands beside the unit.
     pub fn read(heading: &str) -> Result<Option<Self>, UnclearHeading> {
         if let Some(factor) = factor::factor_in(heading) {
             return Err(UnclearHeading::Factor(factor));
@@ -193,12 +185,13 @@ impl HeadingUnit {
         }
         let words: Vec<&str> = words(heading).collect();
         let after_in = words.iter().position(|word| word.eq_ignore_ascii_case("in")).and_then(|at| words.get(at + 1));
-        let is_described = |text: &str| {
-            let named = |word: &str| DESCRIPTIONS.contains(&word.to_lowercase().as_str());
-            text.contains(|c: char| c.is_ascii_digit()) || self::words(text).any(named)
-        };
+        let is_described =
+            |text: &str| text.contains(|c: char| c.is_ascii_digit()) || self::words(text).any(names::is_name);
         let unknown =
             bracket.map(str::trim).filter(|text| !text.is_empty() && !is_described(text)).or(after_in.copied());
+        let unknown = unknown.or_else(|| {
+            names::strange_word(words.iter().flat_map(|word| word.split('/')).filter(|word| !word.is_empty()))
+        });
         unknown.map_or(Ok(None), |text| Err(UnclearHeading::Unknown(text.to_owned())))
     }
 
@@ -268,14 +261,33 @@ pub fn derivative_in(heading: &str) -> Option<&'static str> {
     found.copied()
 }
 
-/// Whether a heading names radii (of the profile or of the roller-centre path) instead of a lift.
+/// Whether a heading names radii, diameters or distances, which are no lift: they are those of the profile, or of the path of a roller's centre.
 #[must_use]
 pub fn is_radius(heading: &str) -> bool {
-    const RADII: &[&str] = &["radius", "radii", "radial", "radien", "r", "rho", "halbmesser", "rayon", "raggio"];
-    const LIFTS: &[&str] = &["lift", "position", "travel", "stroke", "rise", "displacement", "hub", "weg"];
+    const RADII: &[&str] =
+        &["radius", "radii", "radial", "radien", "r", "rho", "halbmesser", "rayon", "raggio", "distance", "abstand"];
+    (has_word(heading, RADII) || is_diameter(heading)) && !is_lift(heading)
+}
+
+/// Whether a heading names diameters.
+#[must_use]
+pub fn is_diameter(heading: &str) -> bool {
+    const DIAMETERS: &[&str] =
+        &["diameter", "diameters", "diam", "dia", "durchmesser", "diametre", "diamètre", "diametro", "ø"];
+    has_word(heading, DIAMETERS)
+}
+
+/// Whether a heading names the lift of a follower.
+#[must_use]
+pub fn is_lift(heading: &str) -> bool {
+    const LIFTS: &[&str] =
+        &["lift", "position", "travel", "stroke", "rise", "displacement", "hub", "ventilhub", "weg", "levee", "levée"];
+    has_word(heading, LIFTS)
+}
+
+fn has_word(heading: &str, names: &[&str]) -> bool {
     let lower = heading.to_lowercase();
-    let has = |names: &[&str]| words(&lower).any(|word| names.contains(&word));
-    has(RADII) && !has(LIFTS)
+    words(&lower).any(|word| names.contains(&word))
 }
 
 /// Whether a heading speaks of the angle of a crank: `crank deg`, `Crank Angle`, `°CA`.
@@ -341,9 +353,68 @@ mod tests {
         "angle deg*10",
         "Hub 0,001 Zoll",
         "lift (8 mm)",
+        "lift milli-inch",
+        "lift micro inch",
+        "10 x lift mm",
+        "lift mm 2x",
+        "lift 2x mm",
+        "2 x lift",
     ];
-    const COUNTED: &[&str] =
-        &["counts", "lift (pulses)", "encoder", "raw", "ADC", "lift raw", "lift [counts]", "lift in counts"];
+    /// Headings without a unit, as people write them.
+    const NAMED: &[&str] = &[
+        "angle",
+        "lift",
+        "x (intake)",
+        "Opens at",
+        "lift L1",
+        "lift 1",
+        "lift (cam 3)",
+        "lift of follower",
+        "lift of Smith's cam",
+        "Hub s",
+        "Hub Einlass",
+        "Hub des Stößels",
+        "s(phi)",
+        "s (θ)",
+        "Lift A",
+        "lift_intake",
+        "lift exhaust valve",
+        "follower position",
+        "position actual",
+        "actual position",
+        "Weg Schlitten Ist",
+        "cam angle",
+        "angle of cam",
+        "crank angle",
+        "Winkel Kurve",
+        "phi",
+        "master position",
+        "slave position",
+        "lift (measured)",
+        "measured lift",
+        "lift table",
+        "lift curve of 1998",
+        "rise left",
+        "needle travel",
+        "stroke ram",
+        "valve lift intake",
+        "opening",
+    ];
+    const COUNTED: &[&str] = &[
+        "counts",
+        "lift (pulses)",
+        "encoder",
+        "raw",
+        "ADC",
+        "lift raw",
+        "lift [counts]",
+        "lift in counts",
+        "lift cts",
+        "lift cnt",
+        "Hub Imp",
+        "Hub Inkr.",
+        "position (incr)",
+    ];
 
     #[test]
     fn the_unit_of_a_heading_is_found() {
@@ -382,6 +453,10 @@ mod tests {
             ("s / mm", "mm"),
             ("lift ‰", "‰"),
             ("lift nm", "nm"),
+            ("lift yards", "yd"),
+            ("lift permille", "‰"),
+            ("s(phi) mm", "mm"),
+            ("Hub s (mm)", "mm"),
         ] {
             assert_eq!(
                 HeadingUnit::read(heading).map(|unit| unit.map(HeadingUnit::symbol)),
@@ -393,9 +468,16 @@ mod tests {
 
     #[test]
     fn headings_that_cannot_be_read_are_refused() {
-        for (heading, unknown) in
-            [("lift (furlong)", "furlong"), ("lift in furlongs", "furlongs"), ("Hub [Elle]", "Elle")]
-        {
+        for (heading, unknown) in [
+            ("lift (furlong)", "furlong"),
+            ("lift in furlongs", "furlongs"),
+            ("Hub [Elle]", "Elle"),
+            ("lift dmm", "dmm"),
+            ("lift/dmm", "dmm"),
+            ("Ventilhub Linien", "Linien"),
+            ("s u", "u"),
+            ("lift valve zll", "zll"),
+        ] {
             assert_eq!(HeadingUnit::read(heading), Err(UnclearHeading::Unknown(unknown.to_owned())), "{heading}");
         }
         for heading in FACTORS {
@@ -415,9 +497,10 @@ mod tests {
         }
         assert_eq!(derivative_in("Velocity"), Some("velocity"));
         assert_eq!(derivative_in("lift"), None);
-        for heading in ["angle", "lift", "s", "x (intake)", "Opens at", "lift L1", "lift (cam 3)"] {
-            assert!(HeadingUnit::of(heading).is_none_or(|unit| heading == "s" && unit.symbol() == "s"), "{heading}");
+        for heading in NAMED {
+            assert_eq!(HeadingUnit::read(heading), Ok(None), "{heading}");
         }
+        assert_eq!(HeadingUnit::of("s").map(HeadingUnit::symbol), Some("s"));
         assert!(
             is_radius("radius_mm")
                 && is_radius("R [mm]")

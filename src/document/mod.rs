@@ -27,7 +27,7 @@ mod words;
 pub use bounds::{Bounds, above, within};
 pub use columns::{Columns, FileRow, parts};
 pub use fault::{Excerpt, FileFault, similar};
-pub use heading::{HeadingUnit, UnclearHeading, derivative_in, is_of_crank, is_radius};
+pub use heading::{HeadingUnit, UnclearHeading, derivative_in, is_diameter, is_lift, is_of_crank, is_radius};
 pub use input::Input;
 pub use key::{Field, Key, KeyForm, KeySection, LengthAngleOrShare, LengthOrAngle, Occurrence, PointList, Presence};
 pub use named::NamedFiles;

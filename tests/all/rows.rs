@@ -563,8 +563,12 @@ fn headings_with_factors_counts_or_radii_are_refused() {
         let scaled = made(&of_table("scale = 0.01\nunit = \"mm\"", &with(heading)));
         assert!((range(&scaled).1 - 0.08).abs() < 1e-9, "{heading}");
     }
-    for heading in ["counts", "pulses", "raw", "ADC"] {
-        refused(&of_table("", &with(heading)), &["whose size is unknown", "scale"]);
+    refused(&of_table("", &with("lift milli-inch")), &["has a factor", "milli"]);
+    refused(&of_table("", &with("lift dmm")), &["\"dmm\", which is no unit that is known", "unit = \"mm\""]);
+    made(&of_table("unit = \"mm\"", &with("lift dmm")));
+    refused(&of_table("", &with("lift yards")), &["the positions are in yd"]);
+    for heading in ["counts", "pulses", "raw", "ADC", "lift cts", "Hub Inkr."] {
+        refused(&of_table("", &with(heading)), &["whose size is not known", "scale"]);
     }
     refused(&of_table("", &with("radius mm")), &["has radii", "--as pitch"]);
     // In a comma-separated file a decimal comma splits a heading.

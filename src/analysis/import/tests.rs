@@ -5,7 +5,15 @@ use std::f64::consts::TAU;
 fn rows(value: impl Fn(f64) -> f64) -> TableRows {
     let angles: Vec<f64> = (0..360).map(|degree| f64::from(degree).to_radians()).collect();
     let positions = angles.iter().map(|angle| value(*angle)).collect();
-    TableRows { quantity: Quantity::Length, fill: TAU, angles, positions, rounding: 0.0, told: Vec::new() }
+    TableRows {
+        quantity: Quantity::Length,
+        fill: TAU,
+        angles,
+        positions,
+        rounding: 0.0,
+        has_lifts: true,
+        told: Vec::new(),
+    }
 }
 
 fn imported(rows: TableRows) -> Analysis {

@@ -19,6 +19,15 @@ const PARTS: &[&str] = &[
     "scale",
     "multipl",
     "times",
+    "double",
+    "doppelt",
+    "twice",
+];
+
+/// Multiples and parts of a unit as a word of their own: `milli-inch`.
+const PREFIXES: &[&str] = &[
+    "milli", "micro", "mikro", "centi", "zenti", "deci", "dezi", "nano", "kilo", "deca", "deka", "hecto", "hekto",
+    "mega",
 ];
 
 /// Units of instrument steps.
@@ -60,7 +69,8 @@ pub(super) fn factor_in(heading: &str) -> Option<String> {
         let number = word.trim_end_matches('s').strip_suffix("th");
         number.is_some_and(|number| !number.is_empty() && number.chars().all(|c| c.is_ascii_digit()))
     };
-    let word = |word: &&str| ordinal(word) || PARTS.iter().any(|part| word.starts_with(part));
+    let word =
+        |word: &&str| ordinal(word) || PREFIXES.contains(word) || PARTS.iter().any(|part| word.starts_with(part));
     if let Some(part) = lower.split(|c: char| !c.is_alphanumeric()).find(word) {
         return Some(part.to_owned());
     }
@@ -173,7 +183,7 @@ fn is_product(parts: &[Part]) -> bool {
             Some(Part::Sign('x')) => {
                 let named = before.is_none_or(|before| !before.is_unit() && !before.is_number());
                 let large = after.is_some_and(|after| after.multiplies());
-                (number(after) && (large || !named)) || (number(before) && after.is_some_and(|after| after.is_unit()))
+                number(before) || (number(after) && (large || !named))
             }
             Some(Part::Sign(_)) => number(after) || number(before),
             _ => false,

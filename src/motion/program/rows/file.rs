@@ -2,8 +2,8 @@
 
 use super::{Origin, RowPlace, Rows};
 use crate::document::{
-    Columns, Field, FileRow, HeadingUnit, LengthOrAngle, TableReader, UnclearHeading, derivative_in, is_of_crank,
-    is_radius,
+    Columns, Field, FileRow, HeadingUnit, LengthOrAngle, TableReader, UnclearHeading, derivative_in, is_lift,
+    is_of_crank, is_radius,
 };
 use crate::motion::Quantity;
 use crate::motion::program::context::ProgramContext;
@@ -188,9 +188,12 @@ fn unread(table: &TableReader<'_>, file: &Columns, chosen: &Chosen) -> Option<St
 fn has_positions(table: &TableReader<'_>, file: &Columns, position: usize) -> bool {
     let heading = file.headings().get(position).map_or("", String::as_str);
     if is_radius(heading) {
-        let message =
-            format!("column {} of `{}` has radii, not lifts, by its heading \"{heading}\"", position + 1, file.name());
-        let help = "`camgen import --as profile` or `--as pitch` makes a design from radii; columns = [1, 2] reads them as positions";
+        let message = format!(
+            "column {} of `{}` has radii, diameters or distances by its heading \"{heading}\", not lifts",
+            position + 1,
+            file.name()
+        );
+        let help = "`camgen import --as profile` or `--as pitch` makes a design of radii, under the heading radius_mm; columns = [1, 2] takes them as positions";
         table.fail(&TABLE, message, Some(help.into()));
         return false;
     }
@@ -542,12 +545,13 @@ pub(in crate::motion::program) fn read(table: &TableReader<'_>, whole: ProgramCo
         row,
         line: Some(read.line()),
     });
+    let has_lifts = table.has(&COLUMNS) || table.has(&LIFT) || is_lift(heading(position));
     let bare = angle.is_some() && heading(angle.unwrap_or(0)).is_empty() && given[0].is_none();
     Some(Rows {
         points: points.collect(),
         rounding: of_position,
         rounding_of_angles: if angle.is_some() { of_angle } else { 0.0 },
-        origin: Origin::File { in_degrees: bare || angles.by == DEGREE, span: ends.1 - ends.0 },
+        origin: Origin::File { in_degrees: bare || angles.by == DEGREE, span: ends.1 - ends.0, has_lifts },
         told,
     })
 }

@@ -38,8 +38,9 @@ pub(super) struct RowPlace {
 /// Where rows come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Origin {
-    /// A file; its angles count as degrees unless it is said otherwise, and cover this span as they are written.
-    File { in_degrees: bool, span: f64 },
+    /// A file; its angles count as degrees unless it is said otherwise, and cover this span as they are written. Its positions are lifts by a key
+    /// or a heading, or may be anything.
+    File { in_degrees: bool, span: f64, has_lifts: bool },
     /// Points of the machine file.
     Points,
     /// Samples of a program.
@@ -136,8 +137,25 @@ pub struct TableRows {
     pub positions: Vec<f64>,
     /// The step to which the positions are rounded; 0 where none is seen.
     pub rounding: f64,
+    /// Whether a key or a heading says that the positions are lifts.
+    pub has_lifts: bool,
     /// What was read otherwise than as it stands, in words.
     pub told: Vec<String>,
+}
+
+/// Least radius of a cam, as a share of its lift.
+const LEAST_RADIUS: f64 = 0.1;
+
+impl TableRows {
+    /// The least and the largest position, m, where they may be radii of a cam: nothing says that they are lifts, and none is near 0.
+    #[must_use]
+    pub fn possible_radii(&self) -> Option<(f64, f64)> {
+        let ends = |(low, high): (f64, f64), value: &f64| (low.min(*value), high.max(*value));
+        let (low, high) = self.positions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+        let may_be =
+            self.quantity == Quantity::Length && !self.has_lifts && high > low && low > LEAST_RADIUS * (high - low);
+        may_be.then_some((low, high))
+    }
 }
 
 /// The rows of the file of `table`, as they are.
@@ -151,6 +169,7 @@ pub(super) fn table_rows(table: &TableReader<'_>, whole: ProgramContext) -> Opti
         angles: turn.knots.iter().take(count).map(|knot| turn.at + whole.fill * knot).collect(),
         positions: turn.values.iter().take(count).copied().collect(),
         rounding: rows.rounding,
+        has_lifts: matches!(rows.origin, Origin::File { has_lifts: true, .. }),
         told: rows.told,
     })
 }

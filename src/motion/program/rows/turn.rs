@@ -277,7 +277,7 @@ fn uncovered(rows: &Rows, fill: f64, open: f64, equal: bool) -> RowsFault {
         ways.push(if ways.is_empty() { "add rows" } else { "or add rows" });
         ways.join(", ")
     };
-    if let Origin::File { in_degrees: true, span } = rows.origin {
+    if let Origin::File { in_degrees: true, span, .. } = rows.origin {
         if looks_like_radians(span) {
             let message = format!("{what}: are these radians?");
             let help = "set unit = \"rad\", or write a heading such as \"angle (rad)\"";
