@@ -213,9 +213,10 @@ fn closed(rows: &mut Rows, fill: f64, same: f64) -> Result<bool, RowsFault> {
         match twin {
             Some(twin) if (twin.position - row.position).abs() <= SAME_PLACE * size => {}
             Some(twin) if twin.row == first.row && beyond.len() == 1 => {
+                let (name, one) = (rows.name(), rows.words().1.trim_end_matches('s'));
+                let ends = if name == "table" { "does not end where it begins" } else { "do not end where they begin" };
                 let message = format!(
-                    "the {} does not end where it begins: row {} is {} deg after row {} and has another position",
-                    rows.name(),
+                    "the {name} {ends}: {one} {} is {} deg after {one} {} and has another position",
                     row.row + 1,
                     degrees(fill),
                     first.row + 1
