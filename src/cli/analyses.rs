@@ -210,7 +210,9 @@ pub(crate) fn compare_of(
     let file = args.measured.display();
     let text = table_text_of(&args.measured, LARGEST_MEASURED)
         .map_err(|why| Failure(format!("cannot read `{file}`: {why}")))?;
-    let points = measured::read(&text).map_err(|why| Failure(format!("`{file}`: {why}")))?;
+    let wrong = |why: camgen::Refusal| Failure(format!("`{file}`: {why}"));
+    let points = measured::read(&text).map_err(wrong)?;
+    let ball = measured::stated(&text).ball(args.ball.radius().map(|radius| 1e3 * radius)).map_err(wrong)?;
     let (machine, name) = load()?;
     let spec = Spec::of_program(machine, args.rpm).ok_or_else(|| {
         Failure(format!("{} has no motion: give the file of a cam that `camgen make` cuts", args.machine))
@@ -230,7 +232,7 @@ pub(crate) fn compare_of(
         _ if names.is_empty() => return Err(Failure("--flank is for a body with several flanks".into())),
         _ => return Err(Failure(format!("give --flank {}", names.join(" or --flank ")))),
     };
-    let options = ComparisonOptions { ball: args.ball.radius().unwrap_or(0.0), fit: args.fit };
+    let options = ComparisonOptions { ball: 1e-3 * ball.unwrap_or(0.0), fit: args.fit };
     Ok((comparison::analysis(cam.body(), cut, &points, options).map_err(Failure::new)?, name))
 }
 

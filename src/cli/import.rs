@@ -12,6 +12,7 @@ use camgen::motion::program::rows::TableRows;
 use camgen::pipeline::{Judged, Writing};
 use camgen::reading::outline::outline_of;
 use camgen::reading::{LARGEST_FILE, step};
+use camgen::report::shown;
 use std::path::Path;
 
 /// The formats that are written by default.
@@ -41,14 +42,12 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
         ImportForm::Points => {
             let text = table_text_of(&args.file, LARGEST_TABLE).map_err(|why| unread(&file, &why))?;
             let mut stated = measured::stated(&text);
-            // Radii without headings are of the curve given by --as.
-            stated.is_polar |= args.taken_as.is_some() && !stated.has_names;
+            // Columns that no heading names are those that --as says.
+            stated.is_polar |= args.taken_as.is_some() && !stated.has_columns;
             let read = if stated.is_polar { measured::read_radii } else { measured::read };
             let points = read(&text).map_err(|why| Failure(format!("`{file}`: {why}")))?;
-            ImportSource::Points(
-                as_stated(points, args, &mut options, stated)?,
-                1e3 * args.ball.radius().unwrap_or(0.0),
-            )
+            let ball = set_curve(args, &mut options, stated)?;
+            ImportSource::Points(against_rotation(points, &mut options, stated), ball)
         }
     };
     let analysis = import::analysis(&source, &options).map_err(|why| Failure(format!("`{file}`: {why}")))?;
@@ -79,13 +78,8 @@ fn form_said(args: &ImportArgs) -> Result<Option<ImportForm>, Failure> {
     Ok(said.first().copied())
 }
 
-/// Applies curve, angles and rotation of the points, as stated by the flags and the file.
-fn as_stated(
-    points: Vec<Vector2<f64>>,
-    args: &ImportArgs,
-    options: &mut ImportOptions,
-    stated: PointsStated,
-) -> Result<Vec<Vector2<f64>>, Failure> {
+/// Sets the curve on which points lie, as flags or their file state it, and returns the radius of the ball whose centres they are, mm.
+fn set_curve(args: &ImportArgs, options: &mut ImportOptions, stated: PointsStated) -> Result<f64, Failure> {
     let by_as = match args.taken_as {
         Some(ImportAs::Profile) => Some(PointsOf::Profile),
         Some(ImportAs::Pitch) => Some(PointsOf::Centre),
@@ -94,27 +88,48 @@ fn as_stated(
     if by_as.is_some() && args.points_of.is_some() && by_as != args.points_of {
         return Err(Failure("--as and --points-of contradict each other; give one of them".into()));
     }
-    options.points_of = by_as.or(args.points_of).or(stated.of);
-    if args.ball.radius().is_some() && options.points_of == Some(PointsOf::Centre) {
+    let by_flag = by_as.or(args.points_of);
+    let file = args.file.display();
+    options.has_angles = stated.is_polar;
+    let ball = stated
+        .ball(args.ball.radius().map(|radius| 1e3 * radius))
+        .map_err(|why| Failure(format!("`{file}`: {why}")))?;
+    if matches!(stated.of, Some(PointsOf::Tool | PointsOf::Gauge)) {
+        if by_flag.is_some() {
+            return Err(Failure(format!(
+                "`{file}` gives the path of the centre of a cutter, wheel or gauge by its head; leave --as and --points-of out"
+            )));
+        }
+        return Ok(ball.unwrap_or(0.0));
+    }
+    options.points_of = by_flag.or(stated.of);
+    if ball.is_some() && options.points_of == Some(PointsOf::Centre) {
         return Err(Failure(
             "--ball is for centres of a measuring ball, but the points are roller centres; remove one of the two"
                 .into(),
         ));
     }
-    if stated.is_polar && options.points_of.is_none() && args.ball.radius().is_none() {
+    if stated.is_polar && options.points_of.is_none() && ball.is_none() {
         return Err(Failure(format!(
-            "`{}` has radii of an unstated curve (profile or roller's centre); give --as profile or --as pitch",
-            args.file.display()
+            "`{file}` has radii: whether of the profile or of the roller's centre is not stated; give --as profile or --as pitch"
         )));
     }
-    options.has_angles = stated.is_polar;
-    if !stated.turns_back {
-        return Ok(points);
+    Ok(ball.unwrap_or(0.0))
+}
+
+/// Points whose angles are against the rotation of the cam, as they lie in a drawing.
+fn against_rotation(points: Vec<Vector2<f64>>, options: &mut ImportOptions, stated: PointsStated) -> Vec<Vector2<f64>> {
+    let rotation = options.settings.iter().find_map(|key| key.trim_start().strip_prefix("cam.rotation"));
+    // The head of a table of a gauge does not state the rotation.
+    let turns_back = stated.turns_back
+        || (stated.of == Some(PointsOf::Gauge) && rotation.is_some_and(|value| value.contains("ccw")));
+    if !turns_back {
+        return points;
     }
-    if !options.settings.iter().any(|key| key.trim_start().starts_with("cam.rotation")) {
+    if rotation.is_none() {
         options.settings.push("cam.rotation=ccw".into());
     }
-    Ok(points.into_iter().map(|point| Vector2::new(point.x, -point.y)).collect())
+    points.into_iter().map(|point| Vector2::new(point.x, -point.y)).collect()
 }
 
 fn unread(file: &str, why: &camgen::Refusal) -> Failure {
@@ -269,7 +284,14 @@ fn table(args: &ImportArgs, options: &ImportOptions) -> Result<ImportSource, Fai
         TableRows::load(&text, &all).map_err(Failure::new)
     };
     match read(options) {
-        Ok(rows) => Ok(ImportSource::Table(rows)),
+        Ok(rows) => match rows.possible_radii().filter(|_| args.taken_as.is_none()) {
+            None => Ok(ImportSource::Table(rows)),
+            Some((low, high)) => Err(Failure(format!(
+                "`{file}`: positions of {} to {} mm may be radii, and no heading names a lift; give --as lift, --as profile or --as pitch",
+                shown(1e3 * low),
+                shown(1e3 * high)
+            ))),
+        },
         Err(why) if options.follower.is_none() && why.0.contains("motion.start") => Err(Failure(format!(
             "{why}\n  without --follower the positions are lengths; for angles give the follower that swings, e.g. --follower \
              swinging-roller,diameter=32mm,arm=110mm,pivot_distance=140mm"

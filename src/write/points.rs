@@ -3,6 +3,7 @@
 
 use super::number::{plain, shortest};
 use super::{Format, FormatSelection, fits_all, of_outlines};
+use crate::analysis::compare::measured::stated_radius;
 use crate::body::Body;
 use crate::body::points::{PointCurve, PointErrors, PointTable, by_travel, swings};
 use crate::geometry::MILLIMETRES;
@@ -313,12 +314,7 @@ pub fn stated(bytes: &[u8]) -> StatedCurve {
         _ if given.contains("roller") => PointCurve::Centre,
         _ => PointCurve::Profile,
     };
-    let radius = given.split_once("radius ").and_then(|(_, rest)| {
-        let mut words = rest.split([' ', ',']);
-        let number = words.next()?.parse::<f64>().ok()?;
-        let unit = if words.next() == Some("in") { LengthUnit::Inch } else { LengthUnit::Millimetre };
-        Some(unit.millimetres() * number)
-    });
+    let radius = stated_radius(given);
     let cutter = radius.filter(|_| curve == PointCurve::Cutter).map(|radius| radius / MILLIMETRES);
     let step = if line("points").contains("equal error") { PointStep::Chord } else { PointStep::Angle };
     StatedCurve { curve, cutter, step }

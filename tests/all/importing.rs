@@ -358,7 +358,94 @@ fn radii_are_asked_for_and_give_the_base_radius() {
     }
 }
 
-/// Data with their own angles keep them; for other points the design states their rotation.
+/// What `make` writes of a cam, imported again, gives its base radius, whichever curve the file has.
+#[test]
+fn files_of_a_cam_give_its_base_radius() {
+    let made = |words: &str| {
+        let words = format!("make feeder --out . --name cam --quiet {words}");
+        let directory = tempfile::tempdir().expect("a directory");
+        camgen_in(directory, &words.split(' ').collect::<Vec<_>>())
+    };
+    let roller = "--follower roller,radius=15mm --json --dry-run --out o";
+    for (make, file, import) in [
+        ("--format csv,dxf", "cam.csv", "--from points"),
+        ("--format csv,dxf --units inch", "cam.csv", "--from points"),
+        ("--format csv,dxf", "cam.dxf", "--from outline"),
+        ("--format points", "cam-points.csv", ""),
+        ("--format points --points-as xy", "cam-points.csv", ""),
+        ("--format points --points-of centre", "cam-points.csv", ""),
+        ("--format points --points-of centre --points-as xy", "cam-points.csv", ""),
+        ("--format points --points-of cutter --cutter-diameter 20mm", "cam-points.csv", ""),
+        ("--format points --points-of cutter --cutter-diameter 20mm --points-as xy", "cam-points.csv", ""),
+        ("--format points --points-of cutter --cutter-diameter 20mm --units inch", "cam-points.csv", "--ball 10mm"),
+        ("--format points --points-of cutter --cutter-diameter 20mm --set cam.rotation=ccw", "cam-points.csv", ""),
+        ("--format gauge", "cam-gauge.csv", ""),
+        ("--format gauge --units inch", "cam-gauge.csv", ""),
+        ("--format gauge --set cam.rotation=ccw", "cam-gauge.csv", "--set cam.rotation=ccw"),
+    ] {
+        let run = made(make);
+        assert_eq!(run.code, 0, "{make}: {}", run.err);
+        let words = format!("import {file} {roller} {import}");
+        let run = camgen_in(run.directory, &words.split_whitespace().collect::<Vec<_>>());
+        let imported = report(&run)["import"].clone();
+        assert!(run.code == 0 && (base_radius(&run) - 17.0).abs() < 0.02, "{make}: {imported}{}", run.err);
+        // The rise of the feeder is quicker than its return.
+        let law = &imported["segments"][0];
+        assert_eq!(number(&law["to_deg"]).round(), 120.0, "{make}: {imported}");
+    }
+    let told = |make: &str, words: &str, part: &str| {
+        let run = camgen_in(made(make).directory, &words.split_whitespace().collect::<Vec<_>>());
+        assert!(run.code == 2 && run.err.contains(part), "{words}: {}{}", run.out, run.err);
+    };
+    let cutter = "--format points --points-of cutter --cutter-diameter 20mm";
+    let words = |file: &str, more: &str| format!("import {file} {roller} {more}");
+    told(cutter, &words("cam-points.csv", "--as profile"), "leave --as and --points-of out");
+    told(cutter, &words("cam-points.csv", "--ball 5mm"), "leave --ball out");
+    told("--format gauge", "import cam-gauge.csv --dry-run", "has radii, diameters or distances");
+    told("--format gauge --gauge flat", &words("cam-gauge.csv", ""), "--columns cam_deg,lift_mm --follower flat");
+}
+
+/// Only the columns that are read say on which curve their points are.
+#[test]
+fn a_column_beside_the_points_does_not_name_their_curve() {
+    let knife = ["--follower", "roller,diameter=20mm", "--json", "--dry-run"];
+    let of = |head: &str| {
+        let run = import(points(head, |d, x, y| format!("{},0", plain(d, x, y))).as_bytes(), &knife);
+        base_radius(&run)
+    };
+    for head in ["x_mm,y_mm,dev", "x_mm,y_mm,roller_radius_mm", "x_mm,y_mm,pitch_curvature_radius_mm"] {
+        assert!((of(head) - of("x,y,")).abs() < 1e-9, "{head}");
+    }
+}
+
+/// What may be radii, and no heading says that they are lifts, is asked for.
+#[test]
+fn possible_radii_are_asked_for() {
+    let roller = ["--follower", "roller,diameter=40mm", "--dry-run"];
+    let of = |text: &str, more: &[&str]| import(text.as_bytes(), &[&roller[..], more].concat());
+    for head in ["", "deg;mm\n", "cam angle;cam profile mm\n", "angle,y\n"] {
+        let text = polar(head, 60.0);
+        let text = if head.contains(';') { text.replace(',', ";") } else { text };
+        let run = of(&text, &[]);
+        assert!(run.code == 2 && run.err.contains("positions of 60 to 80 mm may be radii"), "{head}: {}", run.err);
+        assert_eq!(of(&text, &["--as", "lift"]).code, 0, "{head}");
+        assert!((base_radius(&of(&text, &["--as", "profile", "--json"])) - 60.0).abs() < 1e-3, "{head}");
+    }
+    for head in ["deg,lift mm\n", "cam_deg,position\n", "Winkel,Hub\n"] {
+        assert_eq!(of(&polar(head, 60.0), &[]).code, 0, "{head}");
+    }
+    assert_eq!(of(&polar("", 0.5), &[]).code, 0, "lifts with a clearance");
+    for head in ["angle deg,diameter mm\n", "deg,distance from centre mm\n", "deg,Durchmesser\n"] {
+        let text = polar(head, 60.0);
+        let run = of(&text, &[]);
+        assert!(run.code == 2 && run.err.contains("has radii, diameters or distances"), "{head}: {}", run.err);
+        let run = of(&text, &["--as", "profile"]);
+        let code = if head.contains("distance") { 0 } else { 2 };
+        assert!(run.code == code && (code == 0 || run.err.contains("no columns of points")), "{head}: {}", run.err);
+    }
+}
+
+/// What lies at an angle of its own stays there; of other points the design states by how much they were turned.
 #[test]
 fn the_design_states_by_how_much_it_was_turned() {
     let plane = points("x,y", plain);
@@ -411,14 +498,16 @@ fn compare_refuses_points_in_another_frame() {
     let (sin, cos) = 0.1_f64.sin_cos();
     let turned = |x: f64, y: f64| (cos * x - sin * y, sin * x + cos * y);
     let mirrored = |x: f64, y: f64| (x, -y);
-    let placed: [(&(Lift, String), Placed<'_>, &str); 7] = [
+    let placed: [(&(Lift, String), Placed<'_>, &str); 9] = [
         (&uneven, ("x,y\n", &|x, y| (x, y)), ""),
         (&uneven, ("x,y\n", &turned), ""),
         (&even, ("x,y\n", &turned), ""),
         (&even, ("x,y\n", &mirrored), ""),
         (&uneven, ("x,y\n", &mirrored), "the mirror image of this cam"),
         (&uneven, ("x,y\n", &|x, y| (x / 25.4, y / 25.4)), "this cam in inches"),
-        (&uneven, ("x_in,y_in\n", &|x, y| (x, y)), "in millimetres, read as inches"),
+        (&uneven, ("x_in,y_in\n", &|x, y| (x, y)), "this cam in millimetres, read as inches"),
+        (&uneven, ("x,y\n", &|x, y| (x / 25.4, -y / 25.4)), "the mirror image of this cam in inches"),
+        (&uneven, ("x_in,y_in\n", &|x, y| (-x, y)), "the mirror image of this cam in millimetres"),
     ];
     for fit in ["angle", "none", "centre"] {
         for (of, points, part) in &placed {

@@ -1,7 +1,9 @@
 //! Points measured on a cam, from a table: x and y, or angle and radius.
 
-use crate::document::{NamedChoice, is_radius, parts};
+use crate::document::{HeadingUnit, NamedChoice, is_diameter, is_lift, parts};
+use crate::geometry::MILLIMETRES;
 use crate::refusal::Refusal;
+use crate::units::Dimension;
 use nalgebra::Vector2;
 
 /// Most rows that are read, and the largest coordinate, mm.
@@ -11,8 +13,14 @@ const LARGEST: f64 = 1e5;
 const FEWEST: usize = 8;
 /// Characters of a cell that a message repeats.
 const REPEATED: usize = 20;
+/// Radii nearer than this are one, mm.
+const SAME_RADIUS: f64 = 1e-6;
 /// Millimetres in an inch.
 const INCH: f64 = 25.4;
+/// What the head of the table of a gauge follower begins with, and its columns of angles, distances and lifts in either unit.
+const GAUGE_FOLLOWER: &str = "gauge_follower:";
+const GAUGE_COLUMNS: [([&str; 3], f64); 2] =
+    [(["cam_deg", "distance_mm", "lift_mm"], 1.0), (["cam_deg", "distance_in", "lift_in"], INCH)];
 
 /// Which columns have the points, and what their numbers are in millimetres or radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +38,10 @@ pub enum PointsOf {
     Profile,
     /// The path of the roller's centre.
     Centre,
+    /// The path of the centre of a cutter or wheel.
+    Tool,
+    /// The path of the ball of a gauge, by the angle against the rotation of the cam.
+    Gauge,
 }
 
 impl NamedChoice for PointsOf {
@@ -37,20 +49,48 @@ impl NamedChoice for PointsOf {
         &[("profile", Self::Profile), ("centre", Self::Centre), ("center", Self::Centre)];
 }
 
-/// Properties of a table of points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// What a table of points says of itself.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PointsStated {
-    /// It has headings.
-    pub has_names: bool,
+    /// Its headings name the columns of points.
+    pub has_columns: bool,
     /// It has angles and radii.
     pub is_polar: bool,
-    /// Their curve, from the heading of the radius or the head of a camgen file.
+    /// On which curve they lie, by the head of a file of camgen or the headings of the columns that are read.
     pub of: Option<PointsOf>,
-    /// The head gives counter-clockwise rotation, with angles against it.
+    /// Radius of the cutter, wheel or ball on whose path they lie, mm, by that head.
+    pub tool: Option<f64>,
+    /// The cam turns counter-clockwise, by that head, and angles are against its rotation.
     pub turns_back: bool,
 }
 
-/// Reads the properties of a table from its headings, and from its head if camgen wrote it.
+impl PointsStated {
+    /// Radius (mm) of the ball whose centres the points are: as given, or as the table states that of its cutter, wheel or gauge.
+    ///
+    /// # Errors
+    /// [`Refusal`] where the two differ, or the table has such points and nobody states the radius.
+    pub fn ball(&self, given: Option<f64>) -> Result<Option<f64>, Refusal> {
+        let curve = match self.of {
+            Some(PointsOf::Tool) => "the path of the centre of a cutter or wheel",
+            Some(PointsOf::Gauge) => "the path of the ball of a gauge",
+            _ => return Ok(given),
+        };
+        match (given, self.tool) {
+            (Some(given), Some(stated)) if (given - stated).abs() > SAME_RADIUS => {
+                let what =
+                    format!("the table gives {curve} of radius {stated} mm by its head, but --ball is {given} mm");
+                Err(Refusal::new(what).remedy("leave --ball out"))
+            }
+            (None, None) => {
+                let what = format!("the table gives {curve} by its head, but not the radius");
+                Err(Refusal::new(what).remedy("give the radius with --ball"))
+            }
+            (given, stated) => Ok(stated.or(given)),
+        }
+    }
+}
+
+/// What a table of points says of itself in its headings, and in its head where camgen wrote it.
 #[must_use]
 pub fn stated(text: &str) -> PointsStated {
     let text = text.trim_start_matches('\u{feff}');
@@ -60,12 +100,44 @@ pub fn stated(text: &str) -> PointsStated {
     let names: Vec<String> = first
         .first()
         .map_or_else(Vec::new, |(_, line)| split(line, separator_of(&first)).into_iter().map(str::to_owned).collect());
-    let is_polar = matches!(named(&names), Ok(PointColumns::Polar(_)));
-    let has_names = names.iter().any(|name| number(name).is_none());
-    let by_heading = names.iter().filter(|name| is_radius(name)).find_map(|name| of_words(name));
-    let of = head("given:").and_then(of_words).or(by_heading);
+    let columns = named(&names).ok();
+    let is_polar = matches!(columns, Some(PointColumns::Polar(_)));
+    let has_columns = columns.is_some();
+    let read = match columns {
+        Some(PointColumns::Plane([(x, _), (y, _)])) => vec![x, y],
+        Some(PointColumns::Polar([_, (radius, _)])) => vec![radius],
+        None => Vec::new(),
+    };
+    let by_heading = || read.iter().filter_map(|at| names.get(*at)).find_map(|name| of_words(name));
+    let gauge = head(GAUGE_FOLLOWER);
+    let is_gauge = gauge.is_some() || gauge_columns(&names).is_some();
+    let given = head("given:");
+    let of = if is_gauge { Some(PointsOf::Gauge) } else { given.and_then(of_words).or_else(by_heading) };
+    let tool = match gauge {
+        Some(follower) => follower.split_once("diameter_").and_then(|(_, size)| in_unit(size)).map(|size| 0.5 * size),
+        None => given.and_then(stated_radius).filter(|_| of == Some(PointsOf::Tool)),
+    };
     let turns_back = is_polar && head("rotation:").is_some_and(|rotation| rotation.contains("counter-clockwise"));
-    PointsStated { has_names, is_polar, of, turns_back }
+    PointsStated { has_columns, is_polar, of, tool, turns_back }
+}
+
+/// The radius (mm) that the head of a file of points states of a roller, a cutter or a wheel: `of radius 15.0 mm`.
+#[must_use]
+pub fn stated_radius(given: &str) -> Option<f64> {
+    let mut words = given.split_once("radius ")?.1.split([' ', ',']);
+    let number = words.next()?.parse::<f64>().ok()?;
+    Some(number * if words.next() == Some("in") { INCH } else { 1.0 })
+}
+
+/// A length behind its unit, `mm 3`, in mm.
+fn in_unit(text: &str) -> Option<f64> {
+    let (unit, number) = text.trim().split_once(' ')?;
+    let size = match unit {
+        "mm" => 1.0,
+        "in" => INCH,
+        _ => return None,
+    };
+    number.trim().parse::<f64>().ok().filter(|number| *number > 0.0).map(|number| number * size)
 }
 
 /// The curve named in `words`.
@@ -73,7 +145,7 @@ fn of_words(text: &str) -> Option<PointsOf> {
     let lower = text.to_lowercase();
     let has = |words: &[&str]| words.iter().any(|word| lower.contains(word));
     if has(&["cutter", "wheel"]) {
-        None
+        Some(PointsOf::Tool)
     } else if has(&["centre", "center", "pitch", "roller", "mittelpunkt"]) {
         Some(PointsOf::Centre)
     } else {
@@ -94,7 +166,8 @@ pub fn read(text: &str) -> Result<Vec<Vector2<f64>>, Refusal> {
     read_rows(text, false)
 }
 
-/// Points of a table: its first two columns are angles in degrees and radii in millimetres, unless its headings name others.
+/// The points of a table whose first two columns are angles in degrees and radii in millimetres, or as its headings say. Headings of two columns need not
+/// name them.
 ///
 /// # Errors
 /// As [`read`].
@@ -105,6 +178,10 @@ pub fn read_radii(text: &str) -> Result<Vec<Vector2<f64>>, Refusal> {
 fn read_rows(text: &str, radii: bool) -> Result<Vec<Vector2<f64>>, Refusal> {
     // The mark that some programs put before UTF-8.
     let text = text.trim_start_matches('\u{feff}');
+    if text.lines().any(|line| line.starts_with('#') && line.contains(GAUGE_FOLLOWER) && line.contains("flat")) {
+        let what = "the table has distances of the flat face of a gauge, which are not those of points";
+        return Err(Refusal::new(what).remedy("import its lifts: --columns cam_deg,lift_mm --follower flat"));
+    }
     let lines = text.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
     let lines: Vec<(usize, &str)> = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')).collect();
     let separator = separator_of(&lines);
@@ -119,7 +196,7 @@ fn read_rows(text: &str, radii: bool) -> Result<Vec<Vector2<f64>>, Refusal> {
         return Err(Refusal::new(format!("the table has more than {MOST_ROWS} rows")).remedy("measure fewer points"));
     }
     let columns = match &names {
-        Some(names) => named(names)?,
+        Some(names) => named(names).or_else(|why| two_columns(names).filter(|_| radii).ok_or(why))?,
         None if radii => PointColumns::Polar([(0, 1.0_f64.to_radians()), (1, 1.0)]),
         None => PointColumns::Plane(if counts(rows, separator) { [(1, 1.0), (2, 1.0)] } else { [(0, 1.0), (1, 1.0)] }),
     };
@@ -187,8 +264,33 @@ fn counts(rows: &[(usize, &str)], separator: Option<char>) -> bool {
 /// Words behind the name of a column that say nothing else than that it is measured.
 const MEASURED_WORDS: [&str; 6] = ["act", "actual", "measured", "meas", "ist", "pos"];
 
+/// The angles and distances of the table of a gauge follower, by the names of its columns.
+fn gauge_columns(names: &[String]) -> Option<PointColumns> {
+    let (_, size) = GAUGE_COLUMNS.iter().find(|(columns, _)| columns.iter().eq(names.iter()))?;
+    Some(PointColumns::Polar([(0, 1.0_f64.to_radians()), (1, *size)]))
+}
+
+/// The two columns of a table that is said to have radii, by the units in their headings; `None` where a heading says something else.
+fn two_columns(names: &[String]) -> Option<PointColumns> {
+    let [angle, radius] = names else { return None };
+    if is_lift(radius) || is_diameter(radius) {
+        return None;
+    }
+    let size = |name: &str, wanted: Dimension| match HeadingUnit::read(name) {
+        Ok(Some(HeadingUnit::Quantity { dimension, size, .. })) if dimension == wanted => Some(Some(size)),
+        Ok(None) => Some(None),
+        _ => None,
+    };
+    let of_angle = size(angle, Dimension::Angle)?.unwrap_or(1.0_f64.to_radians());
+    let of_radius = size(radius, Dimension::Length)?.map_or(1.0, |size| MILLIMETRES * size);
+    Some(PointColumns::Polar([(0, of_angle), (1, of_radius)]))
+}
+
 /// The columns by their names.
 fn named(names: &[String]) -> Result<PointColumns, Refusal> {
+    if let Some(columns) = gauge_columns(names) {
+        return Ok(columns);
+    }
     let plain: Vec<String> = names.iter().map(|name| name.trim_matches('"').trim().to_lowercase()).collect();
     // The table of a cam itself has its profile among other places.
     let own = |name: &str, size: f64| plain.iter().position(|other| other == name).map(|index| (index, size));
