@@ -21,7 +21,10 @@ const SAME: f64 = 1e-6;
 /// Largest relative difference of equal errors, computed again from rounded rows.
 const SAME_ERROR: f64 = 0.02;
 
-/// A line of a head without its comment mark.
+/// Where the unit begins in a key.
+const UNITS: [&str; 3] = ["_mm", "_in", "_rad"];
+
+/// A line of a head, without its mark of a comment.
 struct HeadLine<'t> {
     line: usize,
     text: &'t str,
@@ -101,6 +104,9 @@ pub(super) fn of_points(
     told.wish.tolerance = tolerance_mm;
     // A table may be checked without the tolerances it was made for; it is then judged by its stated ones.
     let of_one = points::statements(body, &PointTable { allowed: [1.0; 2], ..told.clone() }, units);
+    if let Some(why) = in_another_unit(&found, &of_one) {
+        return Some(why);
+    }
     let keys = ["velocity_tolerance", "acceleration_tolerance"];
     let mut judged = keys.to_vec();
     for (own, key) in told.allowed.iter_mut().zip(keys) {
@@ -148,8 +154,23 @@ fn in_comment(text: &str) -> Vec<HeadLine<'_>> {
     own.map(|(index, line)| HeadLine { line: index + 1, text: line.trim().trim_start_matches("(*").trim() }).collect()
 }
 
-/// The first contradicting or missing statement, as a message.
+/// The first statement whose key is that of an expected one in another unit: `tolerance_in` of a file in millimetres.
+fn in_another_unit(found: &[HeadLine<'_>], expected: &[String]) -> Option<String> {
+    let without_unit = |key: &str| UNITS.iter().find_map(|unit| Some(key.split_once(unit)?.0.to_owned()));
+    let keys: Vec<(&str, &String)> = expected.iter().filter_map(|due| Some((due.split_once(": ")?.0, due))).collect();
+    found.iter().find_map(|line| {
+        let (key, _) = line.text.split_once(": ")?;
+        let bare = without_unit(key).filter(|_| keys.iter().all(|(own, _)| *own != key))?;
+        let (_, due) = keys.iter().find(|(own, _)| without_unit(own).as_ref() == Some(&bare))?;
+        Some(told(line.line, line.text, due))
+    })
+}
+
+/// The first statement that is another than expected.
 fn contradiction(found: &[HeadLine<'_>], expected: &[String]) -> Option<String> {
+    if let Some(why) = in_another_unit(found, expected) {
+        return Some(why);
+    }
     let known = |text: &str| expected.iter().any(|due| due == text);
     let strange: Vec<&HeadLine<'_>> = found
         .iter()

@@ -24,6 +24,8 @@ pub struct ReadPlace {
 const HEAD: &str = "no,cam_deg,polar_deg,radius_mm,x_mm,y_mm,normal_x,normal_y,ball_x_mm,ball_y_mm,";
 /// The header of a list in inches.
 const INCH_HEAD: &str = "no,cam_deg,polar_deg,radius_in,x_in,y_in,normal_x,normal_y,ball_x_in,ball_y_in,";
+/// The columns behind them, of which a list may have none.
+const OTHER_COLUMNS: [&str; 3] = ["lower", "upper", "curvature_radius"];
 /// The line that plain lines of numbers in inches begin with.
 pub const PLAIN_INCHES: &str = "# units: inches";
 /// The statement that begins a DMIS program.
@@ -54,8 +56,14 @@ pub fn read(bytes: &[u8]) -> Result<Vec<ReadPlace>, String> {
     let text = std::str::from_utf8(bytes).map_err(|error| error.to_string())?;
     let mut lines = text.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty());
     let all = match lines.next() {
-        Some(line) if line.starts_with(HEAD) => rows(lines, LengthUnit::Millimetre)?,
-        Some(line) if line.starts_with(INCH_HEAD) => rows(lines, LengthUnit::Inch)?,
+        Some(line) if line.starts_with(HEAD) => {
+            refuse_other_columns(line, HEAD, LengthUnit::Millimetre)?;
+            rows(lines, LengthUnit::Millimetre)?
+        }
+        Some(line) if line.starts_with(INCH_HEAD) => {
+            refuse_other_columns(line, INCH_HEAD, LengthUnit::Inch)?;
+            rows(lines, LengthUnit::Inch)?
+        }
         Some(_) if text.lines().any(|line| line.trim_start().starts_with(DMIS)) => dmis(text)?,
         Some(line) if plain(line).is_some() => {
             let inches = text.lines().any(|line| line.trim_end() == PLAIN_INCHES);
@@ -65,6 +73,17 @@ pub fn read(bytes: &[u8]) -> Result<Vec<ReadPlace>, String> {
         _ => return Err("the line that names the columns is missing".into()),
     };
     if all.len() > MOST_PLACES { Err(format!("it has more than {MOST_PLACES} places")) } else { Ok(all) }
+}
+
+/// Refuses a header that goes on with other columns than those of a list, or in another unit than it begins.
+fn refuse_other_columns(line: &str, begin: &str, units: LengthUnit) -> Result<(), String> {
+    let others = line.strip_prefix(begin).unwrap_or_default().trim_end();
+    let names = others.split(',').filter(|name| !name.is_empty());
+    let due = OTHER_COLUMNS.map(|name| format!("{name}_{}", units.symbol()));
+    match names.zip(&due).find(|(name, due)| name != due) {
+        Some((name, due)) => Err(format!("the column `{}` stands where `{due}` belongs", shortened(name))),
+        None => Ok(()),
+    }
 }
 
 /// Places that were read in a unit.

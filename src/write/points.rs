@@ -28,6 +28,8 @@ pub const FORMAT: Format = Format {
     of_analysis: None,
 };
 
+/// Angles that differ by less are equal, degrees.
+const SAME_ANGLE: f64 = 1e-9;
 /// Decimals of a number, as in a DXF file.
 const DECIMALS: usize = 12;
 /// The columns of either form in either unit.
@@ -368,12 +370,28 @@ pub fn read(bytes: &[u8]) -> Result<ReadPoints, String> {
     match (head, between) {
         (Some((form, unit)), Some(between)) => {
             let first = if form == PointCoordinates::Polar { 1.0 } else { unit.millimetres() };
+            if form == PointCoordinates::Polar {
+                refuse_angles(&rows, closed)?;
+            }
             let rows = rows.into_iter().map(|[a, b]: [f64; 2]| [first * a, unit.millimetres() * b]).collect();
             Ok(ReadPoints { form, units: unit, between, closed, rows })
         }
         (None, _) => Err("the line that names the columns is missing".into()),
         (_, None) => Err("the interpolation is not stated".into()),
     }
+}
+
+/// Refuses angles (degrees) that do not grow from row to row, and those of a closed table that do not go round once.
+fn refuse_angles(rows: &[[f64; 2]], closed: bool) -> Result<(), String> {
+    let falls = rows.windows(2).position(|pair| matches!(pair, [[before, _], [next, _]] if !(next >= before)));
+    if let Some((at, [angle, _])) = falls.and_then(|at| Some((at, rows.get(at + 1)?))) {
+        return Err(format!("row {} is at {angle} degrees, which is less than that of the row before it", at + 2));
+    }
+    let (Some([first, _]), Some([last, _])) = (rows.first(), rows.last()) else { return Ok(()) };
+    if closed && (last - first - 360.0).abs() > SAME_ANGLE {
+        return Err(format!("the rows go from {first} to {last} degrees, which is not once round the shaft"));
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -399,5 +417,19 @@ mod tests {
         assert!(read(good.replace("-2.5", "").as_bytes()).is_err_and(|why| why.contains("1.0,")));
         assert!(read(b"# interpolation: linear, x\n").is_err_and(|why| why.contains("columns")));
         assert!(read(&[0xff, 0xfe]).is_err());
+    }
+
+    #[test]
+    fn polar_angles_grow_over_the_whole_turn() {
+        let read_turn = |last: &str| {
+            let head = "# interpolation: linear, so\n# closed: yes, so\ncam_deg,radius_mm\n";
+            read(format!("{head}12.0,17.0\n130.0,18.0\n130.0,18.0\n250.0,17.0\n{last},17.0\n").as_bytes())
+        };
+        assert!(read_turn("372.0").is_ok());
+        for (last, part) in
+            [("12.0", "row 5 is at 12"), ("-348.0", "row 5 is at -348"), ("360.0", "12 to 360"), ("732.0", "12 to 732")]
+        {
+            assert!(read_turn(last).is_err_and(|why| why.contains(part)), "{last}: {:?}", read_turn(last));
+        }
     }
 }

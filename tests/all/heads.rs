@@ -145,3 +145,31 @@ fn plain_lines_of_places_may_state_their_unit() {
         }
     }
 }
+
+/// A key or a column in another unit than the file, and rows that do not go round, are refused.
+#[test]
+fn other_units_and_angles_are_refused() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let run = camgen_in(directory, &["make", "feeder", "--name", "cam", "--out", ".", "--format", "points,inspect"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let mut directory = run.directory;
+    for (name, from, to, told) in [
+        ("cam-points.csv", "# tolerance_mm: ", "# tolerance_in: ", "states `tolerance_in: "),
+        ("cam-points.csv", "# velocity_error_mm_", "# velocity_error_in_", "states `velocity_error_in_per_rad"),
+        ("cam-points.csv", "\n360.0,", "\n0.0,", "is at 0 degrees"),
+        ("cam-points.csv", "\n360.0,", "\n-360.0,", "is at -360 degrees"),
+        ("cam-inspect.csv", "lower_mm,upper_mm,", "lower_in,upper_in,", "`lower_in` stands where `lower_mm` belongs"),
+        ("cam-inspect.csv", ",curvature_radius_mm", ",curvature_radius_in", "`curvature_radius_in` stands where"),
+        ("cam-inspect.csv", "# lower_mm, upper_mm:", "# lower_in, upper_in:", "states `lower_in, upper_in"),
+    ] {
+        let path = directory.path().join(name);
+        let text = std::fs::read_to_string(&path).expect("a file");
+        let altered = text.replacen(from, to, 1);
+        assert_ne!(altered, text, "{name} {from}");
+        std::fs::write(&path, altered).expect("written");
+        let run = camgen_in(directory, &["check", name, "feeder"]);
+        assert!(run.code != 0 && (run.out.clone() + &run.err).contains(told), "{to}: {}{}", run.out, run.err);
+        std::fs::write(&path, text).expect("written");
+        directory = run.directory;
+    }
+}
