@@ -16,7 +16,9 @@ use sha2::{Digest, Sha256};
 use std::fs::{File, TryLockError};
 use std::io::{self, BufReader, Seek, SeekFrom, Write};
 
-/// Size of the read buffer, bytes.
+/// Lines above the rows.
+const HEADER: u64 = 1;
+/// Bytes read at a time.
 const BUFFER: usize = 1 << 16;
 
 /// A growing file.
@@ -73,10 +75,21 @@ impl GrowingFile {
             directory.remove(&part).map_err(failed)?;
             return Ok(None);
         }
-        let mut hash = Sha256::new();
-        let read = each_block(&file, marker.bytes, |block| hash.update(block)).map_err(failed)?;
+        let (mut hash, mut lines) = (Sha256::new(), LineCount::default());
+        let take = |block: &[u8]| {
+            hash.update(block);
+            lines.add(block);
+        };
+        let read = each_block(&file, marker.bytes, take).map_err(failed)?;
         if read != marker.bytes || hexadecimal(&hash.clone().finalize()) != marker.sha256 {
             return refused("was changed since camgen wrote it: give --restart to begin anew, or another --name");
+        }
+        if lines.complete.checked_sub(HEADER) != Some(marker.rows) {
+            return refused(&format!(
+                "has {} rows, but its record, which was changed, states {}: give --restart to begin anew, or another --name",
+                lines.complete.saturating_sub(HEADER),
+                marker.rows
+            ));
         }
         let at_end = file.set_len(marker.bytes).and_then(|()| file.seek(SeekFrom::End(0)));
         at_end.map_err(failed)?;
@@ -109,7 +122,7 @@ impl GrowingFile {
         self.bytes == 0
     }
 
-    /// Adds bytes; `rows` is the number of rows with them.
+    /// Adds bytes, with which it has so many rows below a line of headings.
     ///
     /// # Errors
     /// An error of writing; saved bytes are kept for the next run.
@@ -183,6 +196,25 @@ impl GrowingFile {
 
     fn failed(&self, source: io::Error) -> FilesError {
         FilesError::File { path: self.directory.path_of(&part_of(&self.name)), source }
+    }
+}
+
+/// Lines of a table in blocks of bytes; a cell in quotes may have several.
+#[derive(Debug, Default)]
+struct LineCount {
+    complete: u64,
+    is_quoted: bool,
+}
+
+impl LineCount {
+    fn add(&mut self, block: &[u8]) {
+        for byte in block {
+            match byte {
+                b'"' => self.is_quoted = !self.is_quoted,
+                b'\n' if !self.is_quoted => self.complete += 1,
+                _ => {}
+            }
+        }
     }
 }
 

@@ -196,7 +196,19 @@ fn rows_that_were_changed_are_not_continued() {
         let run = camgen_in(run.directory, &["study", "study.toml", "--quiet", "--restart"]);
         assert_eq!((run.code, text_of(run.directory.path(), "study.csv")), (0, whole.clone()), "{}", run.err);
     }
-    // A part without its marker, or with an invalid one, is not camgen's.
+    // A record that states other rows than those of the bytes that it states.
+    for rows in [0, 4, 8, 10, u64::MAX] {
+        let directory = interrupted(&whole, whole.len(), b"");
+        let path = part(&directory).with_extension("part.json");
+        let record = fs::read_to_string(&path).expect("a record");
+        fs::write(&path, record.replace("\"rows\":9", &format!("\"rows\":{rows}"))).expect("written");
+        let run = camgen_in(directory, &["study", "study.toml", "--quiet"]);
+        let told = format!("has 9 rows, but its record, which was changed, states {rows}: give --restart");
+        assert!(run.code == 2 && run.err.contains(&told), "{}", run.err);
+        let run = camgen_in(run.directory, &["study", "study.toml", "--quiet", "--restart"]);
+        assert_eq!((run.code, text_of(run.directory.path(), "study.csv")), (0, whole.clone()), "{}", run.err);
+    }
+    // A part without its marker, and one with a marker that is none, is not camgen's.
     for marker in [None, Some("{\"study\": "), Some("mine")] {
         let directory = interrupted(&whole, whole.len(), b"");
         let path = part(&directory).with_extension("part.json");
