@@ -4,9 +4,10 @@
 use super::signals::Signals;
 use super::{Failure, print_message};
 use camgen::FileSet;
+use camgen::document::file::was_read;
 use camgen::report::LazyReport;
 use camgen::write::files::{OutputDirectory, StagedFiles};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
@@ -16,6 +17,9 @@ const PERIOD: Duration = Duration::from_millis(20);
 
 /// Stages the files of a cam or an analysis, shows their report, and moves them into place.
 pub(super) fn put_set(files: FileSet, show: impl FnOnce(&LazyReport) -> Result<(), Failure>) -> Result<(), Failure> {
+    // Before it is said that --overwrite would replace them.
+    let targets: Vec<PathBuf> = files.outputs().iter().map(|output| files.directory().join(&output.name)).collect();
+    refuse_inputs(&targets)?;
     let place = files.open().map_err(Failure::new)?;
     stage_and_commit(place, |place| files.stage(place).map_err(Failure::new), show)
 }
@@ -43,6 +47,7 @@ pub(super) fn stage_and_commit<T>(
     let signals = Signals::hold();
     let done = || {
         let (report, staged) = stage(place)?;
+        refuse_inputs(&staged.targets())?;
         show_until_signal(&staged, &signals, || show(&report))?;
         if signals.raised() {
             return Err(Failure("interrupted; nothing was changed".into()));
@@ -52,6 +57,17 @@ pub(super) fn stage_and_commit<T>(
     let done = done();
     signals.release();
     done
+}
+
+/// Refuses to replace a file that was read, whatever flags say: it is an input, of which there may be no other copy.
+pub(super) fn refuse_inputs(targets: &[PathBuf]) -> Result<(), Failure> {
+    match targets.iter().find(|target| was_read(target)) {
+        None => Ok(()),
+        Some(input) => Err(Failure(format!(
+            "`{}` was read as an input and is not replaced; nothing was written; choose another --name or --out",
+            input.display()
+        ))),
+    }
 }
 
 /// Shows something, for as long as its reader takes: meanwhile a signal removes what is staged and ends the program.

@@ -2,11 +2,12 @@
 
 use super::args::StudyArgs;
 use super::progress::Progress;
-use super::put::stage_and_commit;
+use super::put::{refuse_inputs, stage_and_commit};
 use super::{Failure, Outcome, print, print_message};
 use camgen::report::{listed_path, shown};
 use camgen::study::{CompleteStudy, Journal, Study, StudyError, StudyFiles, StudyKind, Summary, embedded};
 use std::io::IsTerminal;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// Interval between saves of finished rows; a killed run loses no more than that.
@@ -24,6 +25,9 @@ pub(super) fn run(args: &StudyArgs) -> Result<Outcome, Failure> {
     }
     let stem = args.name.as_deref().unwrap_or(study.stem());
     let files = StudyFiles { page: args.page, parquet: args.parquet, overwrite: args.overwrite, restart: args.restart };
+    // Now, and not after hours.
+    let targets: Vec<PathBuf> = files.names(&study, stem).iter().map(|name| args.out.join(name)).collect();
+    refuse_inputs(&targets)?;
     let mut journal = Journal::open(&study, &args.out, stem, files).map_err(Failure::new)?;
     let first = journal.done();
     if first > 0 && !args.quiet {

@@ -1,9 +1,20 @@
 //! Files that a person names: read whole, where they are files and not too large.
 
 use crate::refusal::Refusal;
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// The files that were read, links resolved. It is one for the process, as the files are.
+static READ: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// Whether this process has read a file as an input.
+#[must_use]
+pub fn was_read(path: &Path) -> bool {
+    fs::canonicalize(path).is_ok_and(|path| READ.lock().unwrap_or_else(PoisonError::into_inner).contains(&path))
+}
 
 /// The bytes of a file of limited size; a refusal completes "cannot read".
 ///
@@ -28,6 +39,9 @@ pub fn bytes_of(path: &Path, largest: u64) -> Result<Vec<u8>, Refusal> {
     if data.len() > 0 {
         let read = File::open(path).and_then(|file| file.take(data.len()).read_to_end(&mut bytes));
         read.map_err(Refusal::of)?;
+    }
+    if let Ok(found) = fs::canonicalize(path) {
+        READ.lock().unwrap_or_else(PoisonError::into_inner).insert(found);
     }
     Ok(bytes)
 }
@@ -94,7 +108,9 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("text");
         fs::write(&path, "four").expect("written");
+        assert!(!was_read(&path));
         assert_eq!(text_of(&path, 4).expect("read"), "four");
+        assert!(was_read(&folder.path().join(".").join("text")));
         let what = |path: &Path, largest: u64| text_of(path, largest).expect_err("refused").what;
         assert_eq!(what(&path, 3), "it is larger than 3 bytes");
         assert_eq!(what(folder.path(), 4), "it is a directory");

@@ -29,7 +29,8 @@ pub struct StudyFiles {
 
 impl StudyFiles {
     /// The names of the files of a study.
-    fn names(self, study: &Study, stem: &str) -> Vec<String> {
+    #[must_use]
+    pub fn names(self, study: &Study, stem: &str) -> Vec<String> {
         let is_pareto = study.kind() == super::StudyKind::Pareto;
         let all = [
             (".csv", true),

@@ -17,7 +17,7 @@ use super::part::part_of;
 use std::fmt;
 use std::fs::File;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A directory to write into, in which no other run is active.
 #[derive(Debug)]
@@ -168,6 +168,12 @@ impl StagedFiles {
 
     pub(super) fn directory(&self) -> &Directory {
         &self.directory
+    }
+
+    /// The paths that the files will have.
+    #[must_use]
+    pub fn targets(&self) -> Vec<PathBuf> {
+        self.entries.iter().map(|entry| self.directory.path_of(&entry.target)).collect()
     }
 
     /// Writes a file next to its target.

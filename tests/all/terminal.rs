@@ -450,3 +450,31 @@ fn a_record_of_somebody_else_is_kept() {
     let kept = std::fs::read_to_string(run.directory.path().join("output/.camgen.json")).expect("kept");
     assert_eq!(kept, "{\"my\": \"settings\"}");
 }
+
+/// What a command reads, it does not replace, whatever flags say.
+#[test]
+fn inputs_are_not_replaced() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let rows: String =
+        (0..36).map(|i| format!("{},{:.6}\n", 10 * i, 4.0 - 4.0 * f64::from(10 * i).to_radians().cos())).collect();
+    let design = "name = \"h\"\n[motion]\nrpm = 100\nstart = \"0 mm\"\ntable = \"cam.csv\"\n[follower.roller]\nradius = \"10 mm\"\n[cam]\nbase_radius = \"40 mm\"\n";
+    std::fs::write(directory.path().join("cam.csv"), &rows).expect("written");
+    std::fs::write(directory.path().join("cam.toml"), design).expect("written");
+    let mut directory = directory;
+    for (words, input) in [
+        ("make cam.toml --out . --name cam --format csv --overwrite", "cam.csv"),
+        ("make cam.toml --out . --name cam --format csv", "cam.csv"),
+        ("make cam.toml --out ../{} --name cam --format csv --overwrite --force", "cam.csv"),
+        ("import cam.csv --out . --name cam --overwrite --format csv", "cam.csv"),
+    ] {
+        let folder = directory.path().file_name().expect("a name").to_string_lossy().into_owned();
+        let words = words.replace("{}", &folder);
+        let run = camgen_in(directory, &words.split(' ').collect::<Vec<_>>());
+        let told = "was read as an input and is not replaced; nothing was written";
+        assert!(run.code == 2 && run.err.contains(told) && run.err.contains(input), "{words}: {}{}", run.out, run.err);
+        assert_eq!(std::fs::read_to_string(run.directory.path().join("cam.csv")).expect("a table"), rows, "{words}");
+        directory = run.directory;
+    }
+    let run = camgen_in(directory, &["make", "cam.toml", "--out", ".", "--name", "other", "--format", "csv"]);
+    assert!(run.code < 2, "{}{}", run.out, run.err);
+}

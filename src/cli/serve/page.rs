@@ -2,6 +2,7 @@
 
 use super::super::Failure;
 use super::super::args::ServeArgs;
+use super::super::put::refuse_inputs;
 use super::http::Answer;
 use super::target::{MachineFile, plain};
 use camgen::catalogue::catalogue;
@@ -121,7 +122,10 @@ impl Served {
         let name = camgen::machine::fault_of_stem(&request.name).map_or(Ok(()), Err);
         name.map_err(|why| format!("the name of the files: {why}"))?;
         let set = engine::files(&request, &self.out, self.overwrite).map_err(|why| why.to_string())?;
-        let report = set.commit().map_err(|why| why.to_string())?;
+        let place = set.open().map_err(|why| why.to_string())?;
+        let (report, staged) = set.stage(place).map_err(|why| why.to_string())?;
+        refuse_inputs(&staged.targets()).map_err(|why| why.to_string())?;
+        staged.commit().map_err(|why| why.to_string())?;
         Ok(json!({"written": report.files}))
     }
 }
