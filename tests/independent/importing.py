@@ -5,7 +5,7 @@ Shares nothing with camgen but the files it reads and writes: laws, followers an
 --count N for each of the five followers: the profile at 720 to 1440 places with 1 um of noise along its normal, as centres of a ball in half of the
 cases, turned by any angle, and in a third of the cases shifted. The right law must be found for each rise and return, and the profile that
 `camgen make` cuts of the imported design must lie within 3 um of the exact one, after the angle (and where it was shifted the centre) that fits
-best, which no measuring machine knows.
+best, which no measuring machine knows. The table that `make` writes of that design, imported again as points, has its base radius.
 --tables N: lift tables rounded to 0.01 mm at each degree: the right laws, the largest acceleration within 5 %.
 Three tables as people have them, with noise, of which no law is right: the largest acceleration is at most 1.3 times that of the smoothest curve
 within the same deviation, the least integral of the squared jerk, found here by quadratic programming on a fine grid.
@@ -363,7 +363,14 @@ def check_points(binary, folder, kind, seed):
         cut = np.array([[float(row["profile_x_mm"]), float(row["profile_y_mm"])] for row in csv.DictReader(file)])
     exact, exact_normal = dense(follower, motion)
     off = off_after_fit(exact, exact_normal, cut, shifted)
+    # The table that camgen makes has the path of the roller's centre beside the profile; only the profile is read.
+    run, _ = camgen(binary, "import", made, "--from", "points", "--follower", follower.argument(), "--json", "--dry-run")
+    if run.returncode != 0:
+        return f"{where}: its own table: exit {run.returncode}: {run.stderr[:300]}"
+    radii = [json.loads(run.stdout)["import"]["base_radius_mm"], section["base_radius_mm"]]
     made.unlink()
+    if abs(radii[0] - radii[1]) > 3e-3:
+        return f"{where}: base radius {radii[0]} mm of its own table, {radii[1]} mm of the points"
     if off > 3e-3:
         return f"{where}: the profile is off by {1e3 * off:.2f} um ({'shifted, ' if shifted else ''}{count} points)"
     return off
