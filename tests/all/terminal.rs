@@ -455,8 +455,8 @@ fn a_record_of_somebody_else_is_kept() {
 #[test]
 fn inputs_are_not_replaced() {
     let directory = tempfile::tempdir().expect("a directory");
-    let rows: String =
-        (0..36).map(|i| format!("{},{:.6}\n", 10 * i, 4.0 - 4.0 * f64::from(10 * i).to_radians().cos())).collect();
+    let row = |i: u32| format!("{},{:.6}\n", 10 * i, 4.0 - 4.0 * f64::from(10 * i).to_radians().cos());
+    let rows = (0..36).map(row).collect::<Vec<_>>().concat();
     let design = "name = \"h\"\n[motion]\nrpm = 100\nstart = \"0 mm\"\ntable = \"cam.csv\"\n[follower.roller]\nradius = \"10 mm\"\n[cam]\nbase_radius = \"40 mm\"\n";
     std::fs::write(directory.path().join("cam.csv"), &rows).expect("written");
     std::fs::write(directory.path().join("cam.toml"), design).expect("written");
