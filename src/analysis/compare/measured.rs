@@ -49,7 +49,7 @@ impl NamedChoice for PointsOf {
         &[("profile", Self::Profile), ("centre", Self::Centre), ("center", Self::Centre)];
 }
 
-/// What a table of points says of itself.
+/// Properties of a table of points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PointsStated {
     /// Its headings name the columns of points.
@@ -90,7 +90,7 @@ impl PointsStated {
     }
 }
 
-/// What a table of points says of itself in its headings, and in its head where camgen wrote it.
+/// Reads the properties of a table from its headings, and from its head if camgen wrote it.
 #[must_use]
 pub fn stated(text: &str) -> PointsStated {
     let text = text.trim_start_matches('\u{feff}');
