@@ -466,7 +466,8 @@ impl Flank<'_> {
             Some(asked) => (asked.form, vec![MILLIMETRES * asked.size]),
             None if cutter.is_none() => {
                 let larger = (least > COMPENSATED_LEADS[0]).then_some(least);
-                (LeadInForm::Arc, larger.into_iter().chain(COMPENSATED_LEADS).collect())
+                let smallest = (least > 0.0).then_some(least);
+                (LeadInForm::Arc, larger.into_iter().chain(COMPENSATED_LEADS).chain(smallest).collect())
             }
             None => (LeadInForm::Arc, LEADS.to_vec()),
         };

@@ -2,6 +2,7 @@
 
 use crate::common::program::camgen_in;
 use camgen::body::milling::Milling;
+use camgen::geometry::lead_in::{LeadIn, LeadInForm};
 use camgen::machine::Controller;
 use camgen::reading::gcode::{CutterMove, CutterSide, MoveKind, read};
 use camgen::{Cam, Error, ExpectedFile, Machine, Proven, Request, Spec, Verdict, Writing};
@@ -932,4 +933,51 @@ fn as_lines(arc: &camgen::geometry::contour::Segment) -> String {
         step += 1.0;
     }
     text
+}
+
+/// Least distance of a point from the outlines of a cam, mm.
+fn room(proven: &Proven, point: [f64; 2]) -> f64 {
+    let edges = proven.outlines().iter().flat_map(|outline| outline.contour.edges());
+    let points = edges.flat_map(|edge| (0..=500).map(move |step| edge.at(f64::from(step) / 500.0).0));
+    points.map(|on| (on.x - point[0]).hypot(on.y - point[1])).fold(f64::INFINITY, f64::min)
+}
+
+/// A cutter that the control keeps on the profile goes down before its radius is taken up: it must be clear of the metal there with its whole radius.
+#[test]
+fn a_compensated_cutter_goes_down_clear_of_the_cam() {
+    let mut programs = 0;
+    for (name, radius) in
+        [("groove", 3e-3), ("groove", 6e-3), ("groove", 10e-3), ("feeder", 2e-3), ("feeder", 8e-3), ("lever", 5e-3)]
+    {
+        let cam = cam(name, &["cut.compensation=control", "cut.depth=8mm"]);
+        for lead_in in [None, Some(LeadIn { form: LeadInForm::Tangent, size: 1.5 * radius })] {
+            let wanted = Request { lead_in, ..request(Controller::LinuxCnc, Some(radius)) };
+            let Ok(drawing) = cam.draw(wanted) else { continue };
+            let proven = drawing.prove().expect("proved");
+            let found = proven.findings().iter().find(|finding| finding.check == "program").expect("checked").clone();
+            if found.verdict != Verdict::Pass {
+                let why = found.note.unwrap_or_default();
+                assert!(why.contains("free for the cutter"), "{name} {radius}: {why}");
+                continue;
+            }
+            let text = program(&cam, wanted);
+            let moves = read(text.as_bytes()).expect("a program").moves;
+            for down in moves.iter().filter(|moved| moved.is_upright() && moved.to[2] < -1.0) {
+                let room = room(&proven, [down.to[0], down.to[1]]);
+                assert!(room > 1e3 * radius - 0.01, "{name} {radius}: {room} mm at {:?}", down.to);
+            }
+            programs += 1;
+        }
+    }
+    assert!(programs > 5, "{programs}");
+    let feeder = cam("feeder", &["cut.compensation=control"]);
+    let text = program(&feeder, request(Controller::LinuxCnc, Some(8e-3)));
+    assert!(checked(&feeder, &text, Some(8e-3)).expect("a program").0);
+    // The last move before the cutter rises, on which the compensation ends.
+    let last = text.lines().skip_while(|line| *line != "G40").nth(1).expect("the way out");
+    for (to, depth) in [("G1 X25.0888 Y34.1061", 3.69), ("G1 X22 Y0", 0.0)] {
+        let (passes, value, why) = checked(&feeder, &text.replace(last, to), Some(8e-3)).expect("a program");
+        assert!(!passes && why.contains("as the control takes up its radius or ends it"), "{to}: {why}");
+        assert!(depth == 0.0 || (value - depth).abs() < 0.3, "{to}: {value}");
+    }
 }
