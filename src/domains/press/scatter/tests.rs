@@ -215,7 +215,7 @@ fn settings_follow_the_rule_of_the_screw() {
     // What a fixed bottom leaves, computed from its stationary point by a program of its own. Where the air is compressed to five times its pressure, a column
     // that balances the end lets the middle bulge by more than the present one leaves at the end.
     for (name, left_by_none, left_by_end) in
-        [("dpi", 4257.611_138_089, 2165.931_900_948), ("dpi-paper", 4498.781_941_194, 5146.066_519_506)]
+        [("dpi", 4_257.611_138_089, 2_165.931_900_948), ("dpi-paper", 4_498.781_941_194, 5_146.066_519_506)]
     {
         let cam = cam(name);
         let rivals = FixedBottom::new(&cam);
