@@ -251,6 +251,7 @@ fn written_points(
     let files: Vec<Vec<u8>> = tables.iter().map(|table| points::write(body, table)).collect();
     let read = |(table, bytes): (PointTable, &Vec<u8>)| {
         let curve = points::read(bytes)
+            .and_then(|read| read.goes_round().map(|()| read))
             .map(|read| Interpolant::new(&table.turned(&read.rows), read.form, read.between, read.closed));
         WrittenPoints { table, cutter: request.cutter_radius, curve }
     };

@@ -225,6 +225,7 @@ impl Cam {
         let cuts = self.body().cuts();
         let cut = cuts.get(cut_index);
         let placed = |rows: &[[f64; 2]]| -> Result<(Vec<f64>, bool), String> {
+            read.goes_round()?;
             let cut = cut.ok_or("the cam has no such cut")?;
             let path = traced(self.body(), cut, stated.curve, cutter).map_err(|error| error.to_string())?;
             let curve = Interpolant::new(rows, read.form, read.between, read.closed);

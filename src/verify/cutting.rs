@@ -48,7 +48,10 @@ pub(super) fn as_designed(evidence: &Evidence<'_>, written: &WrittenProgram) -> 
             return Err(ProgramFault::new(format!("in line {line} {fault}")));
         }
     }
-    if let Some(why) = early_move(program) {
+    if let Some(why) = early_move(program)
+        .or_else(|| wrong_length_of_a_move(&design, program))
+        .or_else(|| too_low_a_home(&design, program))
+    {
         return Err(ProgramFault::new(why));
     }
     feeds(evidence, &design, program)
@@ -130,6 +133,32 @@ fn wrong_length(design: &CuttingData, program: &CutterProgram, state: &CuttingSt
         }
         (ToolLength::Unstated | ToolLength::Number(_), _) => None,
     }
+}
+
+/// A move along Z, also above the part, with the length of another tool than that which cuts.
+fn wrong_length_of_a_move(design: &CuttingData, program: &CutterProgram) -> Option<String> {
+    let cuts = program.states.first().map(|(_, state)| (state.tool, state.length));
+    let wanted = match (program.control, design.tool, cuts) {
+        (Some(Controller::Sinumerik), Some(_), _) => 1,
+        (_, Some(tool), _) | (Some(Controller::LinuxCnc), None, Some((Some(tool), _))) => tool,
+        (_, None, Some((_, ToolLength::Number(number)))) => number,
+        _ => return None,
+    };
+    let letter = if program.control == Some(Controller::Sinumerik) { 'D' } else { 'H' };
+    program.lengths.iter().find_map(|(line, length)| match length {
+        ToolLength::Number(number) if *number != wanted => Some(format!(
+            "line {line} moves Z with the length {letter}{number} of the tool; it must be {letter}{wanted}"
+        )),
+        _ => None,
+    })
+}
+
+/// A retract below the height that the design states as clear of the part.
+fn too_low_a_home(design: &CuttingData, program: &CutterProgram) -> Option<String> {
+    let ((line, z), home) = program.lowest_home.zip(design.home.map(|home| MILLIMETRES * home))?;
+    (z < home - SAME_DEPTH).then(|| {
+        format!("line {line} retracts Z to {} mm of the machine, below cut.home of {} mm", shown(z), shown(home))
+    })
 }
 
 /// What is wrong with the spindle.

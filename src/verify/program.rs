@@ -1,7 +1,7 @@
 //! What judging a program for a machine gives.
 
 use super::check::WrittenProgram;
-use super::safe_start::assumed;
+use super::safe_start::{assumed, assumed_home};
 use crate::body::Body;
 use crate::body::milling::rib_between;
 use crate::geometry::MILLIMETRES;
@@ -44,5 +44,6 @@ pub(super) fn remarks(body: &dyn Body, written: &WrittenProgram) -> String {
     let tool = body.machine().cutting().tool.filter(|_| named);
     let tool = tool.map(|tool| format!("; a tool is called by its name, which is not compared with cut.tool = {tool}"));
     let assumed = written.program.as_ref().map_or_else(|_| String::new(), assumed);
-    unknown + &assumed + &tool.unwrap_or_default() + &rib.unwrap_or_default()
+    let home = written.program.as_ref().map(|program| assumed_home(&body.machine().cutting(), program));
+    unknown + &assumed + &home.unwrap_or_default() + &tool.unwrap_or_default() + &rib.unwrap_or_default()
 }

@@ -1,7 +1,11 @@
 //! Checks that a program states all words before the moves that rely on them: a control keeps words of the previous program.
 
-use crate::machine::Controller;
+use crate::machine::{Controller, CuttingData};
 use crate::reading::gcode::{CutterProgram, Unstated};
+use crate::report::shown;
+
+/// Lower than this, mm, Z of the machine is not at its top: programs for HEIDENHAIN retract to -1 mm.
+const TOP: f64 = -1.01;
 
 /// The first refused move: one that relies on a word not yet stated.
 pub(super) fn early_move(program: &CutterProgram) -> Option<String> {
@@ -19,6 +23,7 @@ pub(super) fn assumed(program: &CutterProgram) -> String {
             Unstated::Length | Unstated::LengthOfChanged => "tool length",
             Unstated::Datum => "datum",
             Unstated::PathMode => "path mode",
+            Unstated::Shift => "no shift of the datum",
             Unstated::Spindle => "spindle",
             _ => "position above the part",
         })
@@ -35,6 +40,16 @@ pub(super) fn assumed(program: &CutterProgram) -> String {
     }
 }
 
+/// The height of the machine to which a program retracts, where the design states none and it is not the top; for a note.
+pub(super) fn assumed_home(design: &CuttingData, program: &CutterProgram) -> String {
+    match program.lowest_home.filter(|(_, z)| design.home.is_none() && *z < TOP) {
+        Some((_, z)) => {
+            format!("; Z {} mm of the machine is taken as clear of the part: cut.home is not given", shown(z))
+        }
+        None => String::new(),
+    }
+}
+
 /// If a program sets up neither tool, datum nor height, the operator has; if it sets up one of them, it must set up all. Only LinuxCNC and SINUMERIK
 /// can deviate from the path without a bound.
 fn is_refused(program: &CutterProgram, what: Unstated) -> bool {
@@ -43,6 +58,7 @@ fn is_refused(program: &CutterProgram, what: Unstated) -> bool {
         Unstated::PathMode => {
             program.sets_up && matches!(program.control, Some(Controller::LinuxCnc | Controller::Sinumerik))
         }
+        Unstated::Shift => false,
         _ => true,
     }
 }
@@ -73,6 +89,7 @@ fn fault(what: Unstated, control: Option<Controller>) -> &'static str {
         (Unstated::LengthOfChanged, _) => {
             "moves Z after a tool change, or G49, without the length of the tool: write G43 with its H"
         }
+        (Unstated::Shift, _) => "moves before shifts of the datum are ended: write G92.2, TRANS or cycle 7",
         (Unstated::Datum, _) => "moves before the datum is stated: write G54",
         (Unstated::PathMode, Some(Sinumerik)) => "cuts before the path mode is stated: write G642 with CTOL, or G60",
         (Unstated::PathMode, _) => "cuts before the path mode is stated: write G61, or G64 P with a tolerance",

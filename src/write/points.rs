@@ -370,9 +370,6 @@ pub fn read(bytes: &[u8]) -> Result<ReadPoints, String> {
     match (head, between) {
         (Some((form, unit)), Some(between)) => {
             let first = if form == PointCoordinates::Polar { 1.0 } else { unit.millimetres() };
-            if form == PointCoordinates::Polar {
-                refuse_angles(&rows, closed)?;
-            }
             let rows = rows.into_iter().map(|[a, b]: [f64; 2]| [first * a, unit.millimetres() * b]).collect();
             Ok(ReadPoints { form, units: unit, between, closed, rows })
         }
@@ -381,17 +378,25 @@ pub fn read(bytes: &[u8]) -> Result<ReadPoints, String> {
     }
 }
 
-/// Refuses angles (degrees) that do not grow from row to row, and those of a closed table that do not go round once.
-fn refuse_angles(rows: &[[f64; 2]], closed: bool) -> Result<(), String> {
-    let falls = rows.windows(2).position(|pair| matches!(pair, [[before, _], [next, _]] if !(next >= before)));
-    if let Some((at, [angle, _])) = falls.and_then(|at| Some((at, rows.get(at + 1)?))) {
-        return Err(format!("row {} is at {angle} degrees, which is less than that of the row before it", at + 2));
+impl ReadPoints {
+    /// Whether the angles of a polar table grow from row to row, and go once round where it is closed.
+    ///
+    /// # Errors
+    /// A sentence with the row or the range of angles, degrees.
+    pub fn goes_round(&self) -> Result<(), String> {
+        if self.form != PointCoordinates::Polar {
+            return Ok(());
+        }
+        let falls = self.rows.windows(2).position(|pair| matches!(pair, [[before, _], [next, _]] if !(next >= before)));
+        if let Some((at, [angle, _])) = falls.and_then(|at| Some((at, self.rows.get(at + 1)?))) {
+            return Err(format!("row {} is at {angle} degrees, which is less than that of the row before it", at + 2));
+        }
+        let (Some([first, _]), Some([last, _])) = (self.rows.first(), self.rows.last()) else { return Ok(()) };
+        if self.closed && (last - first - 360.0).abs() > SAME_ANGLE {
+            return Err(format!("the rows go from {first} to {last} degrees, which is not once round the shaft"));
+        }
+        Ok(())
     }
-    let (Some([first, _]), Some([last, _])) = (rows.first(), rows.last()) else { return Ok(()) };
-    if closed && (last - first - 360.0).abs() > SAME_ANGLE {
-        return Err(format!("the rows go from {first} to {last} degrees, which is not once round the shaft"));
-    }
-    Ok(())
 }
 
 #[cfg(test)]

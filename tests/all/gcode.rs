@@ -851,15 +851,7 @@ fn harmless_words_and_a_bare_path_are_taken() {
         (
             Sinumerik,
             "G0 X",
-            &[
-                "G60",
-                "G64 CTOL=0.004",
-                "G641 ADIS=0.004",
-                "TRANS",
-                "CYCLE832(0.004,1,1)",
-                "COMPCAD\nCOMPOF",
-                "G0 SUPA Z0 D0",
-            ],
+            &["G60", "G641 ADIS=0.004", "TRANS", "CYCLE832(0.004,1,1)", "COMPCAD\nCOMPOF", "G0 SUPA Z0 D0"],
         ),
         (Heidenhain, "L X", &["L Z-1 R0 FMAX M91", "L M140 MB MAX"]),
     ] {
@@ -979,5 +971,99 @@ fn a_compensated_cutter_goes_down_clear_of_the_cam() {
         let (passes, value, why) = checked(&feeder, &text.replace(last, to), Some(8e-3)).expect("a program");
         assert!(!passes && why.contains("as the control takes up its radius or ends it"), "{to}: {why}");
         assert!(depth == 0.0 || (value - depth).abs() < 0.3, "{to}: {value}");
+    }
+}
+
+/// Words that make the path, the tool or its length another one, in each control's own form; inserted before the first move across.
+#[test]
+fn what_changes_path_tool_or_length_unseen_is_refused() {
+    use Controller::{Fanuc, Heidenhain, LinuxCnc, Sinumerik};
+    let (cam, cutter) = (cam("feeder", &SHOP), Some(4e-3));
+    for (controller, before, wrong) in [
+        (
+            LinuxCnc,
+            "G0 X",
+            &[
+                "G64 P0.005 Q0.5",
+                "G43 H4 Z9\nH1",
+                "G43 H4.5",
+                "D-3",
+                "g 9 1",
+                "G 9 1",
+                "G53 G0 Z-400",
+                "(abort, no blank)",
+                "G43 H4 Z60",
+            ][..],
+        ),
+        (Fanuc, "G0 X", &["G43 H04 Z60.", "G43 H1.5", "T1 M61"]),
+        (
+            Sinumerik,
+            "G0 X",
+            &[
+                "CTOL=0.5",
+                "G64",
+                "G641",
+                "G642 ADIS=1",
+                "CYCLE832()",
+                "CYCLE832(0.004,0,1)",
+                "D2\nG0 Z60",
+                "Z=AC(-30)",
+                "Z=IC(2)",
+                "POSA[Z]=3",
+                "G[14]=2",
+                "G0 SUPA Z-400 D0",
+            ],
+        ),
+        (
+            Heidenhain,
+            "L X",
+            &[
+                "CYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1",
+                "TOOL CALL Q5 Z S2000",
+                "/ L Z-30 R0 FMAX",
+                "LP PR+10 PA+20",
+                "CT X+1 Y+2",
+                "APPR LT X+1 Y+2",
+                "TCH PROBE 400.0",
+                "CYCL DEF 220 PATTERN",
+                "L Z-400 R0 FMAX M91",
+            ],
+        ),
+    ] {
+        let home = if controller == Heidenhain { "cut.home=-1mm" } else { "cut.home=0mm" };
+        let homed = self::cam("feeder", &[SHOP[0], SHOP[1], SHOP[2], home]);
+        let text = program(&homed, request(controller, cutter));
+        assert!(checked(&homed, &text, cutter).is_ok_and(|found| found.0), "{controller:?}");
+        for line in wrong {
+            let found = why_refused(&homed, &with_lines(&text, before, line), cutter);
+            assert!(found.contains("line"), "{controller:?} {line}: {found}");
+        }
+    }
+    // A place of the machine that nothing is known of is told.
+    let text = program(&cam, request(LinuxCnc, cutter)).replace("G53 G0 Z0.0", "G53 G0 Z-400");
+    let found = checked(&cam, &text, cutter).expect("a program");
+    assert!(found.0 && found.2.contains("Z -400 mm of the machine"), "{found:?}");
+}
+
+/// Heads and tails of shops that move nothing, or only far above the part.
+#[test]
+fn heads_and_tails_of_shops_are_taken() {
+    use Controller::{Fanuc, Heidenhain, LinuxCnc, Sinumerik};
+    let (cam, cutter) = (cam("feeder", &SHOP), Some(4e-3));
+    for (controller, before, line) in [
+        (Heidenhain, "L X", "L Z+100 R0 FMAX M3"),
+        (Heidenhain, "L X", "L M3"),
+        (Heidenhain, "L Z-1", "BLK FORM 0.1 Z X-60 Y-60 Z-20"),
+        (Heidenhain, "L Z-1", "CYCL DEF 247 DATUM SETTING Q339=+1"),
+        (Fanuc, "G0 X", "G0 G43 H01 Z100."),
+        (LinuxCnc, "G0 X", "G64 P0.004 Q0.004"),
+        (Sinumerik, "M9", "CYCLE832()"),
+        (Sinumerik, "G0 X", "CYCLE832(0.004,_FINISH,1)"),
+    ] {
+        let text = program(&cam, request(controller, cutter));
+        let other = with_lines(&text, before, line);
+        assert_ne!(other, text, "{controller:?} {line}");
+        let found = checked(&cam, &other, cutter);
+        assert!(found.as_ref().is_ok_and(|found| found.0), "{controller:?} {line}: {found:?}");
     }
 }

@@ -564,7 +564,7 @@ fn headings_with_factors_counts_or_radii_are_refused() {
         assert!((range(&scaled).1 - 0.08).abs() < 1e-9, "{heading}");
     }
     refused(&of_table("", &with("lift milli-inch")), &["has a factor", "milli"]);
-    refused(&of_table("", &with("lift dmm")), &["\"dmm\", which is no unit that is known", "unit = \"mm\""]);
+    refused(&of_table("", &with("lift dmm")), &["\"dmm\", which is not a known unit", "unit = \"mm\""]);
     made(&of_table("unit = \"mm\"", &with("lift dmm")));
     refused(&of_table("", &with("lift yards")), &["the positions are in yd"]);
     for heading in ["counts", "pulses", "raw", "ADC", "lift cts", "Hub Inkr."] {

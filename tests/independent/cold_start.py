@@ -63,20 +63,16 @@ class Cold:
         if not rapid:
             self.needs(line, "feed mode", "path", "feed", *(["centres"] if arc and self.control == "linuxcnc" else []))
             assert self.spindle or self.by_hand, f"line {line}: the spindle stands"
-            assert {"X", "Y", "Z"} - self.turning_without(to) <= set(self.at), f"line {line}: from an unknown place"
+            assert {"X", "Y", "Z"} <= set(self.at), f"line {line}: from an unknown place"
         if across:
             assert self.home or "Z" in self.at, f"line {line}: across at an unknown height"
             assert "Z" not in to or not rapid, f"line {line}: a slanted rapid move"
         if "Z" in to and not across:
-            missing = {"X", "Y"} - self.turning_without(to) - set(self.at)
+            missing = {"X", "Y"} - set(self.at)
             assert not missing, f"line {line}: down at an unknown {missing}"
             self.needs(line, "length", "tool")
             self.home = False
         self.at |= to
-
-    def turning_without(self, _):
-        # For a ground disc the wheel stays over the axis.
-        return {"Y"} if "C" in self.turning else set()
 
     def ends(self, line):
         assert self.home and not self.coolant and not self.spindle, f"line {line}: ends {'' if self.home else 'away from home '}{self.coolant} {self.spindle}"
@@ -253,14 +249,14 @@ NEEDED = {
 DANGEROUS = {
     "linuxcnc": ["G28", "G28 Z0", "G0 X0 Y0 Z5", "G0 Z5", "G64", "G1 X5 F100"],
     "fanuc": ["G28", "G28 Z0.", "G91 G28 Z-30.", "G0 X0. Y0. Z5.", "G0 G43 H01 Z5.", "G91 G53 G0 Z0."],
-    "sinumerik": ["CYCLE832()\nG64", "CYCLE832()\nCOMPCAD", "G0 X0 Y0 Z5", "G0 D1 Z5"],
+    "sinumerik": ["CYCLE832()", "CYCLE832()\nCOMPCAD", "G64 CTOL=0.004", "CTOL=0.5", "G0 X0 Y0 Z5", "G0 D1 Z5"],
     "heidenhain": ["L Z+5 R0 FMAX", "L X+0 Y+0 Z+5 R0 FMAX"],
 }
 # Harmless lines of a shop in the same position.
 HARMLESS = {
     "linuxcnc": ["G64 P0.004", "G92.1", "G54 G92.1", "G90 G92.2 G80", "G91 G28 Z0\nG90", "M8", "G55"],
     "fanuc": ["G61", "G91 G28 Z0.\nG90", "M8", "G80 G15 G50 G69"],
-    "sinumerik": ["G60", "G64 CTOL=0.004", "G641 ADIS=0.004", "CYCLE832(0.004,1,1)\nG64", "TRANS\nROT", "G0 SUPA Z0 D0", "M8", 'MSG("CAM")', "COMPCAD\nCOMPOF"],
+    "sinumerik": ["G60", "G64 COMPCAD CTOL=0.004\nG642 COMPOF", "G641 ADIS=0.004", "CYCLE832(0.004,1,1)", "TRANS\nROT", "G0 SUPA Z0 D0", "M8", 'MSG("CAM")', "COMPCAD\nCOMPOF"],
     "heidenhain": ["CYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1 T0.004", "L Z-1 R0 FMAX M91", "L M140 MB MAX", "M8"],
 }
 

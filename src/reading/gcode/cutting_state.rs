@@ -80,6 +80,20 @@ pub(super) fn whole(number: f64) -> Option<u32> {
 }
 
 impl super::CutterProgram {
+    /// Keeps the lowest Z of the machine, mm, to which the tool retracts.
+    pub(super) fn retracts_to(&mut self, line: usize, z: f64) {
+        if self.lowest_home.is_none_or(|(_, lowest)| z < lowest) {
+            self.lowest_home = Some((line, z));
+        }
+    }
+
+    /// Keeps the length with which the tool moves along Z, where it is another than before.
+    pub(super) fn moves_with(&mut self, line: usize, length: ToolLength) {
+        if self.lengths.last().is_none_or(|(_, last)| *last != length) {
+            self.lengths.push((line, length));
+        }
+    }
+
     /// Keeps what holds during a cut, where it is another than before.
     pub(super) fn cuts_with(&mut self, line: usize, state: CuttingState, feed: CuttingFeed) {
         if self.states.last().is_none_or(|(_, last)| *last != state) {

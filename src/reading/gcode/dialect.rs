@@ -123,15 +123,34 @@ pub(super) fn moves_the_profile(block: &str, control: Option<Controller>) -> Opt
     (!zero(shift)).then_some("moves the datum (G52)")
 }
 
-/// Whether a SINUMERIK block has no effect on the path: it shows a message, or ends a shift, rotation or scaling of the coordinates.
+/// Whether a SINUMERIK block has no effect on the path: it shows a message, ends a shift, rotation or scaling of the coordinates, or states by CYCLE832 what the
+/// path mode has read.
 pub(super) fn is_nothing(block: &str, control: Option<Controller>) -> bool {
-    let block = block.to_ascii_uppercase();
-    let number = block.strip_prefix('N').map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
-    let block = number.unwrap_or(&block).trim();
+    let upper = block.to_ascii_uppercase();
+    let block = behind_its_number(&upper).trim_end();
+    let states = |word: &&str| block.starts_with(*word) && block.ends_with(')');
+    control == Some(Controller::Sinumerik) && (ends_frames(block) || ["MSG(", "CYCLE832("].iter().any(states))
+}
+
+/// Whether a SINUMERIK block ends all frames: one of their words alone.
+pub(super) fn ends_frames(block: &str) -> bool {
+    let upper = block.to_ascii_uppercase();
+    let block = behind_its_number(&upper).trim_end();
     let ends =
         |(word, _): &(&str, &str)| block.strip_prefix(word).is_some_and(|rest| ["", "()"].contains(&rest.trim()));
-    control == Some(Controller::Sinumerik)
-        && (FRAMES.iter().any(ends) || (block.starts_with("MSG(") && block.ends_with(')')))
+    FRAMES.iter().any(ends)
+}
+
+/// A block without its number.
+pub(super) fn behind_its_number(block: &str) -> &str {
+    let number = block.strip_prefix(['N', 'n']).map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
+    number.map_or(block, str::trim_start)
+}
+
+/// Whether a block has a comment by which LinuxCNC stops with an error: `(ABORT, text)`.
+pub(super) fn aborts(block: &str) -> bool {
+    let comments = block.split('(').skip(1);
+    comments.map(|comment| comment.trim_start().to_ascii_uppercase()).any(|comment| comment.starts_with("ABORT,"))
 }
 
 /// Whether a block writes a variable of the control rather than of the program: `#5221=1`, `$TC_DP6[1,1]=4`.

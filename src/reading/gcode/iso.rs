@@ -1,10 +1,12 @@
 //! Programs in words of a letter and a number: LinuxCNC, FANUC, SINUMERIK.
 
-use super::dialect::{behind_its_start, dialect, in_common_words, is_nothing, moves_the_profile};
+use super::dialect::{
+    aborts, behind_its_number, behind_its_start, dialect, ends_frames, in_common_words, is_nothing, moves_the_profile,
+};
 use super::machine_state::MachineState;
 use super::modal::{ModalWords, Situation, are_known, dwells, is_harmless, leaves, passed_over};
 use super::words::{Word, at_line, counted, of, without_comments, words};
-use super::{CutterProgram, CutterSide, MoveKind, NO_MOVE, RADII};
+use super::{CutterProgram, CutterSide, MoveKind, NO_MOVE, RADII, ToolLength};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
 use nalgebra::Vector2;
@@ -20,6 +22,9 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
         let line = before + index + 1;
         if modal.ended {
             continue;
+        }
+        if control != Some(Controller::Sinumerik) && control != Some(Controller::Fanuc) && aborts(whole) {
+            return Err(at_line(line, "LinuxCNC stops here with an error (ABORT)"));
         }
         let block = without_comments(whole, control).ok_or_else(|| at_line(line, "a comment does not end"))?;
         let typed = block.trim();
@@ -44,6 +49,9 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
             state.readiness.path_mode_is_stated();
         }
         if is_nothing(block, control) {
+            if ends_frames(block) {
+                state.readiness.shift_is_ended();
+            }
             continue;
         }
         if control == Some(Controller::Fanuc) {
@@ -65,12 +73,6 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
         }
     }
     if modal.ended { state.program(control) } else { Err(Refusal::new("the program has no end (M2 or M30)")) }
-}
-
-/// A block without its number.
-fn behind_its_number(block: &str) -> &str {
-    let number = block.strip_prefix(['N', 'n']).map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
-    number.map_or(block, str::trim_start)
 }
 
 /// A block behind `/`, which the operator may leave out: only one that changes nothing of the cut may be there.
@@ -107,6 +109,13 @@ fn run(line: usize, words: &[Word], state: &mut MachineState, modal: &mut ModalW
     }
     (state.feed, state.side, state.cutting) = (modal.feed_mm(), modal.side, modal.cutting());
     if leaves {
+        if let Some(z) = of(line, words, 'Z')?.filter(|_| words.contains(&('G', 53.0))) {
+            state.retracts_to(line, modal.scale() * z);
+            // On SINUMERIK the place of the machine counts with the length, unless D0.
+            if modal.control == Some(Controller::Sinumerik) && state.cutting.length != ToolLength::Cancelled {
+                state.moves_with_its_length(line);
+            }
+        }
         return Ok(());
     }
     if dwells(words) {

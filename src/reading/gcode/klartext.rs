@@ -15,6 +15,11 @@ const KNOWN_CYCLES: [&str; 7] = ["7", "8", "10", "11", "19", "26", "32"];
 /// Words by which a move leaves for a place of the machine, or upwards along the tool.
 const PLACES: [&str; 3] = ["M91", "M92", "M140"];
 
+/// Cycles of which a definition alone moves nothing: dwell, orientation of the spindle, datum.
+const RESTING_CYCLES: [&str; 3] = ["9", "13", "247"];
+/// M functions that move, call, or change how the control follows its path.
+const M_OF_THE_PATH: [u32; 18] = [89, 90, 91, 92, 94, 97, 98, 99, 104, 112, 114, 118, 124, 128, 130, 134, 136, 138];
+
 /// Reads a program.
 pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
     let (mut state, mut centre, mut ended, mut stopped) =
@@ -45,9 +50,12 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
             | ["LBL", _]
             | ["M1" | "M6" | "M8" | "M9"]
             // Those of them that move the profile are refused above.
-            | ["PLANE" | "TRANS", ..] => {}
+            | ["PLANE", ..] => {}
             ["STOP" | "M0"] => state.readiness.stops(),
             ["CYCL", "DEF", "32.1", rest @ ..] => path_tolerance(line, rest, &mut state)?,
+            // With another shift than 0 it is refused above.
+            ["CYCL", "DEF", cycle, ..] if cycle.starts_with("7.") => state.readiness.shift_is_ended(),
+            ["TRANS", ..] => state.readiness.shift_is_ended(),
             ["CYCL", "DEF", cycle, ..] if KNOWN_CYCLES.contains(&cycle.split('.').next().unwrap_or_default()) => {}
             ["TOOL", "CALL", call @ ..] => tool_call(line, call, &mut state)?,
             ["BEGIN", "PGM", _, unit] => state.units = Some(unit_of(line, unit)?),
@@ -60,13 +68,38 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
             ["CC", rest @ ..] => centre = Some(centre_of(line, rest)? * state.scale()),
             ["L", rest @ ..] => straight(line, rest, &mut state)?,
             ["C", rest @ ..] => round(line, rest, centre, &mut state)?,
-            _ => state.unknown(line, block.trim())?,
+            _ if is_of_the_shop(&words) => state.unknown(line, block.trim())?,
+            _ => {
+                let shown: String = block.trim().chars().take(40).collect();
+                return Err(at_line(line, format!("`{shown}` is not known, and what it does to the path neither")));
+            }
         }
     }
     if ended {
         state.program(Some(Controller::Heidenhain))
     } else {
         Err(Refusal::new("the program has no end (END PGM)"))
+    }
+}
+
+/// Whether a block that is not known may stand before the first move: the blank, a tool's data, variables, a heading, M functions of the machine, and cycles that
+/// move nothing.
+fn is_of_the_shop(words: &[&str]) -> bool {
+    let variable = |word: &str| {
+        let name = word.trim_start_matches('Q').trim_start_matches(['L', 'R', 'S']);
+        word.starts_with('Q') && name.starts_with(|c: char| c.is_ascii_digit())
+    };
+    let function = |word: &&str| {
+        let number = word.strip_prefix('M').and_then(|number| number.parse().ok());
+        number.is_some_and(|number: u32| !M_OF_THE_PATH.contains(&number))
+    };
+    match words {
+        ["BLK", "FORM", ..] | ["FN", ..] => true,
+        // With a length or a radius it is another tool than that of the table.
+        ["TOOL", "DEF", rest @ ..] => !rest.iter().any(|word| word.starts_with(['L', 'R'])),
+        ["CYCL", "DEF", cycle, ..] => RESTING_CYCLES.contains(&cycle.split('.').next().unwrap_or_default()),
+        [first, ..] if variable(first) || first.starts_with("FN") || first.starts_with('*') => true,
+        _ => words.iter().all(function),
     }
 }
 
@@ -108,6 +141,11 @@ fn tool_call(line: usize, words: &[&str], state: &mut MachineState) -> Result<()
         state.radius_fault = None;
         state.cutting.length = ToolLength::Unstated;
         state.readiness.tool_changes();
+    }
+    let of_speed = |word: &str| ["Z", "X", "Y", "U", "V", "W"].contains(&word) || word.starts_with(['S', 'F', 'D']);
+    if !first.starts_with(|c: char| c.is_ascii_digit() || c == '"') && !of_speed(first) {
+        let what = format!("the tool is called by `{first}`: which one that is, is not seen here");
+        return Err(at_line(line, what).remedy("write TOOL CALL with its number"));
     }
     if first == "0" {
         state.cutting.length = ToolLength::Cancelled;
@@ -156,7 +194,9 @@ fn path_tolerance(line: usize, words: &[&str], state: &mut MachineState) -> Resu
     let tolerance = words.strip_prefix('T').map(|tolerance| number(line, tolerance)).transpose()?;
     let scale = state.scale();
     state.path_mode.keeps_within(line, tolerance.map(|tolerance| scale * tolerance));
-    state.readiness.path_mode_is_stated();
+    if state.path_mode.is_stated() {
+        state.readiness.path_mode_is_stated();
+    }
     Ok(())
 }
 
@@ -227,6 +267,9 @@ fn to_the_machine(line: usize, words: &[&str], state: &mut MachineState) -> Resu
     let words_of_move: Vec<&str> = words.iter().copied().filter(other).collect();
     let (to, left, _) = coordinates(line, &words_of_move, state)?;
     let (axes, upwards) = (to.map(|axis| axis.is_some()), words.contains(&"M140"));
+    if let Some(z) = to[2].filter(|_| words.contains(&"M91")) {
+        state.retracts_to(line, z);
+    }
     if left.is_some() || state.side != CutterSide::Centre || (upwards && axes != [false; 3]) {
         return Err(at_line(line, "M91, M92 and M140 stand in a block with more than the place to leave for"));
     }
@@ -243,6 +286,10 @@ fn straight(line: usize, words: &[&str], state: &mut MachineState) -> Result<(),
     let (to, left, rapid) = coordinates(line, words, state)?;
     if left.is_some() {
         return Err(at_line(line, "a straight line does not turn (DR)"));
+    }
+    // Such as `L M3`.
+    if to == [None; 3] {
+        return Ok(());
     }
     state.go(line, if rapid { MoveKind::Rapid } else { MoveKind::Line }, to)
 }

@@ -10,6 +10,9 @@ use crate::refusal::Refusal;
 use crate::units::LengthUnit;
 use nalgebra::Vector2;
 
+/// Above the upper face the tool may move along Z wherever it is, mm: clamps are not as high.
+const CLEAR_HEIGHT: f64 = 50.0;
+
 /// The state of a control.
 #[derive(Debug, Default)]
 pub(super) struct MachineState {
@@ -95,6 +98,16 @@ impl MachineState {
         Ok(())
     }
 
+    /// Keeps the Z of the machine, mm, to which the tool retracts.
+    pub(super) fn retracts_to(&mut self, line: usize, z: f64) {
+        self.program.retracts_to(line, z);
+    }
+
+    /// Keeps the length with which the tool moves along Z.
+    pub(super) fn moves_with_its_length(&mut self, line: usize) {
+        self.program.moves_with(line, self.cutting.length);
+    }
+
     /// The place in the plane.
     pub(super) fn place(&self) -> Option<Vector2<f64>> {
         Some(Vector2::new(self.at[0]?, self.at[1]?))
@@ -119,7 +132,7 @@ impl MachineState {
             line,
             rapid: kind == MoveKind::Rapid,
             arc: is_arc,
-            knew_place: before[0].is_some() && before[1].is_some(),
+            knew_place: (before[0].is_some() && before[1].is_some()) || self.at[2].is_some_and(|z| z >= CLEAR_HEIGHT),
             knew_height: before[2].is_some(),
             across: before[..2] != self.at[..2] || is_arc,
             along_z: before[2] != self.at[2],
@@ -135,6 +148,9 @@ impl MachineState {
             *own = new.or(*own);
         }
         self.relies(line, kind, before);
+        if before[2] != self.at[2] {
+            self.moves_with_its_length(line);
+        }
         if kind != MoveKind::Rapid {
             self.path_mode.moves();
             match self.feed {

@@ -154,6 +154,10 @@ pub struct CutterProgram {
     pub control: Option<Controller>,
     /// With what it cuts, from a line on.
     pub states: Vec<(usize, CuttingState)>,
+    /// The lengths of the tool with which it moves along Z, from a line on.
+    pub lengths: Vec<(usize, ToolLength)>,
+    /// The lowest Z of the machine to which it retracts, mm, with its line.
+    pub lowest_home: Option<(usize, f64)>,
     /// Its feeds below the upper face, in the order of its moves, but for those of the rows of a pass of `turned`.
     pub feeds: Vec<CuttingFeed>,
     /// Tolerances of the control's path, mm, each after its line.

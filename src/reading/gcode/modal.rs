@@ -197,6 +197,7 @@ impl ModalWords {
         if is_deep && words.iter().any(changes) {
             return Err(at_line(line, "the tool changes, or its length, while it is below the upper face"));
         }
+        numbers_are_whole(line, words, self.control)?;
         let offset = of(line, words, 'D')?;
         // A radius that changes on the way is a step in the cam.
         if kept
@@ -225,12 +226,16 @@ impl ModalWords {
         if offset == Some(0.0) && self.side != CutterSide::Centre {
             return Err(at_line(line, "D0 ends the compensation: the cutter would take its radius out of the cam"));
         }
-        self.radius_is_known(line, words).map(|()| change)
+        self.radius_is_known(line, words, kept).map(|()| change)
     }
 
     /// Refuses to keep the cutter beside its path by a radius that is not known.
-    fn radius_is_known(&self, line: usize, words: &[Word]) -> Result<(), Refusal> {
+    fn radius_is_known(&self, line: usize, words: &[Word], kept: bool) -> Result<(), Refusal> {
         let begins = words.contains(&('G', 41.0)) || words.contains(&('G', 42.0));
+        if begins && kept && self.control == Some(Controller::LinuxCnc) {
+            let what = "LinuxCNC stops at G41 or G42 while the cutter is kept beside its path already";
+            return Err(at_line(line, what).remedy("write G40 before it"));
+        }
         if !begins || self.offset.is_some_and(|offset| offset > 0.0 && offset.fract() == 0.0) {
             return Ok(());
         }
@@ -253,6 +258,22 @@ impl ModalWords {
         let what =
             format!("the cutter is to be kept beside its path (G41, G42) without a number of its radius (D): {why}");
         Err(at_line(line, what).remedy("write G41 D1 with the number of the offset"))
+    }
+}
+
+/// Refuses a tool, a length or a radius by a number that is none of a tool: what a control makes of it is not known.
+fn numbers_are_whole(line: usize, words: &[Word], control: Option<Controller>) -> Result<(), Refusal> {
+    // H is no length on SINUMERIK.
+    let letters = if control == Some(Controller::Sinumerik) { "TD" } else { "TDH" };
+    let wrong = words.iter().find(|(letter, number)| {
+        letters.contains(*letter) && *number != NAMED_TOOL && !(*number >= 0.0 && number.fract() == 0.0)
+    });
+    match wrong {
+        None => Ok(()),
+        Some((letter, number)) => {
+            let what = format!("{letter}{number} is no number of a tool, of a length or of a radius");
+            Err(at_line(line, what).remedy(format!("write {letter} with a whole number")))
+        }
     }
 }
 
@@ -303,11 +324,20 @@ pub(super) fn are_known(words: &[Word], axis: Option<char>) -> bool {
     words.iter().all(known)
 }
 
-/// G codes of a block with unknown words that would be lost with it: those that move, or say how coordinates and feeds are meant.
-const STATED: [f64; 29] = [
-    0.0, 1.0, 2.0, 3.0, 17.0, 18.0, 19.0, 20.0, 21.0, 28.0, 30.0, 40.0, 41.0, 42.0, 43.0, 44.0, 49.0, 53.0, 65.0, 66.0,
-    70.0, 71.0, 90.0, 91.0, 93.0, 94.0, 95.0, 700.0, 710.0,
+/// G codes that may stand in a block with unknown words: they neither move nor say how coordinates and feeds are meant. High-speed machining, ends of
+/// shifts, mirrors and scaling, datums, stored limits, the path mode, and how a control goes to a profile.
+const PASSED: [f64; 45] = [
+    4.0, 5.0, 5.1, 8.0, 9.0, 13.1, 15.0, 22.0, 23.0, 25.0, 26.0, 50.0, 50.1, 52.0, 54.0, 54.1, 55.0, 56.0, 57.0, 58.0,
+    59.0, 59.1, 59.2, 59.3, 60.0, 61.0, 61.1, 62.0, 64.0, 67.0, 69.0, 80.0, 92.1, 92.2, 97.0, 98.0, 99.0, 113.0, 187.0,
+    290.0, 450.0, 451.0, 601.0, 602.0, 603.0,
 ];
+
+/// Whether a G code may stand in a block with unknown words.
+fn is_passed(code: f64) -> bool {
+    // Datums and smoothing of SINUMERIK.
+    PASSED.contains(&code) || (500.0..600.0).contains(&code) || (641.0..646.0).contains(&code)
+}
+
 /// Words that call other programs, go elsewhere in this one, or change how the control calculates.
 const CALLS: [&str; 18] = [
     "GOTOC", "GOTOS", "CALL", "SUB", "GOTO", "GOTOF", "GOTOB", "IF", "WHILE", "FOR", "REPEAT", "LOOP", "EXTCALL",
@@ -350,23 +380,34 @@ pub(super) fn passed_over(line: usize, block: &str, control: Option<Controller>)
         rest = rest.get(letter.len_utf8()..).unwrap_or_default();
         let begins = letter.is_ascii_alphabetic() && !(before.is_ascii_alphabetic() || before == '_');
         before = letter;
-        let number = rest.trim_start().trim_start_matches('=').trim_start();
-        let end = number.find(|c: char| !(c.is_ascii_digit() || ['.', '+', '-'].contains(&c))).unwrap_or(number.len());
-        let Some(value) = number.get(..end).filter(|_| begins).and_then(|digits| digits.parse::<f64>().ok()) else {
+        // A name rather than a letter with its number.
+        if !begins || rest.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_') {
             continue;
-        };
+        }
+        let value = value_behind(rest);
         let lost = match letter {
-            'G' => STATED.contains(&value),
-            'M' => of_machine.contains(&value),
+            'G' => !value.is_some_and(is_passed),
+            'M' => value.is_none_or(|value| of_machine.contains(&value)),
             // H is no length on SINUMERIK.
             'H' => control != Some(Controller::Sinumerik),
-            letter => "XYZABCDUVWL".contains(letter),
+            letter => "XYZABCDTUVWL".contains(letter),
         };
         if lost {
-            return refused(&format!("{letter}{value}"));
+            return refused(&value.map_or_else(|| letter.to_string(), |value| format!("{letter}{value}")));
         }
     }
     Ok(())
+}
+
+/// The number behind a letter; `None` where it is a formula, or is parted by blanks, which some controls leave out and others do not.
+fn value_behind(rest: &str) -> Option<f64> {
+    let number = rest.trim_start().trim_start_matches('=').trim_start();
+    let end = number.find(|c: char| !(c.is_ascii_digit() || ['.', '+', '-'].contains(&c))).unwrap_or(number.len());
+    let (digits, behind) = number.split_at_checked(end)?;
+    let goes_on = behind
+        .trim_start()
+        .starts_with(|c: char| c.is_ascii_digit() || ['.', '[', '=', '+', '-', '*', '/'].contains(&c));
+    if goes_on { None } else { digits.parse().ok() }
 }
 
 /// Names with which a block of SINUMERIK may begin that is no call of a subprogram: dynamics, look-ahead, compressor, messages, and such as end frames.
@@ -415,6 +456,17 @@ mod tests {
             "g20 g5.1 q1",
             "IF #1 GT 2 GOTO 10",
             "Y=5 A90",
+            "Z=AC(-30)",
+            "POSA[Z]=3",
+            "X=IC(2)",
+            "G 9 1",
+            "g 9 1",
+            "G[90+1]",
+            "G[14]=2",
+            "G#1",
+            "G6.2 P3",
+            "G952 F3",
+            "T5 M51",
         ] {
             assert!(passed_over(1, block, None).is_err(), "{block}");
         }

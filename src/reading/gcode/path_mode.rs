@@ -3,19 +3,42 @@
 use super::dialect::{after, has_word};
 use crate::machine::Controller;
 
-/// SINUMERIK words for smoothing within CTOL, ADIS or CYCLE832; without a tolerance, within machine data unknown to the program.
-const SMOOTHING: [&str; 6] = ["G64", "G641", "G642", "G643", "G644", "G645"];
+/// How a SINUMERIK control rounds the corners of its path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Smoothing {
+    /// G64 and G644: by machine data, which the program does not know.
+    Unbounded,
+    /// G641: within ADIS.
+    Distance,
+    /// G642, G643, G645: within CTOL; ADIS as well where machine data say so.
+    Contour,
+    /// CYCLE832: within its own tolerance.
+    Cycle,
+}
+
+const SMOOTHING: [(&str, Smoothing); 6] = [
+    ("G64", Smoothing::Unbounded),
+    ("G641", Smoothing::Distance),
+    ("G642", Smoothing::Contour),
+    ("G643", Smoothing::Contour),
+    ("G644", Smoothing::Unbounded),
+    ("G645", Smoothing::Contour),
+];
 const COMPRESSING: [&str; 4] = ["COMPCAD", "COMPON", "COMPCURV", "COMPSURF"];
+/// Kinds of machining by which CYCLE832 ends.
+const CYCLE_ENDS: [&str; 2] = ["0", "_OFF"];
 
 /// The path mode stated so far.
 #[derive(Debug, Default)]
 pub(super) struct PathMode {
     /// Line and path tolerance, mm; infinite if unbounded.
     is: Option<(usize, f64)>,
-    /// SINUMERIK: the lines that switch on smoothing and compressing, and the tolerance stated for both.
-    smooths: Option<usize>,
-    compresses: Option<usize>,
-    tolerance: Option<f64>,
+    /// SINUMERIK: how corners are rounded, whether rows are compressed, and the tolerances stated: CTOL, ADIS and of CYCLE832.
+    smooths: Option<Smoothing>,
+    compresses: bool,
+    contour: Option<f64>,
+    distance: Option<f64>,
+    cycle: Option<f64>,
     /// Lines and tolerances in effect during moves.
     used: Vec<(usize, f64)>,
 }
@@ -32,7 +55,9 @@ impl PathMode {
             }
             Some(Controller::LinuxCnc) | None => {
                 let Some(rest) = after(&block, "G64") else { return };
-                let stated = rest.split_once('P').and_then(|(_, rest)| number(rest));
+                let behind = |letter: char| rest.split_once(letter).and_then(|(_, rest)| number(rest));
+                // Q joins short moves that lie within it, beside the rounding of corners by P.
+                let stated = behind('P').map(|rounds| rounds.max(behind('Q').unwrap_or(0.0)));
                 let without = (control == Some(Controller::LinuxCnc)).then_some(f64::INFINITY);
                 self.is =
                     stated.map(|number| scale * number).or(without).map(|tolerance| (line, tolerance)).or(self.is);
@@ -40,9 +65,9 @@ impl PathMode {
         }
     }
 
-    /// Takes a tolerance, mm; `None`: the machine builder's own.
+    /// Takes a tolerance, mm; without one that of the machine builder, which the program does not know, follows one that was stated.
     pub(super) fn keeps_within(&mut self, line: usize, tolerance: Option<f64>) {
-        self.is = tolerance.map(|tolerance| (line, tolerance));
+        self.is = tolerance.or(self.is.map(|_| f64::INFINITY)).map(|tolerance| (line, tolerance));
     }
 
     /// Whether the path mode is stated.
@@ -63,21 +88,47 @@ impl PathMode {
     }
 
     fn sinumerik(&mut self, line: usize, block: &str, scale: f64) {
-        if let Some(word) = after(block, "CYCLE832") {
-            // Without a number the cycle ends.
-            self.tolerance = number(word).filter(|number| *number > 0.0).map(|number| scale * number);
-            self.smooths = self.tolerance.map(|_| line).or(self.smooths);
+        let has = |word: &str| has_word(block, word);
+        let words = SMOOTHING.iter().map(|(word, _)| *word).chain(COMPRESSING);
+        if !words.chain(["G60", "COMPOF", "CTOL", "ADIS", "CYCLE832"]).any(has) {
+            return;
         }
-        if let Some(number) = ["CTOL", "ADIS"].iter().find_map(|word| number(after(block, word)?)) {
-            self.tolerance = (number >= 0.0).then_some(scale * number);
+        if let Some(words) = after(block, "CYCLE832") {
+            self.cycle832(words, scale);
         }
-        let has = |words: &[&str]| words.iter().any(|word| has_word(block, word));
-        let exact = has(&["G60"]);
-        self.smooths = if has(&SMOOTHING) { Some(line) } else { self.smooths.filter(|_| !exact) };
-        self.compresses = if has(&COMPRESSING) { Some(line) } else { self.compresses.filter(|_| !has(&["COMPOF"])) };
-        let within = self.tolerance.unwrap_or(f64::INFINITY);
-        let freely = self.smooths.or(self.compresses).map(|line| (line, within));
-        self.is = freely.or(exact.then_some((line, 0.0))).or(self.is.filter(|own| own.1 == 0.0));
+        let stated = |word: &str| number(after(block, word)?).filter(|number| *number >= 0.0);
+        self.contour = stated("CTOL").map(|number| scale * number).or(self.contour);
+        self.distance = stated("ADIS").map(|number| scale * number).or(self.distance);
+        let exact = has("G60");
+        let smooths = SMOOTHING.iter().find(|(word, _)| has(word)).map(|(_, how)| *how);
+        self.smooths = smooths.or(self.smooths.filter(|_| !exact));
+        self.compresses = COMPRESSING.into_iter().any(has) || (self.compresses && !has("COMPOF"));
+        let is_exact = exact || self.is.is_some_and(|own| own.1 == 0.0);
+        self.is = self.within().or(is_exact.then_some(0.0)).map(|within| (line, within));
+    }
+
+    /// `CYCLE832(0.01, _FINISH, 1)`: a tolerance and the kind of machining. Without a tolerance the cycle ends, and the control is as its builder set it.
+    fn cycle832(&mut self, words: &str, scale: f64) {
+        let within = number(words).filter(|number| *number > 0.0);
+        let kind = words.split([',', ')']).nth(1).unwrap_or_default().trim();
+        self.cycle = within.filter(|_| !CYCLE_ENDS.contains(&kind)).map(|number| scale * number);
+        self.smooths = Some(if self.cycle.is_some() { Smoothing::Cycle } else { Smoothing::Unbounded });
+    }
+
+    /// By how much the control may leave its path, mm; `None` where it neither rounds nor compresses.
+    fn within(&self) -> Option<f64> {
+        let contour = self.contour.into_iter().chain(self.distance).reduce(f64::max);
+        let rounding = self.smooths.map(|how| match how {
+            // The compressor then rounds within its own tolerance.
+            Smoothing::Unbounded if self.compresses => self.contour.or(self.cycle),
+            Smoothing::Unbounded => None,
+            Smoothing::Distance => self.distance,
+            Smoothing::Contour => contour,
+            Smoothing::Cycle => self.cycle,
+        });
+        let compressing = self.compresses.then(|| self.contour.or(self.cycle));
+        let bounds = rounding.into_iter().chain(compressing);
+        bounds.map(|within| within.unwrap_or(f64::INFINITY)).reduce(f64::max)
     }
 }
 

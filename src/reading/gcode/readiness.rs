@@ -21,6 +21,8 @@ pub enum Unstated {
     Datum,
     /// The path mode: G61, G64, G642.
     PathMode,
+    /// No shift of the datum: G92.2, TRANS, cycle 7.
+    Shift,
     /// A turning spindle: S, M3.
     Spindle,
     /// The tool height, before a move across the part.
@@ -48,6 +50,7 @@ pub(super) struct Readiness {
     centres: bool,
     datum: bool,
     path_mode: bool,
+    shift: bool,
     spindle: bool,
     length: bool,
     absolute: Option<bool>,
@@ -88,7 +91,9 @@ impl Readiness {
         // Klartext has feed per minute, absolute arc centres, and the datum activated by the operator.
         let dialogue = control == Some(Controller::Heidenhain);
         let centres = control != Some(Controller::LinuxCnc);
-        Self { control, feed_mode: dialogue, centres, datum: dialogue, ..Self::default() }
+        // FANUC and others have no word that ends every shift.
+        let shift = matches!(control, Some(Controller::Fanuc) | None);
+        Self { control, feed_mode: dialogue, centres, datum: dialogue, shift, ..Self::default() }
     }
 
     /// The first moves that came too early, and whether the program sets up tool, datum or height itself.
@@ -143,6 +148,7 @@ impl Readiness {
         if (54.0..60.0).contains(&code) || (sinumerik && (500.0..600.0).contains(&code)) {
             (self.datum, self.sets_up) = (true, true);
         }
+        self.shift |= is(&[92.1, 92.2]);
         self.path_mode |=
             is(&[61.0, 61.1, 62.0, 64.0]) || (sinumerik && (is(&[60.0]) || (641.0..646.0).contains(&code)));
     }
@@ -168,6 +174,11 @@ impl Readiness {
     /// CYCLE832, cycle 32.
     pub(super) fn path_mode_is_stated(&mut self) {
         self.path_mode = true;
+    }
+
+    /// TRANS and other words that end the frames of SINUMERIK, cycle 7.
+    pub(super) fn shift_is_ended(&mut self) {
+        self.shift = true;
     }
 
     /// M3, M4, M5 in Klartext.
@@ -218,6 +229,7 @@ impl Readiness {
         self.lacks(line, moved.rapid || self.feed_mode, Unstated::FeedMode);
         self.lacks(line, !moved.arc || self.centres, Unstated::Centres);
         self.lacks(line, self.datum, Unstated::Datum);
+        self.lacks(line, self.shift, Unstated::Shift);
         self.lacks(line, moved.rapid || self.path_mode, Unstated::PathMode);
         let by_hand = self.stopped && !self.changes && !self.lost;
         if moved.along_z && !self.length && !by_hand {

@@ -47,6 +47,9 @@ impl LengthWords {
             self.is = if lost { ToolLength::Cancelled } else { self.is };
         }
         let begins = words.contains(&('G', 43.0));
+        if number.is_some() && !begins && control == Some(Controller::LinuxCnc) {
+            return Err(at_line(line, "LinuxCNC stops at H without G43").remedy("write G43 in the same block"));
+        }
         self.on |= begins;
         if begins || (self.on && number.is_some()) {
             let taken = match control {

@@ -2,7 +2,7 @@
 //! in all at once, in the time that each block gives (G93).
 
 use super::cutting_state::CuttingFeed;
-use super::dialect::{dialect, in_common_words, is_nothing, moves_the_profile};
+use super::dialect::{aborts, dialect, ends_frames, in_common_words, is_nothing, moves_the_profile};
 use super::modal::{ModalWords, Situation, are_known, dwells, leaves, passed_over};
 use super::path_mode::PathMode;
 use super::readiness::{PartMove, Readiness};
@@ -47,6 +47,8 @@ struct TurnedState {
     /// The angle, X, Y and Z.
     at: [Option<f64>; 4],
     has_moved: bool,
+    /// Whether Y is stated: of a disc the tool is taken to stay over the axis, and the program must say so.
+    beside_is_stated: bool,
     /// Where the tool went down, until a pass begins there.
     plunged: Option<usize>,
     program: CutterProgram,
@@ -66,7 +68,7 @@ pub(super) fn axis_of(text: &str) -> Option<char> {
 /// Reads a program.
 pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result<CutterProgram, Refusal> {
     let control = dialect(text, design);
-    // Of a disc the tool stays over the axis, whatever is not said.
+    // Of a disc the tool stays over the axis.
     let beside = (axis == 'C').then_some(0.0);
     let readiness = Readiness::of(control);
     let mut state = TurnedState { axis, at: [None, None, beside, None], readiness, ..TurnedState::default() };
@@ -74,6 +76,9 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
     let mut modal = ModalWords::of(control, true);
     for (index, whole) in text.lines().enumerate() {
         let line = index + 1;
+        if control != Some(Controller::Sinumerik) && control != Some(Controller::Fanuc) && aborts(whole) {
+            return Err(at_line(line, "LinuxCNC stops here with an error (ABORT)"));
+        }
         let block = without_comments(whole, control).ok_or_else(|| at_line(line, "a comment does not end"))?;
         let typed = block.trim();
         let block = in_common_words(typed, control);
@@ -89,6 +94,9 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
             state.readiness.path_mode_is_stated();
         }
         if is_nothing(block, control) {
+            if ends_frames(block) {
+                state.readiness.shift_is_ended();
+            }
             continue;
         }
         if control == Some(Controller::Fanuc) {
@@ -126,6 +134,9 @@ impl TurnedState {
             let leaves = letters.map(|axis| words.iter().any(|(letter, _)| *letter == axis));
             let axes = [leaves[0] || leaves[1], leaves[2], leaves[3]];
             self.readiness.leaves_by(line, (axes, words), self.at[3].is_some());
+            if let Some(z) = of(line, words, 'Z')?.filter(|_| words.contains(&('G', 53.0))) {
+                self.program.retracts_to(line, modal.scale() * z);
+            }
             if is_deep && leaves != [false, false, false, true] {
                 return refused("the tool leaves for a place of the machine from below the upper face");
             }
@@ -146,6 +157,7 @@ impl TurnedState {
         if self.axis == 'C' && to[2].is_some_and(|y| y != 0.0) {
             return refused("the tool leaves the line through the axis (Y)");
         }
+        self.beside_is_stated |= to[2].is_some();
         if to == [None; 4] { Ok(()) } else { self.go(line, to, modal) }
     }
 
@@ -163,6 +175,9 @@ impl TurnedState {
         self.has_moved = true;
         let rises = !turns && !along && self.at[3] > before[3];
         self.relies(line, before, modal.motion == Some(0));
+        if down {
+            self.program.moves_with(line, modal.cutting().length);
+        }
         match modal.motion {
             None => return refused("the tool is to move, and it is not stated how (G0, G1)"),
             Some(0) if !deep => return Ok(()),
@@ -211,7 +226,7 @@ impl TurnedState {
             line,
             rapid,
             arc: false,
-            knew_place: before[..3].iter().all(Option::is_some),
+            knew_place: before[..3].iter().all(Option::is_some) && self.beside_is_stated,
             knew_height: before[3].is_some(),
             across: before[..3] != self.at[..3],
             along_z: before[3] != self.at[3],

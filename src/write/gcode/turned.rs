@@ -20,17 +20,18 @@ impl IsoText<'_> {
 
     fn round(&mut self, (axis, round): (char, &TurnedRound), depth: f64) {
         let (cutting, decimals, units) = (&self.program.cutting, self.decimals, self.program.units);
+        let both =
+            |[x, y]: [f64; 2]| format!("X{} Y{}", plain(units.of_mm(x), decimals), plain(units.of_mm(y), decimals));
+        // Of a disc the tool stays over the axis.
         let place = |[x, y]: [f64; 2]| {
-            // Of a disc the tool stays over the axis.
-            let beside = if axis == 'C' { String::new() } else { format!(" Y{}", plain(units.of_mm(y), decimals)) };
-            format!("X{}{beside}", plain(units.of_mm(x), decimals))
+            if axis == 'C' { format!("X{}", plain(units.of_mm(x), decimals)) } else { both([x, y]) }
         };
         let Some([first, x, y]) = round.rows.first().copied() else { return };
         let (along, plunge) = (self.feed(cutting.feed), self.feed(cutting.plunge_feed));
         // Beside a disc the wheel goes down in the open.
         let (down, to) = if axis == 'C' { (&along, &plunge) } else { (&plunge, &along) };
         self.comment(&round.words);
-        self.approach(&format!("{} {axis}{}", place(round.away), plain(first, decimals)));
+        self.approach(&format!("{} {axis}{}", both(round.away), plain(first, decimals)));
         self.line(&format!("G1 Z{} F{down}", self.number(-depth)));
         let goes_to = round.away != [x, y];
         if goes_to {
