@@ -107,11 +107,15 @@ impl PathMode {
         self.is = self.within().or(is_exact.then_some(0.0)).map(|within| (line, within));
     }
 
-    /// `CYCLE832(0.01, _FINISH, 1)`: a tolerance and the kind of machining. Without a tolerance the cycle ends, and the control is as its builder set it.
+    /// `CYCLE832(0.01, _FINISH, 1)`: a tolerance and the kind of machining. Without a tolerance the cycle ends, and the control with its
+    /// tolerances is as its builder set it.
     fn cycle832(&mut self, words: &str, scale: f64) {
         let within = number(words).filter(|number| *number > 0.0);
         let kind = words.split([',', ')']).nth(1).unwrap_or_default().trim();
         self.cycle = within.filter(|_| !CYCLE_ENDS.contains(&kind)).map(|number| scale * number);
+        if self.cycle.is_none() {
+            (self.contour, self.distance, self.compresses) = (None, None, false);
+        }
         self.smooths = Some(if self.cycle.is_some() { Smoothing::Cycle } else { Smoothing::Unbounded });
     }
 
