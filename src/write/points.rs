@@ -428,7 +428,8 @@ mod tests {
     fn polar_angles_grow_over_the_whole_turn() {
         let read_turn = |last: &str| {
             let head = "# interpolation: linear, so\n# closed: yes, so\ncam_deg,radius_mm\n";
-            read(format!("{head}12.0,17.0\n130.0,18.0\n130.0,18.0\n250.0,17.0\n{last},17.0\n").as_bytes())
+            let table = format!("{head}12.0,17.0\n130.0,18.0\n130.0,18.0\n250.0,17.0\n{last},17.0\n");
+            read(table.as_bytes()).and_then(|read| read.goes_round())
         };
         assert!(read_turn("372.0").is_ok());
         for (last, part) in

@@ -505,8 +505,8 @@ fn the_length_is_that_of_the_tool() {
         }
         assert!(why_refused(&cam, &text.replace(&takes, "G0 Z5.0"), cutter).contains("write G43"), "{controller:?}");
         for right in [
-            text.replace("G17", "G40 G49 G80\nG49 H0\nG17"),
-            text.replace("M30", "G49\nG91 G28 Z0 M5\nG49 H0\nM30"),
+            text.replace("G17", "G40 G49 G80\nG49\nG17"),
+            text.replace("M30", "G49\nG91 G28 Z0 M5\nG49\nM30"),
             text.replace(&takes, "G0 Z5.0 G43 H001"),
             second("G43 H1"),
             text.replace("T1 M6", "G91 G28 Z0 G49\nG90\nT1 M6"),

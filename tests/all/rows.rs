@@ -568,7 +568,7 @@ fn headings_with_factors_counts_or_radii_are_refused() {
     made(&of_table("unit = \"mm\"", &with("lift dmm")));
     refused(&of_table("", &with("lift yards")), &["the positions are in yd"]);
     for heading in ["counts", "pulses", "raw", "ADC", "lift cts", "Hub Inkr."] {
-        refused(&of_table("", &with(heading)), &["whose size is not known", "scale"]);
+        refused(&of_table("", &with(heading)), &["whose size is unknown", "scale"]);
     }
     refused(&of_table("", &with("radius mm")), &["has radii", "--as pitch"]);
     // In a comma-separated file a decimal comma splits a heading.

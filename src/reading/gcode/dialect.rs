@@ -1,6 +1,8 @@
 //! Whose words a program is written in, and the words that move, turn, mirror or scale the profile.
 
+use super::words::at_line;
 use crate::machine::Controller;
+use crate::refusal::Refusal;
 
 /// Lines in which a program says for which control it is.
 const HEAD: usize = 40;
@@ -147,10 +149,14 @@ pub(super) fn behind_its_number(block: &str) -> &str {
     number.map_or(block, str::trim_start)
 }
 
-/// Whether a block has a comment by which LinuxCNC stops with an error: `(ABORT, text)`.
-pub(super) fn aborts(block: &str) -> bool {
-    let comments = block.split('(').skip(1);
-    comments.map(|comment| comment.trim_start().to_ascii_uppercase()).any(|comment| comment.starts_with("ABORT,"))
+/// Refuses a comment by which LinuxCNC stops with an error: `(ABORT, text)`.
+pub(super) fn not_aborted(line: usize, block: &str, control: Option<Controller>) -> Result<(), Refusal> {
+    let mut comments = block.split('(').skip(1).map(|comment| comment.trim_start().to_ascii_uppercase());
+    let reads_comments = matches!(control, Some(Controller::LinuxCnc) | None);
+    if reads_comments && comments.any(|comment| comment.starts_with("ABORT,")) {
+        return Err(at_line(line, "LinuxCNC stops here with an error (ABORT)"));
+    }
+    Ok(())
 }
 
 /// Whether a block writes a variable of the control rather than of the program: `#5221=1`, `$TC_DP6[1,1]=4`.

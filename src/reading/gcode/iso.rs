@@ -1,7 +1,7 @@
 //! Programs in words of a letter and a number: LinuxCNC, FANUC, SINUMERIK.
 
 use super::dialect::{
-    aborts, behind_its_number, behind_its_start, dialect, ends_frames, in_common_words, is_nothing, moves_the_profile,
+    behind_its_number, behind_its_start, dialect, in_common_words, is_nothing, moves_the_profile, not_aborted,
 };
 use super::machine_state::MachineState;
 use super::modal::{ModalWords, Situation, are_known, dwells, is_harmless, leaves, passed_over};
@@ -23,11 +23,11 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
         if modal.ended {
             continue;
         }
-        if control != Some(Controller::Sinumerik) && control != Some(Controller::Fanuc) && aborts(whole) {
-            return Err(at_line(line, "LinuxCNC stops here with an error (ABORT)"));
-        }
+        not_aborted(line, whole, control)?;
         let block = without_comments(whole, control).ok_or_else(|| at_line(line, "a comment does not end"))?;
         let typed = block.trim();
+        state.path_mode.block(line, typed, control, modal.scale());
+        state.readiness.path_mode(&state.path_mode);
         let block = in_common_words(typed, control);
         let block = block.as_str();
         if block.is_empty() || (block == "%" && !modal.begun) {
@@ -44,14 +44,8 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
         if let Some(what) = moves_the_profile(block, control) {
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
         }
-        state.path_mode.block(line, typed, control, modal.scale());
-        if state.path_mode.is_stated() {
-            state.readiness.path_mode_is_stated();
-        }
         if is_nothing(block, control) {
-            if ends_frames(block) {
-                state.readiness.shift_is_ended();
-            }
+            state.readiness.frames(block);
             continue;
         }
         if control == Some(Controller::Fanuc) {
@@ -308,9 +302,9 @@ mod tests {
         {
             let found = of(head, "G41").expect_err("no radius").to_string();
             assert!(found.contains(why) && found.contains("G41 D1"), "{found}");
-            assert!(
-                of(head, "G42 D0").is_err() && of(head, "G42 D3").is_ok() && of(&format!("{head} D2"), "G41").is_ok()
-            );
+            assert!(of(head, "G42 D0").is_err() && of(head, "G42 D3").is_ok());
+            // LinuxCNC takes D with G41 and G42 alone.
+            assert_eq!(of(&format!("{head} D2"), "G41").is_ok(), head != linuxcnc, "{head}");
             assert_eq!(of(&format!("{head}\nT1 M6"), "G41").is_ok(), head != fanuc, "{head}");
         }
     }

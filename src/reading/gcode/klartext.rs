@@ -194,9 +194,7 @@ fn path_tolerance(line: usize, words: &[&str], state: &mut MachineState) -> Resu
     let tolerance = words.strip_prefix('T').map(|tolerance| number(line, tolerance)).transpose()?;
     let scale = state.scale();
     state.path_mode.keeps_within(line, tolerance.map(|tolerance| scale * tolerance));
-    if state.path_mode.is_stated() {
-        state.readiness.path_mode_is_stated();
-    }
+    state.readiness.path_mode(&state.path_mode);
     Ok(())
 }
 

@@ -74,8 +74,8 @@ impl ModalWords {
         let feed = of(line, words, 'F')?;
         self.feed = if self.by_time { feed } else { feed.or(self.feed) };
         let change = self.tool(line, words, (at.is_deep, kept))?;
-        self.length.block((line, words), self.control, (change, self.loaded, at.has_moved))?;
         of_another_kind(line, words)?;
+        self.length.block((line, words), self.control, (change, self.loaded, at.has_moved))?;
         self.spindle(line, words)?;
         if at.is_deep && words.iter().any(|word| [('M', 4.0), ('M', 5.0), ('G', 43.0), ('G', 49.0)].contains(word)) {
             return refused("the spindle stops or turns back, or the length of the tool changes, below the upper face");
@@ -232,7 +232,11 @@ impl ModalWords {
     /// Refuses to keep the cutter beside its path by a radius that is not known.
     fn radius_is_known(&self, line: usize, words: &[Word], kept: bool) -> Result<(), Refusal> {
         let begins = words.contains(&('G', 41.0)) || words.contains(&('G', 42.0));
-        if begins && kept && self.control == Some(Controller::LinuxCnc) {
+        let linuxcnc = self.control == Some(Controller::LinuxCnc);
+        if linuxcnc && !begins && words.iter().any(|(letter, _)| *letter == 'D') {
+            return Err(at_line(line, "LinuxCNC stops at D without G41 or G42").remedy("write it in the same block"));
+        }
+        if begins && kept && linuxcnc {
             let what = "LinuxCNC stops at G41 or G42 while the cutter is kept beside its path already";
             return Err(at_line(line, what).remedy("write G40 before it"));
         }

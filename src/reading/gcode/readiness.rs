@@ -1,6 +1,8 @@
 //! Finds moves that rely on words not yet stated. A control keeps words of the previous program, so each group of words is unknown until stated.
 //! For each group the first move that needs it is recorded; `safe_start` decides which of them are refused and which only reported.
 
+use super::dialect::ends_frames;
+use super::path_mode::PathMode;
 use super::words::Word;
 use crate::machine::Controller;
 
@@ -171,12 +173,17 @@ impl Readiness {
         self.compensation = true;
     }
 
-    /// CYCLE832, cycle 32.
-    pub(super) fn path_mode_is_stated(&mut self) {
-        self.path_mode = true;
+    /// The path mode by CYCLE832, CTOL, cycle 32.
+    pub(super) fn path_mode(&mut self, mode: &PathMode) {
+        self.path_mode |= mode.is_stated();
     }
 
-    /// TRANS and other words that end the frames of SINUMERIK, cycle 7.
+    /// A block that may end the frames of SINUMERIK.
+    pub(super) fn frames(&mut self, block: &str) {
+        self.shift |= ends_frames(block);
+    }
+
+    /// Cycle 7 of HEIDENHAIN with shifts of 0.
     pub(super) fn shift_is_ended(&mut self) {
         self.shift = true;
     }
@@ -229,7 +236,6 @@ impl Readiness {
         self.lacks(line, moved.rapid || self.feed_mode, Unstated::FeedMode);
         self.lacks(line, !moved.arc || self.centres, Unstated::Centres);
         self.lacks(line, self.datum, Unstated::Datum);
-        self.lacks(line, self.shift, Unstated::Shift);
         self.lacks(line, moved.rapid || self.path_mode, Unstated::PathMode);
         let by_hand = self.stopped && !self.changes && !self.lost;
         if moved.along_z && !self.length && !by_hand {
@@ -241,6 +247,7 @@ impl Readiness {
         self.lacks(line, !moved.across || (level && !(moved.rapid && slanted)), Unstated::Height);
         self.lacks(line, !moved.along_z || moved.knew_place, Unstated::Place);
         self.lacks(line, !moved.cuts || self.spindle || self.stopped, Unstated::Spindle);
+        self.lacks(line, self.shift, Unstated::Shift);
         self.retracted &= !moved.along_z;
     }
 }

@@ -2,7 +2,7 @@
 //! in all at once, in the time that each block gives (G93).
 
 use super::cutting_state::CuttingFeed;
-use super::dialect::{aborts, dialect, ends_frames, in_common_words, is_nothing, moves_the_profile};
+use super::dialect::{dialect, in_common_words, is_nothing, moves_the_profile, not_aborted};
 use super::modal::{ModalWords, Situation, are_known, dwells, leaves, passed_over};
 use super::path_mode::PathMode;
 use super::readiness::{PartMove, Readiness};
@@ -76,11 +76,11 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
     let mut modal = ModalWords::of(control, true);
     for (index, whole) in text.lines().enumerate() {
         let line = index + 1;
-        if control != Some(Controller::Sinumerik) && control != Some(Controller::Fanuc) && aborts(whole) {
-            return Err(at_line(line, "LinuxCNC stops here with an error (ABORT)"));
-        }
+        not_aborted(line, whole, control)?;
         let block = without_comments(whole, control).ok_or_else(|| at_line(line, "a comment does not end"))?;
         let typed = block.trim();
+        state.path_mode.block(line, typed, control, modal.scale());
+        state.readiness.path_mode(&state.path_mode);
         let block = in_common_words(typed, control);
         let block = block.as_str();
         if modal.ended || block.is_empty() || block == "%" {
@@ -89,14 +89,8 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
         if let Some(what) = moves_the_profile(block, control) {
             return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
         }
-        state.path_mode.block(line, typed, control, modal.scale());
-        if state.path_mode.is_stated() {
-            state.readiness.path_mode_is_stated();
-        }
         if is_nothing(block, control) {
-            if ends_frames(block) {
-                state.readiness.shift_is_ended();
-            }
+            state.readiness.frames(block);
             continue;
         }
         if control == Some(Controller::Fanuc) {
