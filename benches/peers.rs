@@ -4,6 +4,7 @@
 #![allow(clippy::expect_used, clippy::print_stdout, missing_docs, reason = "a benchmark fails loudly and prints")]
 
 use camgen::body::disc::Disc;
+use camgen::domains::press::rotary;
 use camgen::geometry::CurvePoint;
 use camgen::geometry::contour::{Contour, Vertex};
 use camgen::geometry::edge_tree::EdgeTree;
@@ -22,7 +23,7 @@ const PLACES: u32 = 4000;
 
 fn dpi() -> Disc {
     let machine = Machine::load("dpi", &[]).expect("embedded").0;
-    Disc::solve(&machine, 35.0).expect("a cam")
+    rotary::disc(&machine, 35.0).expect("a cam")
 }
 
 /// The pitch curve as arcs within a tolerance (m), for `cavalier_contours`.

@@ -4,6 +4,9 @@
 
 use camgen::body::disc::Disc;
 use camgen::body::{Body, Layer, Request};
+use camgen::domains::press::MachineOfPress;
+use camgen::domains::press::SpecOfPress;
+use camgen::domains::press::rotary;
 use camgen::geometry::Entity;
 use camgen::geometry::contour::{Contour, Vertex};
 use camgen::machine::Machine;
@@ -19,7 +22,7 @@ use std::hint::black_box;
 
 fn dpi() -> Disc {
     let machine = Machine::load("dpi", &[]).expect("embedded").0;
-    Disc::solve(&machine, 35.0).expect("a cam")
+    rotary::disc(&machine, 35.0).expect("a cam")
 }
 
 fn motion(criterion: &mut Criterion) {
@@ -40,7 +43,7 @@ fn motion(criterion: &mut Criterion) {
 fn stages(criterion: &mut Criterion) {
     let machine = Machine::load("dpi", &[]).expect("embedded").0;
     criterion.bench_function("machine/load", |b| b.iter(|| Machine::load(black_box("dpi"), &[])));
-    criterion.bench_function("cam/solve", |b| b.iter(|| Disc::solve(black_box(&machine), 35.0)));
+    criterion.bench_function("cam/solve", |b| b.iter(|| rotary::disc(black_box(&machine), 35.0)));
     let cam = dpi();
     for tolerance in [1e-4, 1e-5, 5e-6, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12] {
         let id = format!("drawing/outline {tolerance:e} m");

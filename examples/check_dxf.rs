@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "an example shows what it found")]
 
-use camgen::{Machine, Report, Spec};
+use camgen::{Machine, Report, Spec, SpecOfPress};
 
 fn told(name: &str, report: &Report) {
     println!("{name}: {}", if report.passed() { "is this cam" } else { "is NOT this cam" });

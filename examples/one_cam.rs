@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "an example shows what it found")]
 
-use camgen::{Machine, Spec, Writing};
+use camgen::{Machine, Spec, SpecOfPress, Writing};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (machine, name) = Machine::load("dpi", &["follower.roller.radius=25mm".to_owned()])?;

@@ -3,7 +3,7 @@
 
 #![allow(clippy::print_stdout, reason = "an example shows what it found")]
 
-use camgen::{Machine, Spec};
+use camgen::{Machine, Spec, SpecOfPress};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let count: u32 = std::env::args().nth(1).map_or(Ok(1000), |count| count.parse())?;

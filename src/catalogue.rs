@@ -4,6 +4,7 @@ use crate::analysis::{compare, import, laws, size};
 use crate::body::{self, Kind};
 use crate::check::Check;
 use crate::document::{KeySection, Tables, cams};
+use crate::domain::{DesignCommand, Makes};
 use crate::domains::DOMAINS;
 #[cfg(feature = "press")]
 use crate::domains::press::machine::DriveMachine;
@@ -11,6 +12,8 @@ use crate::domains::press::machine::DriveMachine;
 use crate::domains::shaft::machine::ShaftMachine;
 use crate::machine::{self, Catalogue, Machine, MachineError, MachineSource};
 use crate::motion::program::rows::TableRows;
+use crate::pipeline::Spec;
+use crate::refusal::Refusal;
 use crate::trade;
 use crate::verify::CHECKS;
 use std::sync::LazyLock;
@@ -67,6 +70,31 @@ const ANALYSES: &[&Kind] = &[&size::KIND, &laws::KIND, &compare::KIND, &import::
 /// Every kind of analysis.
 pub fn analyses() -> impl Iterator<Item = &'static Kind> {
     ANALYSES.iter().chain(DOMAINS.iter().flat_map(|domain| domain.analyses)).copied()
+}
+
+/// Makes the cam of a motion program.
+const MAKE: DesignCommand = DesignCommand { word: cams::MAKE, usual: |_| true, makes: Makes::ForOne(made) };
+
+fn made(machine: Machine, rpm: Option<f64>) -> Result<Spec, Refusal> {
+    Spec::of_program(machine, rpm).ok_or_else(|| {
+        let refusal = Refusal::new("the base has no motion");
+        match DOMAINS.iter().flat_map(|domain| domain.commands).next() {
+            Some(command) => refusal.remedy(format!("write command = \"{}\"", command.word)),
+            None => refusal.remedy("give it one: [motion]"),
+        }
+    })
+}
+
+/// Every command that makes a cam of a design.
+pub fn commands() -> impl Iterator<Item = &'static DesignCommand> {
+    std::iter::once(&MAKE).chain(DOMAINS.iter().flat_map(|domain| domain.commands))
+}
+
+/// The command of a machine for which none is named.
+#[must_use]
+pub fn usual_command(machine: &Machine) -> &'static DesignCommand {
+    let of_domains = commands().skip(1).find(|command| (command.usual)(machine));
+    of_domains.unwrap_or(&MAKE)
 }
 
 /// How a machine of each sort is read: by name or path, or from a text.
@@ -134,7 +162,3 @@ impl TableRows {
             .read(overrides, machine::read_lift_table)
     }
 }
-
-#[cfg(test)]
-#[cfg(all(feature = "press", feature = "linkage", feature = "shaft", feature = "brake"))]
-mod tests;

@@ -4,7 +4,9 @@ use crate::body::Kind;
 use crate::check::Check;
 use crate::document::KeySection;
 use crate::document::cams::CamKind;
-use crate::machine::{Embedded, ReadParts};
+use crate::machine::{Embedded, Machine, ReadParts};
+use crate::pipeline::Spec;
+use crate::refusal::Refusal;
 
 /// A domain, as the catalogue sees it.
 #[derive(Debug)]
@@ -23,6 +25,56 @@ pub struct Domain {
     pub checks: &'static [Added<&'static Check>],
     /// Its machine files in the binary.
     pub embedded: &'static [Embedded],
+    /// Its commands that make a cam of a design.
+    pub commands: &'static [DesignCommand],
+}
+
+/// A command that makes a cam, with its defaults.
+#[derive(Debug, Clone, Copy)]
+pub struct DesignCommand {
+    /// Its word on the command line.
+    pub word: &'static str,
+    /// Whether it is that of a machine for which none is named.
+    pub usual: fn(&Machine) -> bool,
+    /// The cam that it makes.
+    pub makes: Makes,
+}
+
+/// How a command makes the cam of a machine.
+#[derive(Debug, Clone, Copy)]
+pub enum Makes {
+    /// For a speed, or for that of the machine.
+    ForOne(fn(Machine, Option<f64>) -> Result<Spec, Refusal>),
+    /// For several speeds, or for that of the machine, wherever there is the cam of another command. A study does not make it.
+    ForSeveral {
+        /// The word of the other command.
+        beside: &'static str,
+        /// The cam.
+        spec: fn(Machine, Vec<f64>) -> Result<Spec, Refusal>,
+    },
+}
+
+impl DesignCommand {
+    /// The cam of a machine for these speeds, or for that of the machine.
+    ///
+    /// # Errors
+    /// [`Refusal`] where the machine has no such cam, or it is not one for several speeds.
+    pub fn spec(&self, machine: Machine, rpm: &[f64]) -> Result<Spec, Refusal> {
+        match (self.makes, rpm) {
+            (Makes::ForOne(spec), []) => spec(machine, None),
+            (Makes::ForOne(spec), [rpm]) => spec(machine, Some(*rpm)),
+            (Makes::ForOne(_), several) => {
+                Err(Refusal::new(format!("this cam is cut for one speed, not {}", several.len())))
+            }
+            (Makes::ForSeveral { spec, .. }, rpm) => spec(machine, rpm.to_vec()),
+        }
+    }
+
+    /// Whether a study makes its cam: that of one speed.
+    #[must_use]
+    pub fn is_for_one_speed(&self) -> bool {
+        matches!(self.makes, Makes::ForOne(_))
+    }
 }
 
 /// Entries of a list that a domain adds after an existing one.

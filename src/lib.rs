@@ -222,9 +222,21 @@ pub mod engine;
 pub use analysis::Analysis;
 #[doc(inline)]
 pub use body::{Accuracy, Drawn, Part, Request};
+#[cfg(feature = "brake")]
+#[doc(inline)]
+pub use domains::brake::BuilderOfBrake;
+#[cfg(feature = "linkage")]
+#[doc(inline)]
+pub use domains::linkage::{BuilderOfLinkage, MachineOfLinkage};
 #[cfg(feature = "press")]
 #[doc(inline)]
 pub use domains::press::motion::equation_18::{ExactOn, Solver};
+#[cfg(feature = "press")]
+#[doc(inline)]
+pub use domains::press::{BuilderOfPress, MachineOfPress, SpecOfPress};
+#[cfg(feature = "shaft")]
+#[doc(inline)]
+pub use domains::shaft::{BuilderOfShaft, MachineOfShaft};
 #[doc(inline)]
 pub use follower::{Element, Follower, Touch};
 #[doc(inline)]

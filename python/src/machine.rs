@@ -12,6 +12,7 @@ use camgen::domains::press::bed_motion::End;
 use camgen::domains::press::machine::DriveMachine;
 use camgen::domains::press::motion::equation_18::{ExactOn, Solver};
 use camgen::domains::press::wedge::LAW_TOLERANCE;
+use camgen::domains::press::{MachineOfPress, SpecOfPress};
 use camgen::domains::shaft::machine::ShaftMachine;
 use camgen::machine::{MachineSource, valid_rpm};
 use camgen::pipeline::Spec;

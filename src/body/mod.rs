@@ -55,6 +55,7 @@ pub use loaded::{LoadedFollower, ShaftCompliance};
 pub use part::{Inertia, Layer, NEGLIGIBLE_MM, Part, PartFlank, Rim, Track};
 pub use picture::{Cover, DrivenMechanism, FollowerTrack};
 pub use sheet::traces;
+pub use sizing::size_limits;
 pub(crate) use sizing::{broken_limit, no_radius, passing};
 pub use surface::Surface;
 pub use swept::{RoundFace, SweptDrawing, SweptFlanks};

@@ -2,8 +2,31 @@
 
 use super::Figures;
 use crate::check::contact_stress;
-use crate::follower::Element;
+use crate::follower::{Element, Follower};
 use crate::geometry::MILLIMETRES;
+use crate::machine::{CamData, Limits};
+use crate::profile::size::{BASE_STEP, SizeLimits};
+
+/// Smallest radius of curvature that an automatic size allows under a flat face, m: a sharper place is an edge.
+const LEAST_FACE_RADIUS: f64 = 1e-3;
+
+/// What the limits of a machine file and a bore that reaches so far (m) require of a disc under a follower.
+#[must_use]
+pub fn size_limits(limits: &Limits, (cam, reach): (&CamData, Option<f64>), follower: &dyn Follower) -> SizeLimits {
+    let offset = follower.element().offset();
+    // Where no wall is asked for there must still be one.
+    let wall = Some(limits.least_wall(cam.bore_radius)).filter(|wall| *wall > 0.0).unwrap_or(BASE_STEP);
+    let least_base = reach.map_or(BASE_STEP, |reach| reach + wall);
+    SizeLimits {
+        pressure_angles: limits.pressure_angles(),
+        convex_radius: limits.convex_radius(offset.abs()).max(match follower.element() {
+            Element::Roller { radius } => radius.abs(),
+            Element::Face if limits.min_convex_radius.is_some() => 0.0,
+            Element::Face => LEAST_FACE_RADIUS,
+        }),
+        least: (least_base + offset).max(follower.prime_radii().0),
+    }
+}
 
 /// The first limit depending on the base radius that a turning cam breaks, as `limits` of the machine file calls it. Checks judge;
 /// this is how a radius is found that they will pass.

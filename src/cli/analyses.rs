@@ -17,6 +17,7 @@ use camgen::body::Cut;
 use camgen::document::file::table_text_of;
 #[cfg(feature = "linkage")]
 use camgen::domains::linkage::analysis::{self as linkage, DragLinkGoal};
+use camgen::domains::press::MachineOfPress;
 use camgen::domains::press::analysis::{drive, plain, regimes, spring};
 use camgen::domains::press::buffer::regime::Reset;
 use camgen::domains::press::buffer::spring_body::SpringShape;

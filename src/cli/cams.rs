@@ -16,6 +16,8 @@ use camgen::body::points::{PointCurve, Points};
 use camgen::catalogue::catalogue;
 use camgen::document::NamedChoice;
 use camgen::document::file::text_of;
+use camgen::domains::press::MachineOfPress;
+use camgen::domains::press::SpecOfPress;
 use camgen::domains::press::machine::exact_on;
 use camgen::domains::press::motion::equation_18::{ExactOn, Solver};
 use camgen::domains::press::wedge::LAW_TOLERANCE;

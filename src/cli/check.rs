@@ -9,6 +9,8 @@ use camgen::body::Request;
 use camgen::body::conjugate::{COUNTER, MAIN_NAME};
 use camgen::document::NamedChoice;
 use camgen::document::file::bytes_of;
+use camgen::domains::press::MachineOfPress;
+use camgen::domains::press::SpecOfPress;
 use camgen::domains::press::motion::equation_18::Solver;
 use camgen::domains::press::wedge::LAW_TOLERANCE;
 use camgen::machine::{Machine, UNITS_KEY};

@@ -7,6 +7,8 @@ use camgen::body::conjugate::COUNTER;
 use camgen::body::{RateTolerance, Request};
 use camgen::catalogue::catalogue;
 use camgen::document::{Input, NamedChoice, shown};
+use camgen::domains::press::MachineOfPress;
+use camgen::domains::press::SpecOfPress;
 use camgen::domains::press::cams::{ROTARY, TRANSLATING};
 use camgen::domains::press::motion::equation_18::{ExactOn, Solver};
 use camgen::domains::press::wedge::LAW_TOLERANCE;

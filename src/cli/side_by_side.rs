@@ -6,6 +6,8 @@ use super::text::{self, Page};
 use super::{Failure, Outcome, print, print_message};
 use camgen::body::{RateTolerance, Request};
 use camgen::document::Input;
+use camgen::domains::press::MachineOfPress;
+use camgen::domains::press::SpecOfPress;
 use camgen::pipeline::{Cam, Output, Proven, Spec};
 use camgen::report::Report;
 use camgen::write::record::{WriteInputs, refuse_protected, stage_recorded};

@@ -10,6 +10,7 @@ use camgen::catalogue::catalogue;
 use camgen::document::similar;
 #[cfg(feature = "brake")]
 use camgen::domains::brake::{BrakeMachine, BrakeOutput, analysis::trade as of_brake};
+use camgen::domains::press::MachineOfPress;
 use camgen::domains::press::analysis::trade as of_press;
 use camgen::domains::press::machine::{DriveMachine, PressCams};
 #[cfg(feature = "shaft")]

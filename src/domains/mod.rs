@@ -22,3 +22,7 @@ pub const DOMAINS: &[&Domain] = &[
     #[cfg(feature = "brake")]
     &brake::DOMAIN,
 ];
+
+#[cfg(test)]
+#[cfg(all(feature = "press", feature = "linkage", feature = "shaft", feature = "brake"))]
+mod tests;

@@ -2,6 +2,7 @@
 
 use super::{EngineAnswer, EngineFile, EngineRequest, remedies, values};
 use crate::body::{Accuracy, Body, Request};
+use crate::catalogue::{commands, usual_command};
 use crate::geometry::MILLIMETRES;
 use crate::machine::{Machine, MachineSource, valid_rpm};
 use crate::motion::program::SegmentSummary;
@@ -10,7 +11,6 @@ use crate::pipeline::{AssemblyDrawing, Error, Proven, ProvenAssembly, Spec, Writ
 use crate::profile::outline::Fit;
 use crate::refusal::Refusal;
 use crate::report::Finding;
-use crate::study::DesignCommand;
 use crate::verify::WrittenOutline;
 use crate::write::{Rendering, html, svg};
 use serde_json::{Map, Value, json};
@@ -94,22 +94,12 @@ fn tolerance(request: &EngineRequest) -> Result<f64, Error> {
 /// The cam that a command makes of a machine.
 fn spec(request: &EngineRequest, machine: Machine) -> Result<Spec, Error> {
     let rpm: Vec<f64> = request.rpm.iter().copied().map(valid_rpm).collect::<Result<_, _>>().map_err(refusal)?;
-    #[cfg(feature = "press")]
-    if request.command == crate::domains::press::cams::CONOID {
-        let of_design = || machine.press().map(|press| vec![press.design_rpm]);
-        let speeds = if rpm.is_empty() { of_design().map_err(Error::Solve)? } else { rpm };
-        return Ok(Spec::conoid(machine, speeds, None));
-    }
-    let known = DesignCommand::ALL.iter().find(|command| command.word() == request.command);
-    let command = match known {
-        Some(command) => *command,
-        None if request.command.is_empty() => DesignCommand::usual(&machine),
+    let command = match commands().find(|command| command.word == request.command) {
+        Some(command) => command,
+        None if request.command.is_empty() => usual_command(&machine),
         None => return Err(refusal(format!("no command `{}` makes a cam", request.command))),
     };
-    if rpm.len() > 1 {
-        return Err(refusal(format!("this cam is cut for one speed, not {}", rpm.len())));
-    }
-    command.spec(machine, rpm.first().copied()).map_err(Error::Solve)
+    command.spec(machine, &rpm).map_err(Error::Solve)
 }
 
 fn refusal(why: impl Into<String>) -> Error {

@@ -1,8 +1,8 @@
 //! The designs in the binary of which cams can be made.
 
-use crate::catalogue::catalogue;
+use crate::catalogue::{catalogue, commands as all_commands};
+use crate::domain::Makes;
 use crate::machine::{Embedded, Machine};
-use crate::study::DesignCommand;
 use serde_json::{Value, json};
 
 /// Those of which a cam can be made, each with its text and the commands that make its cams.
@@ -22,13 +22,13 @@ fn design(embedded: &Embedded) -> Option<Value> {
 /// The commands that make a cam of a machine.
 #[must_use]
 pub fn commands(machine: &Machine) -> Vec<&'static str> {
-    let makes =
-        |command: &&DesignCommand| command.spec(machine.clone(), None).is_ok_and(|spec| spec.assemble().is_ok());
-    #[allow(unused_mut, reason = "without a press there is no conoid")]
-    let mut all: Vec<&str> = DesignCommand::ALL.iter().filter(makes).map(|command| command.word()).collect();
-    #[cfg(feature = "press")]
-    if let Some(after) = all.iter().position(|command| *command == crate::domains::press::cams::ROTARY) {
-        all.insert(after + 1, crate::domains::press::cams::CONOID);
+    let mut words: Vec<&'static str> = Vec::new();
+    for command in all_commands() {
+        let made = match command.makes {
+            Makes::ForOne(spec) => spec(machine.clone(), None).is_ok_and(|spec| spec.assemble().is_ok()),
+            Makes::ForSeveral { beside, .. } => words.contains(&beside),
+        };
+        words.extend(made.then_some(command.word));
     }
-    all
+    words
 }

@@ -14,7 +14,7 @@ impl Cam {
     /// The usual start of the names of its files, MACHINE-COMMAND-SPEEDSrpm; of a conoid for a range of speeds, that range, rpm.
     ///
     /// ```
-    /// use camgen::{Machine, Spec};
+    /// use camgen::{Machine, Spec, SpecOfPress};
     ///
     /// let (machine, name) = Machine::load("dpi", &[])?;
     /// assert_eq!(Spec::rotary(machine, 35.0).solve()?.stem(&name, None), "dpi-rotary-35rpm");

@@ -308,5 +308,51 @@ fn loss(profile: Parallel<'_>, ParallelLoop { from, to }: ParallelLoop) -> Under
 }
 
 #[cfg(test)]
-#[cfg(feature = "press")]
-mod tests;
+mod tests {
+    use super::*;
+    use crate::follower::FlatFace;
+    use crate::motion::{Jet, Motion, Piece};
+    use crate::profile::outline;
+
+    /// The follower's curve of a flat face is its profile: one that is pressed by a law a little too quick for its base circle.
+    #[test]
+    fn a_slight_undercut_under_a_face_has_an_outline() {
+        /// Lift a (1 − cos 3θ): ρ = R + a + 8 a cos 3θ, least R − 7 a at cos 3θ = −1.
+        #[derive(Debug)]
+        struct ThreeLobes(f64);
+        impl Motion for ThreeLobes {
+            fn pieces(&self) -> &[Piece] {
+                const WHOLE: [Piece; 1] = [Piece { start: 0.0, end: std::f64::consts::TAU, dwell: false }];
+                &WHOLE
+            }
+            fn jet(&self, _: usize, angle: f64) -> Jet {
+                let (sin, cos) = (libm::sin(3.0 * angle), libm::cos(3.0 * angle));
+                let a = self.0;
+                Jet { s: a * (1.0 - cos), ds: 3.0 * a * sin, dds: 9.0 * a * cos, ddds: -27.0 * a * sin }
+            }
+        }
+        let a = 0.003;
+        for below in [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3] {
+            let curves = Curves { motion: &ThreeLobes(a), follower: &FlatFace::new(7.0 * a - below) };
+            let losses = losses(curves).unwrap_or_else(|error| panic!("{below}: {error}"));
+            assert_eq!(losses.len(), 3, "{below}: {losses:?}");
+            for loss in &losses {
+                // Symmetric about the third of a turn, where the face is at the height R + 2 a over the shaft; the edge lies on
+                // that line at p cos τ − p' sin τ with p' cos τ + p sin τ = 0: bisected for τ in (0, 60°).
+                let support =
+                    |t: f64| (7.0 * a - below + a * (1.0 + libm::cos(3.0 * t)), -3.0 * a * libm::sin(3.0 * t));
+                let across = |t: f64| support(t).0 * libm::sin(t) + support(t).1 * libm::cos(t);
+                let (mut low, mut high) = (1e-3 * below.sqrt() / a.sqrt(), 1.0);
+                for _ in 0..200 {
+                    let middle = 0.5 * (low + high);
+                    if across(middle) < 0.0 { low = middle } else { high = middle }
+                }
+                let (p, slope) = support(low);
+                let lost = 7.0 * a - below + 2.0 * a - (p * libm::cos(low) - slope * libm::sin(low));
+                assert!((loss.lost - lost).abs() < 1e-6 * lost + 1e-15, "{below}: {loss:?} {lost:e}");
+            }
+            let drawn = outline::profile(curves, 5e-6).unwrap_or_else(|error| panic!("{below}: {error}"));
+            assert_eq!(drawn.contour.turns(), 1.0);
+        }
+    }
+}

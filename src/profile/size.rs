@@ -4,21 +4,17 @@ use super::outline::LARGEST_COORDINATE;
 use super::{Curves, extremes, lifts};
 use crate::follower::{Element, Follower, FollowerPlacement};
 use crate::geometry::MILLIMETRES;
-use crate::machine::{CamData, Limits};
 use crate::motion::{Jet, Motion, Piece};
 use crate::numeric::extremum::{self, Extremum};
 use crate::numeric::root;
 
 /// Whole millimetres an automatic base radius is rounded up to, m; a millionth of a step is rounding noise.
-const BASE_STEP: f64 = 1e-3;
+pub const BASE_STEP: f64 = 1e-3;
 const BASE_STEP_NOISE: f64 = 1e-6;
-
-/// Smallest radius of curvature that an automatic size allows under a flat face, m: a sharper place is an edge.
-const LEAST_FACE_RADIUS: f64 = 1e-3;
 
 /// Least convex radius of a roller's curve where it only closes the outline, over the radius of the roller: without a margin the
 /// profile has a cusp there, and rounding would decide whether that is an undercut.
-pub(crate) const CLOSING_OVER_ROLLER: f64 = 1.05;
+pub const CLOSING_OVER_ROLLER: f64 = 1.05;
 
 /// The limits that a radius must keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,26 +25,6 @@ pub struct SizeLimits {
     pub convex_radius: f64,
     /// Least prime radius of the search, m.
     pub least: f64,
-}
-
-impl SizeLimits {
-    /// What the limits of a machine file and a bore that reaches so far (m) require of a disc under a follower.
-    #[must_use]
-    pub fn of(limits: &Limits, (cam, reach): (&CamData, Option<f64>), follower: &dyn Follower) -> Self {
-        let offset = follower.element().offset();
-        // Where no wall is asked for there must still be one.
-        let wall = Some(limits.least_wall(cam.bore_radius)).filter(|wall| *wall > 0.0).unwrap_or(BASE_STEP);
-        let least_base = reach.map_or(BASE_STEP, |reach| reach + wall);
-        Self {
-            pressure_angles: limits.pressure_angles(),
-            convex_radius: limits.convex_radius(offset.abs()).max(match follower.element() {
-                Element::Roller { radius } => radius.abs(),
-                Element::Face if limits.min_convex_radius.is_some() => 0.0,
-                Element::Face => LEAST_FACE_RADIUS,
-            }),
-            least: (least_base + offset).max(follower.prime_radii().0),
-        }
-    }
 }
 
 /// The base radius that `auto` chooses for the smallest one, m: the next whole millimetre.

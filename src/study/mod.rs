@@ -23,7 +23,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod command;
 mod figures;
 mod journal;
 mod keys;
@@ -41,7 +40,7 @@ mod specification;
 mod summary;
 mod table;
 
-pub use command::DesignCommand;
+pub use crate::domain::DesignCommand;
 pub use journal::{CompleteStudy, Journal, StudyFiles};
 pub use keys::SECTIONS;
 pub use kind::{Constraint, Goal, Objective, StudyKind};

@@ -1,13 +1,13 @@
 //! The parts of a study file: its base, its command, the keys that vary, how many rows there are, limits and objectives.
 
-use super::command::DesignCommand;
 use super::keys;
 use super::kind::{Constraint, Objective, StudyKind};
 use super::parameter::{Parameter, SPEED, Scale, Values, split};
 use super::sampling::Sampling;
-use crate::catalogue::catalogue;
+use crate::catalogue::{catalogue, commands, usual_command};
 use crate::document::named::outside_fault;
 use crate::document::{FileFault, Reader, TableReader, similar};
+use crate::domain::DesignCommand;
 use crate::machine::{Machine, MachineSource};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -35,11 +35,12 @@ pub(super) fn base_of(name: &str, folder: Option<&Path>) -> Result<MachineSource
 }
 
 /// The command, where the word is one.
-pub(super) fn command(root: &TableReader<'_>, machine: &Machine) -> Option<DesignCommand> {
-    let Some(word) = root.get(&keys::COMMAND) else { return Some(DesignCommand::usual(machine)) };
-    let found = DesignCommand::ALL.iter().copied().find(|command| command.word() == word);
+pub(super) fn command(root: &TableReader<'_>, machine: &Machine) -> Option<&'static DesignCommand> {
+    let Some(word) = root.get(&keys::COMMAND) else { return Some(usual_command(machine)) };
+    let all = || commands().filter(|command| command.is_for_one_speed());
+    let found = all().find(|command| command.word == word);
     if found.is_none() {
-        let words: Vec<&str> = DesignCommand::ALL.iter().map(|command| command.word()).collect();
+        let words: Vec<&str> = all().map(|command| command.word).collect();
         let near =
             similar(&word, words.iter().copied()).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
         let help = format!("{near}It is one of {}", words.join(", "));

@@ -85,7 +85,7 @@ impl Study {
         let (overrides, rpm) = self.overrides(values);
         let rpm = rpm.map(valid_rpm).transpose()?;
         let machine = Machine::of_source(&self.base, &overrides).map_err(|error| faults(&error))?;
-        let spec = self.command.spec(machine, rpm).map_err(|why| why.to_string())?;
+        let spec = self.command.spec(machine, rpm.as_slice()).map_err(|why| why.to_string())?;
         spec.assemble().map_err(|why| why.to_string())
     }
 

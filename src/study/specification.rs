@@ -1,6 +1,5 @@
 //! The study file: TOML to a [`Study`] with every value in range.
 
-use super::command::DesignCommand;
 use super::figures::{Plan, at, paths_of};
 use super::keys;
 use super::kind::{Constraint, Objective, StudyKind};
@@ -8,6 +7,7 @@ use super::parameter::{Parameter, SPEED, Values};
 use super::parts::{base_of, command, limits, once_each, parameter, spread};
 use super::sampling::{self, Sampling};
 use crate::document::{FileFault, MOST_FAULTS, Reader, TableReader, file, similar};
+use crate::domain::DesignCommand;
 use crate::machine::{Machine, MachineSource, fitting_stem, valid_rpm};
 use crate::refusal::Refusal;
 use crate::report::sha256;
@@ -39,7 +39,7 @@ pub struct Study {
     pub(super) stem: String,
     pub(super) kind: StudyKind,
     pub(super) base: Arc<MachineSource>,
-    pub(super) command: DesignCommand,
+    pub(super) command: &'static DesignCommand,
     pub(super) rpm: Option<f64>,
     /// Of the outlines, m.
     pub(super) tolerance: f64,
@@ -155,7 +155,7 @@ impl Study {
         let set = root.get(&keys::SET).unwrap_or_default();
         let machine = Machine::of_source(&base, &set).map_err(|error| StudyError::Faults(error.faults))?;
         let Some(command) = command(&root, &machine) else { return Ok(None) };
-        let inputs = machine.inputs(command.word());
+        let inputs = machine.inputs(command.word);
         let inputs: Vec<String> = inputs.iter().map(|input| format!("{}={}", input.key, input.value)).collect();
         let digest = sha256(format!("{}\n{text}\n{}", env!("CARGO_PKG_VERSION"), inputs.join("\n")).as_bytes());
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole and in range")]
@@ -212,7 +212,7 @@ impl Study {
             let inside: Vec<&str> = inside.take(3).map(String::as_str).collect();
             let help = match (inside.as_slice(), similar(column, known.map(String::as_str))) {
                 ([], Some(near)) => format!("did you mean \"{near}\"?"),
-                ([], None) => format!("`camgen {} --json` prints the report that has them", self.command.word()),
+                ([], None) => format!("`camgen {} --json` prints the report that has them", self.command.word),
                 (inside, _) => format!("it has several figures, e.g. \"{}\"", inside.join("\", \"")),
             };
             root.fail(&keys::COLUMNS, format!("the report has no figure \"{column}\""), Some(help));

@@ -221,7 +221,7 @@ impl Study {
             summary.reasons.iter().map(|(fault, rows)| json!({"fault": fault, "rows": rows})).collect();
         json!({
             "schema": SCHEMA, "command": "study", "study": self.name, "kind": self.kind.word(), "base": self.base.stem(),
-            "cam": self.command.word(), "camgen": env!("CARGO_PKG_VERSION"), "digest": self.digest, "rows": self.count(),
+            "cam": self.command.word, "camgen": env!("CARGO_PKG_VERSION"), "digest": self.digest, "rows": self.count(),
             "proved": self.proves(), "faults": summary.faults, "feasible": summary.feasible, "front": summary.front.len(),
             "columns": columns, "reasons": reasons, "csv_sha256": csv,
         })

@@ -135,24 +135,92 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
 }
 
 #[cfg(test)]
-#[cfg(feature = "press")]
 mod tests {
     use super::super::patches::{DOUBLINGS, PLACES, SpanCell};
     use super::*;
+    use crate::body::surface::{AtAngle, Heading, PitchPoint, RateErrors};
+    use crate::geometry::boundary::Boundary;
     use crate::geometry::nurbs::{Knots, weighted};
-    use crate::machine::Machine;
-    use crate::pipeline::{Cam, Spec};
+    use crate::geometry::points::MotionErrors;
+    use crate::motion::{Jet, Piece};
+    use crate::profile::Curves;
 
-    fn conoid() -> Cam {
-        let machine = Machine::load("dpi", &[]).expect("valid").0;
-        Spec::conoid(machine, vec![20.0, 35.0], None).solve().expect("a conoid")
+    /// A wave on a circle of 80 mm, higher along the axis, under a sphere of 15 mm.
+    struct Waves;
+
+    /// The wave in a plane across the axis.
+    #[derive(Debug)]
+    struct Wave(f64);
+
+    /// Lift and its first and second derivatives by the angle, each with those along the axis, m.
+    fn lift(angle: f64, z: f64) -> [[f64; 3]; 3] {
+        let (height, slope) = (4e-3 * (1.0 + z / 0.1) * (1.0 + z / 0.1), 8e-3 * (1.0 + z / 0.1) / 0.1);
+        let (sin, cos) = (libm::sin(2.0 * angle), libm::cos(2.0 * angle));
+        [1.0 - cos, 2.0 * sin, 4.0 * cos].map(|wave| [height * wave, slope * wave, 0.8 * wave])
+    }
+
+    impl Motion for Wave {
+        fn pieces(&self) -> &[Piece] {
+            &[Piece { start: 0.0, end: TAU, dwell: false }]
+        }
+        fn jet(&self, _: usize, angle: f64) -> Jet {
+            let [[s, ..], [ds, ..], [dds, ..]] = lift(angle, self.0);
+            Jet { s, ds, dds, ddds: -4.0 * ds }
+        }
+    }
+
+    impl Surface for Waves {
+        fn sphere(&self) -> [f64; 2] {
+            [0.015, 0.0]
+        }
+        fn ends(&self) -> (f64, f64) {
+            (-0.02, 0.02)
+        }
+        fn law(&self, z: f64) -> Box<dyn Motion + '_> {
+            Box::new(Wave(z))
+        }
+        fn pitch(&self, _: usize, angle: f64, z: f64) -> PitchPoint {
+            let [[s, by_z, twice_z], [by_angle, mixed, _], [twice_angle, ..]] = lift(angle, z);
+            let (height, (sin, cos)) = (0.08 + s, libm::sincos(angle));
+            let frame = |along: f64, across: f64, axial: f64| {
+                Vector3::new(along * cos - across * sin, along * sin + across * cos, axial)
+            };
+            (
+                frame(height, 0.0, z),
+                [frame(by_angle, height, 0.0), frame(by_z, 0.0, 1.0)],
+                [frame(twice_angle - height, 2.0 * by_angle, 0.0), frame(mixed, by_z, 0.0), frame(twice_z, 0.0, 0.0)],
+            )
+        }
+        fn slices(&self) -> Vec<f64> {
+            unreachable!("not of the flank")
+        }
+        fn in_plane(&self, _: f64, _: &mut dyn FnMut(Curves<'_>)) {
+            unreachable!("not of the flank")
+        }
+        fn at(&self, _: usize, _: f64) -> Box<dyn AtAngle + '_> {
+            unreachable!("not of the flank")
+        }
+        fn at_for_many(&self, _: usize, _: f64) -> Box<dyn AtAngle + Send + Sync + '_> {
+            unreachable!("not of the flank")
+        }
+        fn rate_errors(&self, _: f64, _: Heading, _: f64) -> Option<RateErrors> {
+            unreachable!("not of the flank")
+        }
+        fn cut_at(&self, _: f64) -> Boundary<'_> {
+            unreachable!("not of the flank")
+        }
+        fn centre_at(&self, _: f64) -> Boundary<'_> {
+            unreachable!("not of the flank")
+        }
+        fn motion_errors(&self, _: f64, _: bool) -> Box<dyn MotionErrors + '_> {
+            unreachable!("not of the flank")
+        }
     }
 
     /// A point on the normal of the flank is at its distance from it, also along a normal that is off by a tenth of a radian.
     #[test]
     fn a_deviation_is_the_distance_from_the_nearest_place() {
-        let cam = conoid();
-        let surface = cam.body().surface().expect("a conoid");
+        let surface: &dyn Surface = &Waves;
         let (exact, slice) = (ExactSurface { surface, slice: surface.law(0.0), turned: false }, surface.law(0.0));
         let (low, high) = surface.ends();
         let radius = surface.sphere()[0];
@@ -193,8 +261,7 @@ mod tests {
     /// Where the places are doubled, all of them are counted: 8², 16², 32² and 64².
     #[test]
     fn every_place_of_a_cell_is_counted() {
-        let cam = conoid();
-        let surface = cam.body().surface().expect("a conoid");
+        let surface: &dyn Surface = &Waves;
         let (exact, slice) = (ExactSurface { surface, slice: surface.law(0.0), turned: false }, surface.law(0.0));
         let (low, high) = surface.ends();
         let on = |angle: f64, z: f64| {

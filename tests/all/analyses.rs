@@ -2,6 +2,7 @@
 
 use crate::common::program::{self, Run, camgen_in, files, report, run};
 use camgen::body::{RateTolerance, Request};
+use camgen::domains::press::SpecOfPress;
 use camgen::machine::Machine;
 use camgen::pipeline::Spec;
 use camgen::profile::outline::Fit;

@@ -2,7 +2,8 @@
 //! Every line of the table is a worst case; `cargo test --test all arcs:: -- --nocapture`.
 
 use crate::common::worst::Worst;
-use camgen::body::disc::Disc;
+use camgen::domains::press::SpecOfPress;
+use camgen::domains::press::rotary;
 use camgen::follower::TranslatingRoller;
 use camgen::geometry::{CurvePoint, arcs};
 use camgen::machine::Machine;
@@ -36,7 +37,7 @@ fn arcs_of_every_radius() {
 #[test]
 fn tolerances_over_nine_decades() {
     let machine = Machine::load("dpi", &[]).expect("valid").0;
-    let rotary = Disc::solve(&machine, 35.0).expect("a cam");
+    let rotary = rotary::disc(&machine, 35.0).expect("a cam");
     println!("{:>12} {:>8} {:>10} {:>14} {:>14}", "tolerance/mm", "arcs", "N*", "deviation/tol", "arcs·tol^(1/3)");
     for decade in -9..=0 {
         let tolerance = libm::pow(10.0, f64::from(decade));
@@ -74,7 +75,7 @@ fn arcs_near_the_limit() {
         "cam.lever=0.3",
     ] {
         let machine = Machine::load("dpi", &[overrides.into()]).expect("valid").0;
-        let cam = Disc::solve(&machine, 35.0).expect("a cam");
+        let cam = rotary::disc(&machine, 35.0).expect("a cam");
         for step in 0..=24 {
             let tolerance = 0.1 * libm::pow(10.0, -0.125 * f64::from(step));
             for (index, piece) in cam.curves().motion.pieces().iter().enumerate().filter(|(_, piece)| !piece.dwell) {
@@ -98,7 +99,7 @@ fn arcs_near_the_limit() {
 fn cams_at_the_edge() {
     let solve = |overrides: &[String]| {
         let machine = Machine::load("dpi", overrides).expect("valid").0;
-        Disc::solve(&machine, 35.0)
+        rotary::disc(&machine, 35.0)
     };
     let base = solve(&["cam.base_radius=90mm".into()]).expect("a cam");
     let prime = base.prime_radius();

@@ -2,6 +2,7 @@
 
 use crate::common::random::Random;
 use camgen::body::Layer;
+use camgen::domains::press::SpecOfPress;
 use camgen::domains::press::motion::equation_18::{ExactOn, Solver};
 use camgen::domains::press::wedge::LAW_TOLERANCE;
 use camgen::geometry::Entity;

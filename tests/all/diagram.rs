@@ -2,6 +2,7 @@
 
 use crate::sheets::faults;
 use camgen::body::motion_diagram::motion_diagram;
+use camgen::domains::press::SpecOfPress;
 use camgen::pipeline::Proven;
 use camgen::report::motion_diagram::{MotionDiagram, figure};
 use camgen::report::sheet::{Sheet, SheetShape};

@@ -1,6 +1,7 @@
 //! What the follower feels of an outline, and outlines that keep it.
 
 use camgen::body::{RateTolerance, Request};
+use camgen::domains::press::SpecOfPress;
 use camgen::domains::press::motion::equation_18::{ExactOn, Solver};
 use camgen::follower::{FlatFace, Follower, SwingingFlat, SwingingRoller, TranslatingRoller};
 use camgen::geometry::contour::{Contour, Edge};

@@ -1,6 +1,8 @@
 //! The moving report: one file that needs nothing else, whose data are the table's and whose roller is where the pitch curve is.
 
 use crate::common::program::{camgen, camgen_in, files, report};
+use camgen::domains::press::MachineOfPress;
+use camgen::domains::press::SpecOfPress;
 use camgen::domains::press::motion::equation_18::{ExactOn, Solver};
 use camgen::domains::press::wedge::LAW_TOLERANCE;
 use camgen::machine::Machine;

@@ -1,5 +1,6 @@
 //! A cam that turns once in n turns of the crank carries n equal lobes and stands right at every reversal.
 
+use camgen::domains::press::SpecOfPress;
 use camgen::machine::Machine;
 use camgen::pipeline::{Cam, Spec};
 use camgen::report::{Verdict, passed};

@@ -3,6 +3,7 @@
 //! `CAMGEN_MUTATIONS=1000000 cargo test --release --test all mutations::` is the long run; `CAMGEN_SEED` begins elsewhere.
 
 use camgen::document::is_plain;
+use camgen::domains::press::SpecOfPress;
 use camgen::geometry::contour::Edge;
 use camgen::profile::outline::{Fit, SegmentKind};
 use camgen::reading::{self, MOST_SEGMENTS, step};

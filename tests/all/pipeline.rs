@@ -1,5 +1,6 @@
 //! The library as a program uses it: a cam of one's own, from a specification put together in code to its files.
 
+use camgen::domains::press::SpecOfPress;
 use camgen::machine::Machine;
 use camgen::motion::{Jet, Motion, Piece};
 use camgen::pipeline::{

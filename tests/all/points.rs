@@ -3,6 +3,7 @@
 use crate::common::program::{self, camgen, camgen_in, files};
 use camgen::body::RateTolerance;
 use camgen::body::points::{PointCurve, Points, largest_errors, motion_errors};
+use camgen::domains::press::SpecOfPress;
 use camgen::geometry::points::{Interpolant, PointCoordinates, PointInterpolation, PointStep};
 use camgen::motion::EccentricCircle;
 use camgen::pipeline::Cam;

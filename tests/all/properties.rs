@@ -1,7 +1,7 @@
 //! Any machine in range gives a cam that keeps its promises, or an error that names the wall; never a NaN, never a panic.
 
 use camgen::Refusal;
-use camgen::body::disc::Disc;
+use camgen::domains::press::rotary;
 use camgen::geometry::solid;
 use camgen::machine::Machine;
 use camgen::pipeline::Spec;
@@ -47,7 +47,7 @@ proptest! {
     #[test]
     fn any_machine_gives_a_true_cam_or_a_named_wall(overrides in overrides(), rpm in 5.0..100.0_f64) {
         let machine = Machine::load("dpi", &overrides).expect("in range").0;
-        let Ok(disc) = Disc::solve(&machine, rpm) else { return Ok(()) };
+        let Ok(disc) = rotary::disc(&machine, rpm) else { return Ok(()) };
         let max_lift = disc.max_lift();
         let cam = Spec::new(machine, move |_| Ok::<_, Refusal>(disc)).solve().expect("solved before");
         let curves = camgen::body::curves(cam.body()).expect("a disc");

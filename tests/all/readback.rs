@@ -3,6 +3,7 @@
 
 use crate::common::program::{camgen, camgen_in, make, report};
 use camgen::body::Layer;
+use camgen::domains::press::SpecOfPress;
 use camgen::geometry::Entity;
 use camgen::geometry::contour::{Contour, Vertex};
 use camgen::machine::Machine;

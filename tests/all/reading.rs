@@ -1,6 +1,7 @@
 //! What would be cut must be the part: files that hold more, less or something else, and files that hold it in another form.
 
 use camgen::body::Layer;
+use camgen::domains::press::SpecOfPress;
 use camgen::geometry::Entity;
 use camgen::geometry::contour::{Contour, Segment, Vertex};
 use camgen::machine::Machine;

@@ -1,6 +1,7 @@
 //! What a refusal says would pass does pass, and `base_radius = "auto"` keeps every limit that depends on the radius.
 
 use crate::common::random::Random;
+use camgen::domains::press::SpecOfPress;
 use camgen::machine::Machine;
 use camgen::pipeline::Spec;
 use camgen::report::{Finding, Verdict};
@@ -310,6 +311,6 @@ fn an_automatic_radius_keeps_every_limit_that_depends_on_it() {
         assert!(fails.is_empty(), "{limit}: {fails:?}");
     }
     let machine = Machine::load("dpi", &[]).expect("valid").0;
-    let cam = camgen::body::disc::Disc::solve(&machine, 35.0).expect("a cam");
+    let cam = camgen::domains::press::rotary::disc(&machine, 35.0).expect("a cam");
     assert_eq!(cam.base_radius(), 0.069, "the default cam stays");
 }

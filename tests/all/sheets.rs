@@ -2,6 +2,7 @@
 
 use camgen::analysis::Picture;
 use camgen::domains::linkage::analysis::{self, DragLinkGoal};
+use camgen::domains::press::SpecOfPress;
 use camgen::geometry::contour::{Edge, Extents, Segment};
 use camgen::report::sheet::{Sheet, SheetShape, font, paper};
 use camgen::write::{pdf, svg};

@@ -3,6 +3,7 @@
 use crate::common::lines::Lines;
 use crate::common::program::{Run, camgen, camgen_in, report};
 use crate::common::random::Random;
+use camgen::domains::press::SpecOfPress;
 use camgen::domains::press::motion::equation_18::{ExactOn, Solver};
 use camgen::profile::outline::{Fit, SegmentKind};
 use camgen::reading::step;

@@ -1,6 +1,7 @@
 //! Outlines of cubic splines: proved from their written bytes as arcs are, and read exactly from files of any program.
 
 use camgen::body::Request;
+use camgen::domains::press::SpecOfPress;
 use camgen::domains::press::motion::equation_18::{ExactOn, Solver};
 use camgen::geometry::contour::{Contour, Edge};
 use camgen::geometry::cubics::{self, CurveRun, runs};

@@ -2,6 +2,7 @@
 //! of them is changed.
 
 use crate::common::lines::Lines;
+use camgen::domains::press::SpecOfPress;
 use camgen::domains::press::motion::equation_18::{ExactOn, Solver};
 use camgen::profile::outline::{Fit, SegmentKind, Side};
 use camgen::{Cam, Machine, Report, Request, Spec, Verdict, Writing};

@@ -2,6 +2,7 @@
 
 use crate::common::source::{code, sources, src, tokens};
 use camgen::domains::press::BufferData;
+use camgen::domains::press::BuilderOfPress;
 use camgen::domains::press::buffer::{Bed, bottom_law::ColumnRule};
 use camgen::domains::press::machine::{
     AirColumn, CompensatorData, ConoidData, ConoidMode, PressCams, Shift, TranslatingData,

@@ -10,6 +10,7 @@ use camgen::document::Key;
 use camgen::document::Presence::Required;
 #[cfg(feature = "brake")]
 use camgen::domains::brake::{self, BrakeMachine, BrakeOutput};
+use camgen::domains::press::SpecOfPress;
 use camgen::domains::press::buffer::regime::Reset;
 use camgen::domains::press::machine::DriveMachine;
 use camgen::domains::press::motion::equation_18::{ExactOn, Solver};

@@ -2,6 +2,7 @@
 
 use crate::common::random::Random;
 use camgen::body::Layer;
+use camgen::domains::press::SpecOfPress;
 use camgen::geometry::contour::{Contour, Vertex};
 use camgen::geometry::{CurvePoint, Entity};
 use camgen::machine::Machine;

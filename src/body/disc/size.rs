@@ -1,6 +1,7 @@
 //! The size of a disc, and the position of its follower, where these are to be chosen.
 
 use super::{Disc, LARGEST_BASE};
+use crate::body::size_limits;
 use crate::body::{Figures, WorstPlaces, broken_limit};
 use crate::check::contact_stress;
 use crate::follower::{Follower, FollowerPlacement};
@@ -115,7 +116,7 @@ impl Disc {
     /// What its limits and its bore require of its size; where a keyway stands under a lobe it does not matter.
     pub(super) fn required(&self) -> SizeLimits {
         let cam = &self.machine.cam;
-        let required = SizeLimits::of(&self.machine.limits, (cam, cam.bore_radius), &*self.follower);
+        let required = size_limits(&self.machine.limits, (cam, cam.bore_radius), &*self.follower);
         if self.is_cut {
             required
         } else {

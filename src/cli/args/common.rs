@@ -6,6 +6,7 @@ use super::parse::{RateLimit, Speed, acceleration_error, accuracy, speed, tolera
 use camgen::analysis::size::FreeDimension;
 use camgen::body::{Accuracy, RateTolerance};
 use camgen::catalogue::catalogue;
+use camgen::domains::press::MachineOfPress;
 use camgen::domains::press::bed_motion::End;
 use camgen::machine::{Embedded, Machine};
 use clap::{Args, ValueHint};

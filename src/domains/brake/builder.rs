@@ -29,11 +29,12 @@ pub struct BrakeSettings {
     pub acceleration: f64,
 }
 
-impl Builder {
+/// A belt brake put together in code: methods of the [`Builder`].
+pub trait BuilderOfBrake: Sized {
     /// What a belt brake is to do. Its parts are [`Builder::paper_roll`] with [`Builder::brake_frame`], or [`Builder::brake_ends`].
     ///
     /// ```
-    /// use camgen::Spec;
+    /// use camgen::{BuilderOfBrake, Spec};
     /// use camgen::catalogue::catalogue;
     /// use camgen::domains::brake::machine::{BeltMode, BrakeModel};
     /// use camgen::domains::brake::mechanics::{BrakeFrame, PaperRoll, RollRotation};
@@ -64,7 +65,42 @@ impl Builder {
     /// # Ok::<(), camgen::Error>(())
     /// ```
     #[must_use]
-    pub fn brake(self, brake: BrakeSettings) -> Self {
+    fn brake(self, brake: BrakeSettings) -> Self;
+
+    /// The roll, and the density of its paper (kg/m³), which its inertia needs.
+    #[must_use]
+    fn paper_roll(self, roll: PaperRoll, density: Option<f64>) -> Self;
+
+    /// The web, which a belt without slip stretches.
+    #[must_use]
+    fn web(self, web: Web) -> Self;
+
+    /// The hinged frame that follows the roll.
+    #[must_use]
+    fn brake_frame(self, frame: BrakeFrame) -> Self;
+
+    /// In place of a frame: the angles of wrap (rad) on the full roll and on the run-down roll, and the press force on the run-down roll
+    /// over that on the full roll.
+    #[must_use]
+    fn brake_ends(self, wrap: [f64; 2], press_ratio: f64) -> Self;
+
+    /// The disc on the shaft of the frame that holds the tension; its roller is [`Builder::roller`].
+    #[must_use]
+    fn brake_cam(self, cam: BrakeCam) -> Self;
+
+    /// What the brake must keep.
+    #[must_use]
+    fn brake_limits(self, limits: BrakeLimits) -> Self;
+
+    /// The brake as a machine, every value in range, for its [analysis](super::analysis::analysis) and its [disc](super::spec).
+    ///
+    /// # Errors
+    /// [`Error::Machine`] with all faults.
+    fn brake_machine(self, catalogue: &'static Catalogue, wanted: BrakeOutput) -> Result<BrakeMachine, Error>;
+}
+
+impl BuilderOfBrake for Builder {
+    fn brake(self, brake: BrakeSettings) -> Self {
         let mode = match brake.mode {
             BeltMode::Slip => "slip",
             BeltMode::NoSlip => "no-slip",
@@ -88,17 +124,13 @@ impl Builder {
             .quantity("brake.acceleration", brake.acceleration, "m/s2")
     }
 
-    /// The roll, and the density of its paper (kg/m³), which its inertia needs.
-    #[must_use]
-    pub fn paper_roll(self, roll: PaperRoll, density: Option<f64>) -> Self {
+    fn paper_roll(self, roll: PaperRoll, density: Option<f64>) -> Self {
         self.length("brake.roll.largest_radius", roll.largest_radius)
             .length("brake.roll.smallest_radius", roll.smallest_radius)
             .quantity("brake.roll.density", density, "kg/m3")
     }
 
-    /// The web, which a belt without slip stretches.
-    #[must_use]
-    pub fn web(self, web: Web) -> Self {
+    fn web(self, web: Web) -> Self {
         let Web { thickness, width, modulus, speed, wound_strain, length } = web;
         self.length("brake.web.thickness", thickness)
             .length("brake.web.width", width)
@@ -108,48 +140,39 @@ impl Builder {
             .length("brake.web.length", length)
     }
 
-    /// The hinged frame that follows the roll.
-    #[must_use]
-    pub fn brake_frame(self, frame: BrakeFrame) -> Self {
-        self.pair("brake.frame.pivot", frame.pivot, "m")
-            .pair("brake.frame.right_pulley", frame.right_pulley, "m")
-            .pair("brake.frame.left_pulley", frame.left_pulley, "m")
-            .pair("brake.frame.centre_of_gravity", frame.centre_of_gravity, "m")
-            .length("brake.frame.pulley_radius", frame.pulley_radius)
+    fn brake_frame(self, frame: BrakeFrame) -> Self {
+        let points = [
+            ("brake.frame.pivot", frame.pivot),
+            ("brake.frame.right_pulley", frame.right_pulley),
+            ("brake.frame.left_pulley", frame.left_pulley),
+            ("brake.frame.centre_of_gravity", frame.centre_of_gravity),
+        ];
+        let builder = points.into_iter().fold(self, |builder, (key, point)| with_pair(builder, key, point, "m"));
+        builder.length("brake.frame.pulley_radius", frame.pulley_radius)
     }
 
-    /// In place of a frame: the angles of wrap (rad) on the full roll and on the run-down roll, and the press force on the run-down roll
-    /// over that on the full roll.
-    #[must_use]
-    pub fn brake_ends(self, wrap: [f64; 2], press_ratio: f64) -> Self {
-        self.pair("brake.ends.wrap", wrap, "rad").number("brake.ends.press_ratio", press_ratio)
+    fn brake_ends(self, wrap: [f64; 2], press_ratio: f64) -> Self {
+        with_pair(self, "brake.ends.wrap", wrap, "rad").number("brake.ends.press_ratio", press_ratio)
     }
 
-    /// The disc on the shaft of the frame that holds the tension; its roller is [`Builder::roller`].
-    #[must_use]
-    pub fn brake_cam(self, cam: BrakeCam) -> Self {
+    fn brake_cam(self, cam: BrakeCam) -> Self {
         self.number("brake.cam.turns_per_frame_turn", cam.turns_per_frame_turn)
             .quantity("brake.cam.spring_rate", cam.spring_rate, "N/m")
             .quantity("brake.cam.preload", cam.preload, "N")
     }
 
-    /// What the brake must keep.
-    #[must_use]
-    pub fn brake_limits(self, limits: BrakeLimits) -> Self {
+    fn brake_limits(self, limits: BrakeLimits) -> Self {
         let BrakeLimits { tension_spread, web_stress } = limits;
         self.number("limits.tension_spread", tension_spread).quantity("limits.web_stress", web_stress, "Pa")
     }
 
-    /// The brake as a machine, every value in range, for its [analysis](super::analysis::analysis) and its [disc](super::spec).
-    ///
-    /// # Errors
-    /// [`Error::Machine`] with all faults.
-    pub fn brake_machine(self, catalogue: &'static Catalogue, wanted: BrakeOutput) -> Result<BrakeMachine, Error> {
+    fn brake_machine(self, catalogue: &'static Catalogue, wanted: BrakeOutput) -> Result<BrakeMachine, Error> {
         let (text, keys) = self.into_source();
         Ok(BrakeMachine::of_source(&MachineSource::of_user(catalogue, OF_BUILDER, &text), &keys, wanted)?)
     }
+}
 
-    fn pair(self, key: &str, [first, second]: [f64; 2], unit: &str) -> Self {
-        self.set(key, &format!("[{}, {}]", with_unit(first, unit), with_unit(second, unit)))
-    }
+/// With a pair of numbers in a unit.
+fn with_pair(builder: Builder, key: &str, [first, second]: [f64; 2], unit: &str) -> Builder {
+    builder.set(key, &format!("[{}, {}]", with_unit(first, unit), with_unit(second, unit)))
 }

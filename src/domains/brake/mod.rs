@@ -9,7 +9,7 @@ pub mod machine;
 pub mod mechanics;
 mod tension;
 
-pub use builder::BrakeSettings;
+pub use builder::{BrakeSettings, BuilderOfBrake};
 pub use disc::{KIND, spec};
 pub use disc_motion::BrakeDisc;
 pub use machine::{BrakeMachine, BrakeOutput};
@@ -59,6 +59,7 @@ pub const DOMAIN: Domain = Domain {
         Embedded { name: "roll", command: "brake", toml: include_str!("../../../profiles/roll.toml") },
         Embedded { name: "roll-level", command: "brake", toml: include_str!("../../../profiles/roll-level.toml") },
     ],
+    commands: &[],
 };
 
 #[cfg(test)]

@@ -5,7 +5,8 @@ use crate::domains::press::bed_motion::{DragLink, Linkage, Slider};
 use crate::domains::press::machine::LinkageData;
 use crate::pipeline::Builder;
 
-impl Builder {
+/// A linkage put together in code: methods of the [`Builder`].
+pub trait BuilderOfLinkage: Sized {
     /// What moves the bed of a press: a yoke, a crank-slider, or a drag link before the crank-slider.
     ///
     /// ```
@@ -14,7 +15,7 @@ impl Builder {
     /// use camgen::domains::press::bed_motion::{Linkage, Slider};
     /// use camgen::domains::press::buffer::{Bed, bottom_law::ColumnRule};
     /// use camgen::domains::press::machine::{AirColumn, LinkageData};
-    /// use camgen::{Judged, Spec};
+    /// use camgen::{BuilderOfLinkage, BuilderOfPress, Judged, Spec};
     ///
     /// let slider = Slider { rod_ratio: 3.0, offset_ratio: 0.0 };
     /// let machine = Spec::builder("bed")
@@ -33,35 +34,41 @@ impl Builder {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn linkage(self, data: LinkageData) -> Self {
+    fn linkage(self, data: LinkageData) -> Self;
+
+    /// What the linkage must keep.
+    #[must_use]
+    fn linkage_limits(self, limits: LinkageLimits) -> Self;
+}
+
+impl BuilderOfLinkage for Builder {
+    fn linkage(self, data: LinkageData) -> Self {
         let builder =
             self.angle("linkage.base_angle", data.base_angle).length("linkage.driving_crank", data.driving_crank);
         match data.linkage {
             Linkage::Yoke => builder.set("linkage.kind", "yoke"),
-            Linkage::CrankSlider(slider) => builder.set("linkage.kind", "crank-slider").slider(slider),
+            Linkage::CrankSlider(slider) => with_slider(builder.set("linkage.kind", "crank-slider"), slider),
             Linkage::SixBar(link, slider) => {
                 let DragLink { base, coupler, follower, turn, branch: _ } = link;
-                builder
+                let builder = builder
                     .set("linkage.kind", "six-bar")
                     .number("linkage.base_ratio", base)
                     .number("linkage.coupler_ratio", coupler)
                     .number("linkage.follower_ratio", follower)
-                    .angle("linkage.follower_angle", turn - data.base_angle)
-                    .slider(slider)
+                    .angle("linkage.follower_angle", turn - data.base_angle);
+                with_slider(builder, slider)
             }
         }
     }
 
-    /// What the linkage must keep.
-    #[must_use]
-    pub fn linkage_limits(self, limits: LinkageLimits) -> Self {
+    fn linkage_limits(self, limits: LinkageLimits) -> Self {
         let LinkageLimits { transmission_angle, rod_angle, link_ratio } = limits;
         self.angle("limits.transmission_angle", transmission_angle)
             .angle("limits.rod_angle", rod_angle)
             .number("limits.link_ratio", link_ratio)
     }
+}
 
-    fn slider(self, slider: Slider) -> Self {
-        self.number("linkage.rod_ratio", slider.rod_ratio).number("linkage.offset_ratio", slider.offset_ratio)
-    }
+fn with_slider(builder: Builder, slider: Slider) -> Builder {
+    builder.number("linkage.rod_ratio", slider.rod_ratio).number("linkage.offset_ratio", slider.offset_ratio)
 }

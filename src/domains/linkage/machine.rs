@@ -137,16 +137,23 @@ pub(super) fn read(reader: &Reader<'_>, _: (Option<&CamData>, Option<&FollowerDa
     }
 }
 
-impl Machine {
+/// What a machine file says of a linkage: methods of the [`Machine`].
+pub trait MachineOfLinkage {
     /// The linkage that moves the bed.
     #[must_use]
-    pub fn linkage(&self) -> Option<&LinkageData> {
-        self.part()
-    }
+    fn linkage(&self) -> Option<&LinkageData>;
 
     /// The limits that a linkage must keep.
     #[must_use]
-    pub fn linkage_limits(&self) -> LinkageLimits {
+    fn linkage_limits(&self) -> LinkageLimits;
+}
+
+impl MachineOfLinkage for Machine {
+    fn linkage(&self) -> Option<&LinkageData> {
+        self.part()
+    }
+
+    fn linkage_limits(&self) -> LinkageLimits {
         self.part().copied().unwrap_or_default()
     }
 }

@@ -7,6 +7,9 @@ mod dual;
 pub mod machine;
 pub mod synthesis;
 
+pub use builder::BuilderOfLinkage;
+pub use machine::MachineOfLinkage;
+
 use crate::document::cams::CamKind;
 use crate::domain::{Added, Domain};
 use crate::domains::press::cams::OF_BED_MOTION;
@@ -44,4 +47,5 @@ pub const DOMAIN: Domain = Domain {
         },
         Embedded { name: "dpi-six-bar", command: "rotary", toml: include_str!("../../../profiles/dpi-six-bar.toml") },
     ],
+    commands: &[],
 };

@@ -1,6 +1,7 @@
 //! What a cam of a press is for: that the air balances the inertia of the bed. The measures on which its verdicts rest.
 
 use crate::document::NamedChoice;
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::buffer::Cylinder;
 use crate::domains::press::buffer::crank_law::CrankLaw;
 use crate::domains::press::load::USEFUL;

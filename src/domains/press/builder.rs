@@ -24,16 +24,18 @@ pub struct BufferData {
     pub lead: f64,
 }
 
+/// A press put together in code: methods of the [`Builder`].
+///
 /// The tables of a press. What they describe is cut with [`Spec::rotary`](crate::Spec::rotary), [`Spec::translating`](crate::Spec::translating),
 /// [`Spec::conoid`](crate::Spec::conoid) and [`Spec::compensator`](crate::Spec::compensator).
-impl Builder {
+pub trait BuilderOfPress: Sized {
     /// The bed and the crank that reverses it.
     ///
     /// ```
     /// use camgen::domains::press::BufferData;
     /// use camgen::domains::press::buffer::{Bed, bottom_law::ColumnRule};
     /// use camgen::domains::press::machine::AirColumn;
-    /// use camgen::{Spec, units::TECHNICAL_ATMOSPHERE};
+    /// use camgen::{BuilderOfPress, Spec, SpecOfPress, units::TECHNICAL_ATMOSPHERE};
     ///
     /// let machine = Spec::builder("press")
     ///     .bed(Bed { mass: 978.2, crank_radius: 0.180, crank_turns_per_main_shaft_turn: 3.0 })
@@ -53,16 +55,69 @@ impl Builder {
     /// # Ok::<(), camgen::Error>(())
     /// ```
     #[must_use]
-    pub fn bed(self, bed: Bed) -> Self {
+    fn bed(self, bed: Bed) -> Self;
+
+    /// The air buffers.
+    #[must_use]
+    fn buffer(self, buffer: BufferData) -> Self;
+
+    /// Speed of the main shaft for which the cylinders are sized, rpm.
+    #[must_use]
+    fn design_speed(self, rpm: f64) -> Self;
+
+    /// The transition between dwell and reversal.
+    #[must_use]
+    fn transition(self, transition: Transition) -> Self;
+
+    /// Equal lobes of the disc: turns of the crank for one turn of the cam.
+    #[must_use]
+    fn lobes(self, lobes: u32) -> Self;
+
+    /// Travel of the roller for a travel of the cylinder's bottom.
+    #[must_use]
+    fn lever(self, ratio: f64) -> Self;
+
+    /// Largest residual force over the largest inertia force of the bed.
+    #[must_use]
+    fn residual_share(self, share: f64) -> Self;
+
+    /// Longest air column, m.
+    #[must_use]
+    fn largest_column(self, length: f64) -> Self;
+
+    /// The wedge cam on the bed, a plate with a flank on either side: for [`Spec::translating`](crate::Spec::translating).
+    #[must_use]
+    fn wedge(self, wedge: TranslatingData) -> Self;
+
+    /// The conoid, a three-dimensional cam for several speeds: for [`Spec::conoid`](crate::Spec::conoid).
+    #[must_use]
+    fn conoid(self, conoid: ConoidData) -> Self;
+
+    /// The compensating cam, which takes the torque of the disc cam: for [`Spec::compensator`](crate::Spec::compensator), and made with the
+    /// disc cam by [`Spec::assemble`](crate::Spec::assemble).
+    #[must_use]
+    fn compensator(self, compensator: CompensatorData) -> Self;
+
+    /// The drive of a bed without a cam: for [`Builder::drive_machine`].
+    #[must_use]
+    fn drive(self, drive: DriveData) -> Self;
+
+    /// The drive as a machine, every value in range, for its [analysis](super::analysis::drive::analysis). Its air column has a given length.
+    ///
+    /// # Errors
+    /// [`Error::Machine`] with all faults.
+    fn drive_machine(self) -> Result<DriveMachine, Error>;
+}
+
+impl BuilderOfPress for Builder {
+    fn bed(self, bed: Bed) -> Self {
         let Bed { mass, crank_radius, crank_turns_per_main_shaft_turn } = bed;
         self.quantity("bed.mass", mass, "kg")
             .length("bed.crank_radius", crank_radius)
             .number("bed.crank_turns_per_main_shaft_turn", crank_turns_per_main_shaft_turn)
     }
 
-    /// The air buffers.
-    #[must_use]
-    pub fn buffer(self, buffer: BufferData) -> Self {
+    fn buffer(self, buffer: BufferData) -> Self {
         let BufferData { polytropic_exponent, ambient_pressure, end_pressure, column, lead } = buffer;
         let builder = self
             .number("buffer.polytropic_exponent", polytropic_exponent)
@@ -77,15 +132,11 @@ impl Builder {
         }
     }
 
-    /// Speed of the main shaft for which the cylinders are sized, rpm.
-    #[must_use]
-    pub fn design_speed(self, rpm: f64) -> Self {
+    fn design_speed(self, rpm: f64) -> Self {
         self.number("design.rpm", rpm)
     }
 
-    /// The transition between dwell and reversal.
-    #[must_use]
-    pub fn transition(self, transition: Transition) -> Self {
+    fn transition(self, transition: Transition) -> Self {
         match transition {
             Transition::None => self.set("transition.kind", "none"),
             Transition::RunUp { width } => self.set("transition.kind", "run-up").angle("transition.width", width),
@@ -93,33 +144,23 @@ impl Builder {
         }
     }
 
-    /// Equal lobes of the disc: turns of the crank for one turn of the cam.
-    #[must_use]
-    pub fn lobes(self, lobes: u32) -> Self {
+    fn lobes(self, lobes: u32) -> Self {
         self.number("cam.cam_turns_per_crank_turn", 1.0 / f64::from(lobes))
     }
 
-    /// Travel of the roller for a travel of the cylinder's bottom.
-    #[must_use]
-    pub fn lever(self, ratio: f64) -> Self {
+    fn lever(self, ratio: f64) -> Self {
         self.number("cam.lever", ratio)
     }
 
-    /// Largest residual force over the largest inertia force of the bed.
-    #[must_use]
-    pub fn residual_share(self, share: f64) -> Self {
+    fn residual_share(self, share: f64) -> Self {
         self.number("limits.residual_share", share)
     }
 
-    /// Longest air column, m.
-    #[must_use]
-    pub fn largest_column(self, length: f64) -> Self {
+    fn largest_column(self, length: f64) -> Self {
         self.length("limits.column", length)
     }
 
-    /// The wedge cam on the bed, a plate with a flank on either side: for [`Spec::translating`](crate::Spec::translating).
-    #[must_use]
-    pub fn wedge(self, wedge: TranslatingData) -> Self {
+    fn wedge(self, wedge: TranslatingData) -> Self {
         let TranslatingData { roller_arm, bottom_arm, delta, friction_angle, efficiency, .. } = wedge;
         let model = match wedge.efficiency_model {
             EfficiencyModel::Consistent => "consistent",
@@ -141,9 +182,7 @@ impl Builder {
             .length("translating.plate_height", wedge.plate_height)
     }
 
-    /// The conoid, a three-dimensional cam for several speeds: for [`Spec::conoid`](crate::Spec::conoid).
-    #[must_use]
-    pub fn conoid(self, conoid: ConoidData) -> Self {
+    fn conoid(self, conoid: ConoidData) -> Self {
         let mode = match conoid.mode {
             ConoidMode::Adjusted => "adjusted",
             ConoidMode::Fixed => "fixed",
@@ -159,10 +198,7 @@ impl Builder {
             .length("conoid.overhang", conoid.overhang)
     }
 
-    /// The compensating cam, which takes the torque of the disc cam: for [`Spec::compensator`](crate::Spec::compensator), and made with the
-    /// disc cam by [`Spec::assemble`](crate::Spec::assemble).
-    #[must_use]
-    pub fn compensator(self, compensator: CompensatorData) -> Self {
+    fn compensator(self, compensator: CompensatorData) -> Self {
         let CompensatorData { spring_rate, preload, roller_radius, base_radius, angle, mass } = compensator;
         self.quantity("compensator.spring_rate", spring_rate, "N/m")
             .quantity("compensator.preload", preload, "N")
@@ -171,9 +207,8 @@ impl Builder {
             .angle("compensator.angle", angle)
             .quantity("compensator.mass", mass, "kg")
     }
-    /// The drive of a bed without a cam: for [`Builder::drive_machine`].
-    #[must_use]
-    pub fn drive(self, drive: DriveData) -> Self {
+
+    fn drive(self, drive: DriveData) -> Self {
         let DriveData { lead_angle, bed_speed, motor_ratio, inertia, bore } = drive;
         self.angle("drive.lead_angle", lead_angle)
             .quantity("drive.bed_speed", bed_speed, "m/s")
@@ -182,11 +217,7 @@ impl Builder {
             .length("drive.bore", bore)
     }
 
-    /// The drive as a machine, every value in range, for its [analysis](super::analysis::drive::analysis). Its air column has a given length.
-    ///
-    /// # Errors
-    /// [`Error::Machine`] with all faults.
-    pub fn drive_machine(self) -> Result<DriveMachine, Error> {
+    fn drive_machine(self) -> Result<DriveMachine, Error> {
         let (text, keys) = self.into_source();
         Ok(DriveMachine::from_toml(OF_BUILDER, &text, &keys)?)
     }

@@ -8,6 +8,7 @@ use super::scatter::losses::LossyReversal;
 use super::{cams, loop_of_air};
 use crate::body::disc::{Disc, Duty, Purpose};
 use crate::body::{Body, Kind, torque};
+use crate::domains::press::MachineOfPress;
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::motion::counter_torque::CounterMotion;

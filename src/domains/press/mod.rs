@@ -24,7 +24,9 @@ mod smoother;
 mod spec;
 pub mod wedge;
 
-pub use builder::BufferData;
+pub use builder::{BufferData, BuilderOfPress};
+pub use machine::MachineOfPress;
+pub use spec::SpecOfPress;
 
 use crate::domain::Domain;
 use crate::machine::{Catalogue, Embedded};
@@ -51,6 +53,7 @@ pub const DOMAIN: Domain = Domain {
         Embedded { name: "dpi-paper", command: "rotary", toml: include_str!("../../../profiles/dpi-paper.toml") },
         Embedded { name: "dp", command: "drive", toml: include_str!("../../../profiles/dp.toml") },
     ],
+    commands: spec::COMMANDS,
 };
 
 /// A commented machine file of a press with every key, to start from.

@@ -1,6 +1,7 @@
 //! The press behind a cam as it moves: bottom, air, piston, bed and crank. Only one cylinder of the pair is shown.
 
 use crate::body::picture::{Cover, DrivenMechanism, FollowerTrack, range};
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::buffer::Cylinder;
 use crate::domains::press::buffer::crank_law::CrankLaw;
 use crate::domains::press::motion::Reversal;

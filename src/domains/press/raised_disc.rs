@@ -15,6 +15,7 @@ use super::motion::RaiseSeries;
 use super::scatter::error::ScatterError;
 use crate::body::disc::Disc;
 use crate::body::{Body, ShaftCompliance};
+use crate::domains::press::MachineOfPress;
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::numeric::chebyshev_series::ChebyshevSeries;

@@ -17,6 +17,7 @@ use crate::body::picture::DrivenMechanism;
 use crate::body::roller_bearing::LIFE;
 use crate::body::{Body, Figures, Kind};
 use crate::check::{Measures, Subject};
+use crate::domains::press::MachineOfPress;
 use crate::load::Load;
 use crate::machine::Machine;
 use crate::numeric::digits::three_digits_down;
@@ -104,14 +105,12 @@ pub(super) fn of_reversal(machine: &Machine, rpm: f64, raise: Option<Arc<RaiseSe
     Ok(RotaryCam { disc: Disc::for_purpose(machine, reversal, purpose)?, buffer, cut_for_shaft })
 }
 
-impl Disc {
-    /// The disc cam of a press for a speed of its main shaft, rpm, as [`rotary`] makes it.
-    ///
-    /// # Errors
-    /// [`Refusal`] when the motion cannot be put together or no radius keeps the limits.
-    pub fn solve(machine: &Machine, rpm: f64) -> Result<Self, Refusal> {
-        Ok(rotary(machine, rpm)?.disc)
-    }
+/// The disc cam of a press for a speed of its main shaft, rpm, as [`rotary`] makes it.
+///
+/// # Errors
+/// [`Refusal`] when the motion cannot be put together or no radius keeps the limits.
+pub fn disc(machine: &Machine, rpm: f64) -> Result<Disc, Refusal> {
+    Ok(rotary(machine, rpm)?.disc)
 }
 
 /// A disc with its duty, for the verdicts on the balance of forces.

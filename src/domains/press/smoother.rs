@@ -3,6 +3,7 @@
 use super::buffer::crank_law::CrankLaw;
 use super::machine::{Press, PressCams};
 use super::motion::{Reversal, ReversalLaw, Transition};
+use crate::domains::press::MachineOfPress;
 use crate::machine::Machine;
 use crate::motion::jump;
 

@@ -1,17 +1,20 @@
 //! The cams of a press, as specifications.
 
 use super::bed_motion::End;
+use super::cams::{CONOID, ROTARY, TRANSLATING};
 use super::checks;
 use super::compensator::{CompensatorFigures, TorqueAtSpeed};
 use super::conoid::{Conoid, between};
+use super::machine::{MachineOfPress, exact_on};
 use super::motion::equation_18::{ExactOn, Solver};
 use super::report::{Compensation, PreloadAtSpeed};
-use super::rotary::rotary;
-use super::wedge::Wedge;
+use super::rotary::{disc, rotary};
+use super::wedge::{LAW_TOLERANCE, Wedge};
 use crate::body::disc::Disc;
 use crate::body::{Body, curves, torque};
 use crate::check::Measure;
 use crate::document::{Input, NamedChoice};
+use crate::domain::{DesignCommand, Makes};
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::pipeline::{Alternative, AssemblyReport, Proven, SolvedBodies, Spec, WantedCams};
@@ -20,12 +23,44 @@ use crate::refusal::Refusal;
 use crate::report::Section;
 use crate::verify::WrittenOutline;
 
-impl Spec {
+/// The commands that make the cams of a press.
+pub(super) const COMMANDS: &[DesignCommand] = &[
+    DesignCommand {
+        word: ROTARY,
+        usual: |machine| machine.motion().is_none(),
+        makes: Makes::ForOne(|machine, rpm| speed(&machine, rpm).map(|rpm| Spec::rotary(machine, rpm))),
+    },
+    DesignCommand { word: CONOID, usual: |_| false, makes: Makes::ForSeveral { beside: ROTARY, spec: conoid_for } },
+    DesignCommand { word: TRANSLATING, usual: |_| false, makes: Makes::ForOne(translating_for) },
+    DesignCommand {
+        word: "compensator",
+        usual: |_| false,
+        makes: Makes::ForOne(|machine, rpm| speed(&machine, rpm).map(|rpm| Spec::compensator(machine, rpm))),
+    },
+];
+
+/// The speed that is asked for, or that of the machine, rpm.
+fn speed(machine: &Machine, rpm: Option<f64>) -> Result<f64, Refusal> {
+    rpm.map_or_else(|| machine.press().map(|press| press.design_rpm), Ok)
+}
+
+fn conoid_for(machine: Machine, rpm: Vec<f64>) -> Result<Spec, Refusal> {
+    let speeds = if rpm.is_empty() { vec![speed(&machine, None)?] } else { rpm };
+    Ok(Spec::conoid(machine, speeds, None))
+}
+
+fn translating_for(machine: Machine, rpm: Option<f64>) -> Result<Spec, Refusal> {
+    let (balance, rpm) = (exact_on(&machine), speed(&machine, rpm)?);
+    Ok(Spec::translating(machine, rpm, Solver::Ode { tolerance: LAW_TOLERANCE }, balance))
+}
+
+/// The cams of a press as specifications: methods of [`Spec`].
+pub trait SpecOfPress: Sized {
     /// The disc cam of a press for a speed of its main shaft, rpm. Its assembly has the compensating cam too, where the machine file describes
     /// one ([`Spec::assemble`]).
     ///
     /// ```
-    /// use camgen::{Machine, Spec, Writing};
+    /// use camgen::{Machine, Spec, SpecOfPress, Writing};
     ///
     /// let (machine, name) = Machine::load("dpi", &[])?;
     /// let proven = Spec::rotary(machine, 35.0).solve()?.draw(5e-6)?.prove()?;
@@ -34,25 +69,12 @@ impl Spec {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn rotary(machine: Machine, rpm: f64) -> Self {
-        let solve = move |machine: &Machine, wanted| -> Result<SolvedBodies, Refusal> {
-            let cam = rotary(machine, rpm)?;
-            if wanted == WantedCams::Alone || machine.compensator().is_none() {
-                return Ok(SolvedBodies::alone(cam.disc));
-            }
-            let second = cam.compensating_disc()?;
-            let by_law = cam.compensated_by(&second)?;
-            Ok(SolvedBodies::alone(cam.disc).with(second, by_law))
-        };
-        Self::of_several(machine, solve)
-            .for_other_speeds(Disc::solve, other_ends)
-            .with_inputs(vec![Input::number("rpm", rpm)])
-    }
+    fn rotary(machine: Machine, rpm: f64) -> Self;
 
     /// The wedge cam of a press (a linear cam, the plate on the bed) for a speed of its main shaft, rpm.
     ///
     /// ```
-    /// use camgen::{ExactOn, Machine, Solver, Spec};
+    /// use camgen::{ExactOn, Machine, Solver, Spec, SpecOfPress};
     ///
     /// let (machine, _) = Machine::load("dpi", &[])?;
     /// let cam = Spec::translating(machine, 35.0, Solver::Ode { tolerance: 1e-9 }, ExactOn::Braking).solve()?;
@@ -60,18 +82,13 @@ impl Spec {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn translating(machine: Machine, rpm: f64, solver: Solver, exact_on: ExactOn) -> Self {
-        let solve = move |machine: &Machine, rpm| Wedge::solve(machine, rpm, solver, exact_on);
-        let mut inputs = of_wedge(solver, exact_on);
-        inputs.push(Input::number("rpm", rpm));
-        Self::new(machine, move |machine| solve(machine, rpm)).for_other_speeds(solve, other_ends).with_inputs(inputs)
-    }
+    fn translating(machine: Machine, rpm: f64, solver: Solver, exact_on: ExactOn) -> Self;
 
     /// The conoid of a press (a three-dimensional cam) for several speeds, rpm, with a limit for the residual force
     /// between them, N.
     ///
     /// ```
-    /// use camgen::{Machine, Spec};
+    /// use camgen::{Machine, Spec, SpecOfPress};
     ///
     /// let (machine, _) = Machine::load("dpi", &[])?;
     /// let cam = Spec::conoid(machine, vec![25.0, 30.0, 35.0], None).solve()?;
@@ -81,7 +98,40 @@ impl Spec {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn conoid(machine: Machine, speeds: Vec<f64>, residual_limit: Option<f64>) -> Self {
+    fn conoid(machine: Machine, speeds: Vec<f64>, residual_limit: Option<f64>) -> Self;
+
+    /// The conoid with the fewest sections between two speeds, rpm, that leaves no more than a residual force between them, N.
+    #[must_use]
+    fn conoid_within(machine: Machine, speeds: (f64, f64), residual_limit: f64) -> Self;
+
+    /// The compensating cam of a press for a speed of its main shaft, rpm: the disc that takes the torque of the rotary cam, as the
+    /// machine file describes it.
+    #[must_use]
+    fn compensator(machine: Machine, rpm: f64) -> Self;
+}
+
+impl SpecOfPress for Spec {
+    fn rotary(machine: Machine, rpm: f64) -> Self {
+        let solve = move |machine: &Machine, wanted| -> Result<SolvedBodies, Refusal> {
+            let cam = rotary(machine, rpm)?;
+            if wanted == WantedCams::Alone || machine.compensator().is_none() {
+                return Ok(SolvedBodies::alone(cam.disc));
+            }
+            let second = cam.compensating_disc()?;
+            let by_law = cam.compensated_by(&second)?;
+            Ok(SolvedBodies::alone(cam.disc).with(second, by_law))
+        };
+        Self::of_several(machine, solve).for_other_speeds(disc, other_ends).with_inputs(vec![Input::number("rpm", rpm)])
+    }
+
+    fn translating(machine: Machine, rpm: f64, solver: Solver, exact_on: ExactOn) -> Self {
+        let solve = move |machine: &Machine, rpm| Wedge::solve(machine, rpm, solver, exact_on);
+        let mut inputs = of_wedge(solver, exact_on);
+        inputs.push(Input::number("rpm", rpm));
+        Self::new(machine, move |machine| solve(machine, rpm)).for_other_speeds(solve, other_ends).with_inputs(inputs)
+    }
+
+    fn conoid(machine: Machine, speeds: Vec<f64>, residual_limit: Option<f64>) -> Self {
         let mut inputs = vec![Input::numbers("rpm", &speeds)];
         inputs.extend(residual_limit.map(|limit| Input::quantity("residual", limit, ("N", 1.0))));
         let solve = move |machine: &Machine| Conoid::solve(machine, &speeds);
@@ -89,9 +139,7 @@ impl Spec {
             .with_inputs(inputs)
     }
 
-    /// The conoid with the fewest sections between two speeds, rpm, that leaves no more than a residual force between them, N.
-    #[must_use]
-    pub fn conoid_within(machine: Machine, speeds: (f64, f64), residual_limit: f64) -> Self {
+    fn conoid_within(machine: Machine, speeds: (f64, f64), residual_limit: f64) -> Self {
         let solve = move |machine: &Machine| between::fewest(machine, speeds, residual_limit);
         let (from, to) = speeds;
         let inputs =
@@ -100,10 +148,7 @@ impl Spec {
             .with_inputs(inputs)
     }
 
-    /// The compensating cam of a press for a speed of its main shaft, rpm: the disc that takes the torque of the rotary cam, as the
-    /// machine file describes it.
-    #[must_use]
-    pub fn compensator(machine: Machine, rpm: f64) -> Self {
+    fn compensator(machine: Machine, rpm: f64) -> Self {
         let solve = |machine: &Machine, rpm| -> Result<Disc, Refusal> { rotary(machine, rpm)?.compensating_disc() };
         Self::new(machine, move |machine| solve(machine, rpm))
             .for_other_speeds(solve, other_ends)

@@ -17,6 +17,7 @@ use crate::body::Kind;
 use crate::body::{LoadedFollower, ShaftCompliance};
 use crate::check::Measure;
 use crate::document::{Input, NamedChoice};
+use crate::domains::press::MachineOfPress;
 use crate::domains::shaft::checks::{CRITICAL_SPEED, LIFT_ERROR, SUPPORT_SLOPE};
 use crate::domains::shaft::machine::ShaftMachine;
 use crate::domains::shaft::mechanics::exact::Statics;

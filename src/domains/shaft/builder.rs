@@ -5,14 +5,15 @@ use super::{ShaftData, ShaftLimits, ShaftMachine};
 use crate::pipeline::{Builder, Error, OF_BUILDER};
 use crate::write::number::{shortest, with_unit};
 
-impl Builder {
+/// The shaft under a cam put together in code: methods of the [`Builder`].
+pub trait BuilderOfShaft: Sized {
     /// The shaft that carries the cam.
     ///
     /// ```
     /// use camgen::domains::shaft::ShaftData;
     /// use camgen::domains::shaft::mechanics::{Beam, ShaftSegment, Shaft, Support};
     /// use camgen::machine::Material::Steel;
-    /// use camgen::{Program, Quantity, Spec, law};
+    /// use camgen::{BuilderOfShaft, MachineOfShaft, Program, Quantity, Spec, law};
     ///
     /// let steel = |length, diameter| ShaftSegment {
     ///     length,
@@ -33,7 +34,21 @@ impl Builder {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn shaft(self, data: &ShaftData) -> Self {
+    fn shaft(self, data: &ShaftData) -> Self;
+
+    /// What the shaft must keep.
+    #[must_use]
+    fn shaft_limits(self, limits: ShaftLimits) -> Self;
+
+    /// The shaft as a machine, every value in range, for its [analysis](super::analysis::analysis): with its cam where a bed is given, else alone.
+    ///
+    /// # Errors
+    /// [`Error::Machine`] with all faults.
+    fn shaft_machine(self) -> Result<ShaftMachine, Error>;
+}
+
+impl BuilderOfShaft for Builder {
+    fn shaft(self, data: &ShaftData) -> Self {
         let ShaftData { shaft, cam_at, drive_at, compensate } = data;
         let beam = match shaft.beam() {
             Beam::Timoshenko => "timoshenko",
@@ -44,14 +59,12 @@ impl Builder {
             .length("shaft.cam_at", *cam_at)
             .length("shaft.drive_at", *drive_at)
             .set("shaft.compensate", if *compensate { "true" } else { "false" });
-        let builder = shaft.segments().iter().fold(builder, Self::segment);
-        let builder = shaft.supports().iter().fold(builder, Self::support);
-        shaft.discs().iter().fold(builder, Self::shaft_disc)
+        let builder = shaft.segments().iter().fold(builder, with_segment);
+        let builder = shaft.supports().iter().fold(builder, with_support);
+        shaft.discs().iter().fold(builder, with_disc)
     }
 
-    /// What the shaft must keep.
-    #[must_use]
-    pub fn shaft_limits(self, limits: ShaftLimits) -> Self {
+    fn shaft_limits(self, limits: ShaftLimits) -> Self {
         let ShaftLimits { critical_speed_ratio, lift_error, support_slope, balance_grade } = limits;
         self.number("limits.critical_speed_ratio", critical_speed_ratio)
             .length("limits.lift_error", lift_error)
@@ -59,46 +72,42 @@ impl Builder {
             .number("limits.balance_grade", balance_grade)
     }
 
-    /// The shaft as a machine, every value in range, for its [analysis](super::analysis::analysis): with its cam where a bed is given, else alone.
-    ///
-    /// # Errors
-    /// [`Error::Machine`] with all faults.
-    pub fn shaft_machine(self) -> Result<ShaftMachine, Error> {
+    fn shaft_machine(self) -> Result<ShaftMachine, Error> {
         let (text, keys) = self.into_source();
         Ok(ShaftMachine::from_toml(OF_BUILDER, &text, &keys)?)
     }
+}
 
-    fn segment(self, segment: &ShaftSegment) -> Self {
-        self.add_table(
-            "shaft.segment",
-            &[
-                ("length", &with_unit(segment.length, "m")),
-                ("diameter", &with_unit(segment.diameter, "m")),
-                ("bore", &with_unit(segment.bore, "m")),
-                ("modulus", &with_unit(segment.modulus, "Pa")),
-                ("density", &with_unit(segment.density, "kg/m3")),
-                ("poisson", &shortest(segment.poisson)),
-            ],
-        )
-    }
+fn with_segment(builder: Builder, segment: &ShaftSegment) -> Builder {
+    builder.add_table(
+        "shaft.segment",
+        &[
+            ("length", &with_unit(segment.length, "m")),
+            ("diameter", &with_unit(segment.diameter, "m")),
+            ("bore", &with_unit(segment.bore, "m")),
+            ("modulus", &with_unit(segment.modulus, "Pa")),
+            ("density", &with_unit(segment.density, "kg/m3")),
+            ("poisson", &shortest(segment.poisson)),
+        ],
+    )
+}
 
-    fn support(self, support: &Support) -> Self {
-        let stiffness = support.stiffness.map_or_else(|| "rigid".to_owned(), |stiffness| with_unit(stiffness, "N/m"));
-        self.add_table("shaft.support", &[("at", &with_unit(support.at, "m")), ("stiffness", &stiffness)])
-    }
+fn with_support(builder: Builder, support: &Support) -> Builder {
+    let stiffness = support.stiffness.map_or_else(|| "rigid".to_owned(), |stiffness| with_unit(stiffness, "N/m"));
+    builder.add_table("shaft.support", &[("at", &with_unit(support.at, "m")), ("stiffness", &stiffness)])
+}
 
-    fn shaft_disc(self, disc: &ShaftDisc) -> Self {
-        let [x, y] = disc.unbalance;
-        self.add_table(
-            "shaft.disc",
-            &[
-                ("at", &with_unit(disc.at, "m")),
-                ("mass", &with_unit(disc.mass, "kg")),
-                ("diametral_inertia", &with_unit(disc.diametral_inertia, "kg*m2")),
-                ("polar_inertia", &with_unit(disc.polar_inertia, "kg*m2")),
-                ("unbalance", &with_unit(1e3 * libm::hypot(x, y), "kg*mm")),
-                ("angle", &with_unit(libm::atan2(y, x), "rad")),
-            ],
-        )
-    }
+fn with_disc(builder: Builder, disc: &ShaftDisc) -> Builder {
+    let [x, y] = disc.unbalance;
+    builder.add_table(
+        "shaft.disc",
+        &[
+            ("at", &with_unit(disc.at, "m")),
+            ("mass", &with_unit(disc.mass, "kg")),
+            ("diametral_inertia", &with_unit(disc.diametral_inertia, "kg*m2")),
+            ("polar_inertia", &with_unit(disc.polar_inertia, "kg*m2")),
+            ("unbalance", &with_unit(1e3 * libm::hypot(x, y), "kg*mm")),
+            ("angle", &with_unit(libm::atan2(y, x), "rad")),
+        ],
+    )
 }

@@ -9,6 +9,7 @@ use crate::document::Presence::{Default, Optional, Required};
 use crate::document::cams::MAKE;
 use crate::document::range::{HEAVIEST, HIGHEST_PRESSURE, LONGEST, STIFFEST};
 use crate::document::{Field, Input, KeySection, Occurrence, Reader, TableReader, above, within};
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::cams::ROTARY;
 use crate::domains::press::machine::bed;
 use crate::domains::press::raised_disc::CutForShaft;
@@ -231,16 +232,23 @@ impl ShaftData {
     }
 }
 
-impl Machine {
+/// What a machine file says of the shaft under its cam: methods of the [`Machine`].
+pub trait MachineOfShaft: Sized {
     /// The shaft that carries the cam, when the file describes one.
     #[must_use]
-    pub fn shaft(&self) -> Option<&ShaftData> {
-        self.part()
-    }
+    fn shaft(&self) -> Option<&ShaftData>;
 
     /// The machine with its rotary cam made for a rigid shaft, where the file requires one that is cut for its own.
     #[must_use]
-    pub fn on_a_rigid_shaft(&self) -> Option<Self> {
+    fn on_a_rigid_shaft(&self) -> Option<Self>;
+}
+
+impl MachineOfShaft for Machine {
+    fn shaft(&self) -> Option<&ShaftData> {
+        self.part()
+    }
+
+    fn on_a_rigid_shaft(&self) -> Option<Self> {
         let data = self.shaft().filter(|data| data.compensate)?;
         let rigid = ShaftData { compensate: false, ..data.clone() };
         Some(self.clone().with_part(Some(rigid)).with_part::<CutForShaft>(None))

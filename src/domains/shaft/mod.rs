@@ -6,7 +6,8 @@ pub mod checks;
 pub mod machine;
 pub mod mechanics;
 
-pub use machine::{ShaftData, ShaftLimits, ShaftMachine};
+pub use builder::BuilderOfShaft;
+pub use machine::{MachineOfShaft, ShaftData, ShaftLimits, ShaftMachine};
 
 use crate::document::cams::CamKind;
 use crate::domain::{Added, Domain};
@@ -40,4 +41,5 @@ pub const DOMAIN: Domain = Domain {
             toml: include_str!("../../../profiles/press-cylinder.toml"),
         },
     ],
+    commands: &[],
 };

@@ -498,5 +498,4 @@ pub fn largest_gap(boundary: &TruckBoundary) -> f64 {
 }
 
 #[cfg(test)]
-#[cfg(feature = "press")]
 mod tests;

@@ -1,37 +1,23 @@
 use super::*;
-use crate::body::disc::Disc;
-use crate::body::{Body, Request};
-use crate::machine::Machine;
+use crate::geometry::contour::Vertex;
 
-fn boundary(overrides: &[&str]) -> CheckedSolid {
-    let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
-    let machine = Machine::load("dpi", &overrides).expect("valid").0;
-    let disc = Disc::solve(&machine, 35.0).expect("a cam");
-    let drawn = disc.draw(&Request::within(5e-6)).expect("an outline");
-    drawn.parts[0].solid(30.0).expect("a solid")
-}
-
-#[test]
-fn cams_with_every_kind_of_hole_are_closed_solids() {
-    let keyway = ["cam.keyway.width=8mm", "cam.keyway.depth=3.3mm", "cam.keyway.angle=90deg"];
-    let light = ["cam.lever=0.15", "cam.base_radius=90mm", "cam.balance=40mm .. 85mm"];
-    let concave = ["buffer.column=return", "transition.kind=none", "cam.rotation=ccw"];
-    for overrides in [&[][..], &keyway, &light, &concave, &[&light[..], &keyway].concat()] {
-        let solid = boundary(overrides);
-        assert!(largest_gap(&solid.boundary) < 1e-9, "{overrides:?}: {}", largest_gap(&solid.boundary));
-        let shell = &solid.boundary.boundaries[0];
-        // Euler's formula with h holes: V − E + F − (L − F) = 2 − 2h.
-        let loops: usize = shell.faces.iter().map(|face| face.boundaries.len()).sum();
-        let holes = (loops - shell.faces.len()) / 2;
-        let euler = shell.vertices.len() + 2 * shell.faces.len() + 2 * holes;
-        assert_eq!(euler, 2 + shell.edges.len() + loops, "{overrides:?}");
-    }
+/// A ring of arcs, 30 mm high: an eccentric circle in four arcs about a bore in two.
+fn ring() -> CheckedSolid {
+    let arcs = |centre: f64, radius: f64, sense: f64, count: u32| {
+        let at = |i: u32| sense * std::f64::consts::TAU * f64::from(i) / f64::from(count);
+        let bulge = sense * libm::tan(std::f64::consts::TAU / f64::from(count) / 4.0);
+        let vertex =
+            |i: u32| Vertex::new(Vector2::new(centre + radius * libm::cos(at(i)), radius * libm::sin(at(i))), bulge);
+        Contour { vertices: (0..count).map(vertex).collect() }
+    };
+    let area = std::f64::consts::PI * (60.0 * 60.0 - 12.5 * 12.5);
+    prism(&[arcs(8.0, 60.0, 1.0, 4), arcs(0.0, 12.5, -1.0, 2)], area, 30.0).expect("a solid")
 }
 
 /// Faults planted in the boundary are caught before anything is written.
 #[test]
 fn a_broken_boundary_is_not_closed_or_not_the_volume() {
-    let good = boundary(&[]);
+    let good = ring();
     let closed = |boundary: &TruckBoundary| check_closed(boundary).is_ok();
     assert!(closed(&good.boundary));
 

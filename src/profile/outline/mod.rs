@@ -500,7 +500,3 @@ pub(crate) fn parts(piece: &Piece, gaps: &[(f64, f64)], period: Option<f64>) -> 
         })
         .collect()
 }
-
-#[cfg(test)]
-#[cfg(feature = "press")]
-mod tests;

@@ -2,6 +2,8 @@
 
 use super::picture::{self, LinkagePicture};
 use super::{ROWS, analysis, designed, moving, over_base};
+use crate::domains::linkage::MachineOfLinkage;
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::bed_motion::{Branch, DragLink, Linkage, Slider};
 use crate::domains::press::machine::LinkageData;
 use crate::machine::Machine;

@@ -6,6 +6,7 @@ use super::regimes::KIND;
 use super::trial_bottoms::{self, TrialRow};
 use crate::analysis::{Analysis, Listing, Picture, places};
 use crate::document::{Input, NamedChoice};
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::buffer::bottom_law::{BottomLaw, ColumnRule};
 use crate::domains::press::buffer::regime::Reset;
 use crate::domains::press::buffer::{Cylinder, PlainBuffer};

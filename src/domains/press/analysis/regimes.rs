@@ -6,6 +6,7 @@ use super::at_speeds::{
 use crate::analysis::{Analysis, Picture, places};
 use crate::body::Kind;
 use crate::document::{Input, NamedChoice};
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::balance::reversal_of_bed;
 use crate::domains::press::buffer::CYLINDERS;
 use crate::domains::press::buffer::crank_law::CrankLaw;

@@ -5,6 +5,7 @@ use crate::analysis::{Analysis, PLACES, Picture, places};
 use crate::body::Kind;
 use crate::check::Measure;
 use crate::document::Input;
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::buffer::spring::{self, BrakedBed, SpringBuffer};
 use crate::domains::press::buffer::spring_body::SpringBody;
 use crate::domains::press::cams;

@@ -3,6 +3,8 @@
 use super::drive::{self, DriveSolver};
 use crate::analysis::Analysis;
 use crate::body::Kind;
+use crate::domains::press::MachineOfPress;
+use crate::domains::press::SpecOfPress;
 use crate::domains::press::cams;
 use crate::domains::press::checks::closing;
 use crate::domains::press::conoid::Conoid;

@@ -2,6 +2,7 @@
 //!
 //! At each place of the bed the bottom of the place before is known, and the slope of a trial is the difference of both over the step of the bed.
 
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::machine::{PressCams, exact_on};
 use crate::domains::press::motion::equation_18::{BedDirection, ExactOn, Solver};
 use crate::domains::press::wedge::{LAW_TOLERANCE, Wedge};

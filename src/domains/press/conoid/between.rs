@@ -2,6 +2,7 @@
 
 use super::{Conoid, Interpolation, bottom_law_at};
 use crate::body::ROUNDING_OF_BALANCE;
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::buffer::crank_law::CrankLaw;
 use crate::domains::press::motion::ReversalState;
 use crate::machine::Machine;

@@ -2,6 +2,7 @@
 
 use super::{Conoid, between};
 use crate::check::{Check, CheckExplanation, CheckScope, Measure};
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::motion::Transition;
 use crate::report::{Bound, Place, Verdict, shown};
 

@@ -3,6 +3,7 @@
 use super::Conoid;
 use crate::body::picture::{Cover, FollowerPose, Scene};
 use crate::body::{Body, Drawn, Part};
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::motion::Reversal;
 use crate::domains::press::picture::{BufferPicture, PressPicture, press_poses, simplifications};
 use crate::follower::{Carrier, Element};

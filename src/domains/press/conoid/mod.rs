@@ -37,7 +37,9 @@ pub use missed::FollowerOnSection;
 pub use search::SurfacePlace;
 pub use strips::{AllStrips, Cubics, Strips, StripsNear};
 
+use crate::body::size_limits;
 use crate::body::{Figures, Kind};
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::buffer::Cylinder;
 use crate::domains::press::buffer::bottom_law::{ColumnRule, column_for};
 use crate::domains::press::buffer::crank_law::CrankLaw;
@@ -197,7 +199,7 @@ impl Conoid {
     /// The contact wanders farther on a larger cam, and a longer overhang may need a larger one: both grow until they agree.
     fn smallest(&mut self) -> Result<f64, NoRadius> {
         let required =
-            SizeLimits::of(&self.machine.limits, (&self.machine.cam, self.machine.cam.bore_reach()), &self.follower);
+            size_limits(&self.machine.limits, (&self.machine.cam, self.machine.cam.bore_reach()), &self.follower);
         let in_slices = self.smallest_of_slices(&required)?;
         for _ in 0..OVERHANGS {
             let smallest = self.size(&required, in_slices)?;

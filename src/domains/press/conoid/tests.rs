@@ -1,6 +1,7 @@
 use super::*;
-use crate::body::disc::Disc;
 use crate::body::surface::SpatialContact;
+use crate::domains::press::SpecOfPress;
+use crate::domains::press::rotary;
 use nalgebra::Vector3;
 
 fn conoid(speeds: &[f64], overrides: &[&str]) -> Conoid {
@@ -10,7 +11,7 @@ fn conoid(speeds: &[f64], overrides: &[&str]) -> Conoid {
 
 #[test]
 fn equal_speeds_are_the_rotary_cam() {
-    let disc = Disc::solve(&Machine::load("dpi", &[]).expect("valid").0, 35.0).expect("a cam");
+    let disc = rotary::disc(&Machine::load("dpi", &[]).expect("valid").0, 35.0).expect("a cam");
     for speeds in [&[35.0][..], &[35.0, 35.0, 35.0]] {
         let prism = conoid(speeds, &[]);
         assert_eq!(prism.base_radius(), disc.base_radius());

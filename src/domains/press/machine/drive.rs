@@ -156,6 +156,7 @@ impl DriveMachine {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::domains::press::MachineOfPress;
     use crate::machine::Machine;
 
     #[test]

@@ -81,12 +81,48 @@ pub(super) fn read(
     }
 }
 
-impl Machine {
+/// What a machine file says of a press: methods of the [`Machine`].
+pub trait MachineOfPress: Sized {
     /// The press.
     ///
     /// # Errors
     /// [`Refusal`] when the machine file describes none, or one whose linkage no buffer can balance.
-    pub fn press(&self) -> Result<&Press, Refusal> {
+    fn press(&self) -> Result<&Press, Refusal>;
+
+    /// The end of the stroke at which its buffers are, and the driving crank where the reversal starts there, rad from the line of the
+    /// slider; `None` under a yoke.
+    #[must_use]
+    fn stroke_end(&self) -> Option<(StrokeEnd, f64)>;
+
+    /// The end of the stroke at which its buffers are, where a linkage distinguishes them.
+    #[must_use]
+    fn end(&self) -> Option<End>;
+
+    /// The machine with its buffers at an end of the stroke of its linkage, the outer one unless another is chosen.
+    ///
+    /// # Errors
+    /// [`Refusal`] when there is no linkage, or its ends cannot have buffers.
+    fn at_end(self, end: End) -> Result<Self, Refusal>;
+
+    /// The bed of the press, whatever moves it.
+    #[must_use]
+    fn bed(&self) -> Option<&Bed>;
+
+    /// Design speed of the press, rpm, whatever moves its bed.
+    #[must_use]
+    fn design_rpm(&self) -> Option<f64>;
+
+    /// The transition between dwell and reversal.
+    #[must_use]
+    fn transition(&self) -> Transition;
+
+    /// The compensating cam, when it is described.
+    #[must_use]
+    fn compensator(&self) -> Option<&CompensatorData>;
+}
+
+impl MachineOfPress for Machine {
+    fn press(&self) -> Result<&Press, Refusal> {
         let press = self.part::<Press>().ok_or_else(|| {
             Refusal::new("the machine file describes no press")
                 .remedy("add the tables [bed], [buffer] and [design], or use `camgen make`")
@@ -106,26 +142,17 @@ impl Machine {
         Ok(press)
     }
 
-    /// The end of the stroke at which its buffers are, and the driving crank where the reversal starts there, rad from the line of the
-    /// slider; `None` under a yoke.
-    #[must_use]
-    pub fn stroke_end(&self) -> Option<(StrokeEnd, f64)> {
+    fn stroke_end(&self) -> Option<(StrokeEnd, f64)> {
         let press = self.part::<Press>()?;
         let (end, data) = (press.stroke_end?, press.linkage?);
         Some((end, data.to_line(end.start())))
     }
 
-    /// The end of the stroke at which its buffers are, where a linkage distinguishes them.
-    #[must_use]
-    pub fn end(&self) -> Option<End> {
+    fn end(&self) -> Option<End> {
         Some(self.part::<Press>()?.stroke_end?.end())
     }
 
-    /// The machine with its buffers at an end of the stroke of its linkage, the outer one unless another is chosen.
-    ///
-    /// # Errors
-    /// [`Refusal`] when there is no linkage, or its ends cannot have buffers.
-    pub fn at_end(self, end: End) -> Result<Self, Refusal> {
+    fn at_end(self, end: End) -> Result<Self, Refusal> {
         let data = self.part::<Press>().and_then(|press| press.linkage);
         let data = data.filter(|data| data.linkage != Linkage::Yoke).ok_or_else(|| {
             Refusal::new("--end chooses between the ends of the stroke of a linkage, and this machine has no linkage")
@@ -136,27 +163,19 @@ impl Machine {
         Ok(self.with_part(Some(press)).with_input(Input::word(END, end.word())))
     }
 
-    /// The bed of the press, whatever moves it.
-    #[must_use]
-    pub fn bed(&self) -> Option<&Bed> {
+    fn bed(&self) -> Option<&Bed> {
         self.part::<Press>().map(|press| &press.bed)
     }
 
-    /// Design speed of the press, rpm, whatever moves its bed.
-    #[must_use]
-    pub fn design_rpm(&self) -> Option<f64> {
+    fn design_rpm(&self) -> Option<f64> {
         self.part::<Press>().map(|press| press.design_rpm)
     }
 
-    /// The transition between dwell and reversal.
-    #[must_use]
-    pub fn transition(&self) -> Transition {
+    fn transition(&self) -> Transition {
         PressCams::of(self).transition
     }
 
-    /// The compensating cam, when it is described.
-    #[must_use]
-    pub fn compensator(&self) -> Option<&CompensatorData> {
+    fn compensator(&self) -> Option<&CompensatorData> {
         self.part::<PressCams>()?.compensator.as_ref()
     }
 }

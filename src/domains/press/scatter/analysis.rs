@@ -15,6 +15,7 @@ use crate::analysis::{Analysis, Picture};
 use crate::body::Kind;
 use crate::check::Measure;
 use crate::document::{Input, NamedChoice};
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::buffer::Cylinder;
 use crate::domains::press::cams;
 use crate::domains::press::checks::{column, half_loop, losses, scatter, setting};

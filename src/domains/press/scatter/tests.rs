@@ -8,6 +8,8 @@ use super::propagation::{self, Corners};
 use super::reset::ScrewRule;
 use super::settings::{self, FixedBottom};
 use crate::body::disc::Disc;
+use crate::domains::press::MachineOfPress;
+use crate::domains::press::SpecOfPress;
 use crate::domains::press::machine::PressCams;
 use crate::domains::press::rotary::rotary;
 use crate::load::Load;

@@ -1,3 +1,5 @@
+use crate::domains::press::MachineOfPress;
+use crate::domains::press::SpecOfPress;
 use crate::domains::press::motion::equation_18::{ExactOn, Solver};
 use crate::domains::press::wedge::LAW_TOLERANCE;
 use crate::machine::Machine;

@@ -1,5 +1,6 @@
 //! The law of a compensating cam at the numbers of the paper.
 
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::buffer::bottom_law::{BottomLaw, ColumnRule};
 use crate::domains::press::buffer::{Bed, Cylinder, camshaft};
 use crate::domains::press::rotary::rotary;

@@ -2,5 +2,9 @@
 
 mod checks;
 mod counter_torque;
+mod cutter_path;
+mod envelope;
 mod motions;
+mod outline;
 mod rotary;
+mod solid;

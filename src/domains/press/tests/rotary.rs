@@ -1,5 +1,6 @@
 use crate::body::disc::Disc;
 use crate::body::{Body, ROUNDING_OF_BALANCE};
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::rotary::{RotaryCam, rotary};
 use crate::load::Load;
 use crate::machine::Machine;

@@ -2,6 +2,7 @@
 
 use super::Wedge;
 use crate::body::ROUNDING_OF_BALANCE;
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::buffer::bottom_law::ColumnRule;
 use crate::domains::press::buffer::place_law::PlaceLaw;
 use crate::domains::press::checks::column;

@@ -9,6 +9,7 @@ use crate::body::{
 };
 use crate::check::Measures;
 use crate::document::NamedChoice;
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::balance::reversal_of_bed;
 use crate::domains::press::checks::balanced::of_balance;
 use crate::domains::press::columns::{self, BalanceRow, WedgeRow};

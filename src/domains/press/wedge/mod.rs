@@ -8,6 +8,7 @@ pub mod roller_clearance;
 mod sheet;
 
 use crate::body::{Kind, ROUNDING_OF_BALANCE, WorstPlaces, largest, plane};
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::bed_motion::Linkage;
 use crate::domains::press::buffer::Cylinder;
 use crate::domains::press::buffer::place_law::PlaceLaw;

@@ -1,5 +1,6 @@
 use super::*;
 use crate::body::LoadAsCut as _;
+use crate::domains::press::SpecOfPress;
 use crate::domains::press::motion::equation_18::Solver;
 
 #[cfg(feature = "linkage")]

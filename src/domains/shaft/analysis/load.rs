@@ -3,9 +3,11 @@
 use super::error_of;
 use crate::body::disc::Disc;
 use crate::body::{Body, LoadedFollower, Request, ShaftCompliance};
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::conoid::Conoid;
 use crate::domains::press::machine::PressCams;
 use crate::domains::press::motion::Reversal;
+use crate::domains::press::rotary;
 use crate::domains::shaft::machine::ShaftMachine;
 use crate::domains::shaft::mechanics::exact::Statics;
 use crate::domains::shaft::mechanics::{self, Shaft};
@@ -61,7 +63,7 @@ impl CamOnShaft {
             }
             (press, _) => {
                 let rpm = rpm.unwrap_or(press.map_err(cannot)?.design_rpm);
-                (Disc::solve(own, rpm).map_err(cannot)?, Some(rpm))
+                (rotary::disc(own, rpm).map_err(cannot)?, Some(rpm))
             }
         };
         let disc = machine.data.cam_at.and_then(|at| as_disc(&body, own, at).transpose()).transpose()?;

@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::body::disc::Disc;
+use crate::domains::press::SpecOfPress;
+use crate::domains::press::rotary;
 use crate::machine::Machine;
 
 fn machine(sets: &[&str]) -> ShaftMachine {
@@ -10,7 +12,7 @@ fn machine(sets: &[&str]) -> ShaftMachine {
 }
 
 fn dpi() -> Disc {
-    Disc::solve(&Machine::load("dpi", &[]).expect("valid").0, 35.0).expect("a cam")
+    rotary::disc(&Machine::load("dpi", &[]).expect("valid").0, 35.0).expect("a cam")
 }
 
 /// Figures known to eleven digits or more; places of flat tops to half as many.

@@ -7,6 +7,7 @@ use super::super::parameter::Parameter;
 use super::super::reset::ScrewRule;
 use super::super::settings::{self, FixedBottom};
 use super::{cam, sampling};
+use crate::domains::press::MachineOfPress;
 use crate::domains::press::bed_motion::End;
 use crate::domains::press::buffer::crank_law::{CrankLaw, LinkageLaw};
 use crate::machine::Machine;

@@ -1,15 +1,18 @@
-use super::*;
+//! Outlines of the discs of a press.
+
 use crate::body::disc::Disc;
+use crate::domains::press::{MachineOfPress, rotary};
 use crate::follower::{FlatFace, TranslatingRoller};
 use crate::machine::Machine;
 use crate::motion::EccentricCircle;
-use crate::profile::envelope;
+use crate::profile::outline::{Fit, OutlineError, Side, profile};
+use crate::profile::{Curves, envelope};
 use crate::verify::rolling;
 
-fn rotary(overrides: &[&str]) -> Disc {
+fn disc(overrides: &[&str]) -> Disc {
     let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
     let machine = Machine::load("dpi", &overrides).expect("valid").0;
-    Disc::solve(&machine, machine.press().expect("a press").design_rpm).expect("a cam")
+    rotary::disc(&machine, machine.press().expect("a press").design_rpm).expect("a cam")
 }
 
 #[test]
@@ -30,7 +33,7 @@ fn an_eccentric_circle_is_two_half_circles() {
 #[test]
 fn the_reference_outline_is_short_smooth_and_true() {
     for overrides in [vec![], vec!["buffer.column=return"], vec!["follower.roller.offset=20mm"]] {
-        let cam = rotary(&overrides);
+        let cam = disc(&overrides);
         for tolerance in [0.1, 0.01, 0.005, 1e-3, 1e-4, 5e-5] {
             let outline = profile(cam.curves(), 1e-3 * tolerance).expect("an outline");
             let breaks = outline.contour.tangent_breaks();
@@ -48,7 +51,7 @@ fn the_reference_outline_is_short_smooth_and_true() {
 
 #[test]
 fn a_concave_corner_is_an_arc_of_the_roller_and_a_convex_one_undercut() {
-    let cam = rotary(&["buffer.column=return", "transition.kind=none"]);
+    let cam = disc(&["buffer.column=return", "transition.kind=none"]);
     let outline = profile(cam.curves(), 5e-6).expect("an outline");
     let of_roller =
         outline.contour.segments().expect("arcs").iter().filter(|s| (s.radius() + 30.0).abs() < 1e-9).count();
@@ -59,7 +62,7 @@ fn a_concave_corner_is_an_arc_of_the_roller_and_a_convex_one_undercut() {
         vec!["buffer.column=200mm", "transition.kind=none"],
         vec!["cam.base_radius=30mm", "follower.roller.radius=80mm"],
     ] {
-        let cam = rotary(&overrides);
+        let cam = disc(&overrides);
         let outline = profile(cam.curves(), 5e-6).expect("an outline");
         let edges: Vec<f64> = outline.contour.tangent_breaks().into_iter().filter(|turn| turn.abs() > 1e-9).collect();
         assert_eq!(edges.len(), 2, "{overrides:?}: {edges:?}");
@@ -79,10 +82,10 @@ fn what_cannot_be_drawn_is_refused() {
     let wave = EccentricCircle::new(0.1, 0.01);
     let swallowed = Curves { motion: &wave, follower: &FlatFace::new(1e-3) };
     assert!(matches!(profile(swallowed, 0.005), Err(OutlineError::Undercut(_))), "{:?}", profile(swallowed, 0.005));
-    let huge = rotary(&["cam.base_radius=1000m"]);
+    let huge = disc(&["cam.base_radius=1000m"]);
     let error = profile(huge.curves(), 0.005).expect_err("too large").to_string();
     assert!(error.starts_with("the cam would reach 1000") && error.contains("the largest coordinate"), "{error}");
-    let cam = rotary(&[]);
+    let cam = disc(&[]);
     assert!(matches!(profile(cam.curves(), 1e-16), Err(OutlineError::Part { .. })));
 }
 
@@ -91,7 +94,7 @@ fn what_cannot_be_drawn_is_refused() {
 #[test]
 fn a_roller_in_a_corner_of_its_own_radius_touches_it() {
     for (offset, lead) in [(-28.9924, 7.0), (-28.9924, 3.0), (11.37, 7.0), (0.0, 1.234), (25.0, 12.5)] {
-        let cam = rotary(&[&format!("follower.roller.offset={offset}mm"), &format!("buffer.lead={lead}mm")]);
+        let cam = disc(&[&format!("follower.roller.offset={offset}mm"), &format!("buffer.lead={lead}mm")]);
         let outline = profile(cam.curves(), 5e-10).expect("an outline");
         let rolled = rolling::roll(&cam, (cam.curves(), &[false]), &outline.contour, 5e-7);
         assert!(rolled.gap_mm.abs() <= 5e-7, "{offset} {lead}: {rolled:?}");
@@ -104,7 +107,7 @@ fn no_arc_about_an_edge_is_too_short_to_be_read() {
     for beyond in [1e-11, 1e-8, 1e-5, 1e-2] {
         let roller = 66.523_885_130_629_4 + beyond;
         let cam =
-            rotary(&[&format!("follower.roller.radius={roller}mm"), &format!("cam.base_radius={}mm", 99.0 - roller)]);
+            disc(&[&format!("follower.roller.radius={roller}mm"), &format!("cam.base_radius={}mm", 99.0 - roller)]);
         let outline = profile(cam.curves(), Fit { side: Side::Outside, ..Fit::from(1.4e-7) }).expect("an outline");
         let shortest = outline.contour.edges().map(|edge| edge.length()).fold(f64::INFINITY, f64::min);
         assert!(shortest > 5e-6, "{beyond}: {shortest:e}");

@@ -1,9 +1,12 @@
 //! What is read from machine files, over the tables of the core and of every domain.
 
-use super::{DOMAINS, analyses, catalogue, checks, kinds};
+use super::DOMAINS;
+use crate::catalogue::{analyses, catalogue, checks, kinds};
 use crate::document::Presence::Required;
 use crate::document::cams::MAKE;
 use crate::document::{Key, KeyForm, KeySection, Reader};
+use crate::domains::press::MachineOfPress;
+use crate::domains::press::SpecOfPress;
 use crate::domains::press::buffer::bottom_law::ColumnRule;
 use crate::domains::press::cams::{CONOID, ROTARY, TRANSLATING};
 use crate::domains::press::machine::{AirColumn, ConoidMode, DriveMachine, PressCams, Shift};

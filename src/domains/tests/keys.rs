@@ -1,6 +1,7 @@
 //! Every key of the table: it reaches the machine, it is described, and templates, machine files and the schema have it.
 
 use super::*;
+use crate::domains::press::MachineOfPress;
 
 /// Every key with a value that is not the one it has in the profile, default or absence.
 const OTHERS: &[(&str, &str)] = &[
