@@ -90,20 +90,20 @@
 //! | the smallest disc of a motion, and what binds it | [`analysis::size::analysis`] |
 //! | every law of motion at the numbers of a design | [`analysis::laws::analysis`] |
 #![cfg_attr(
-    feature = "press",
+    feature = "printing",
     doc = "| one cam of a press at other speeds | [`domains::press::analysis::regimes::analysis`] |"
 )]
 #![cfg_attr(
-    feature = "press",
+    feature = "printing",
     doc = "| buffers of a press on springs instead of a cam | [`domains::press::analysis::spring::analysis`] |"
 )]
 #![cfg_attr(
-    feature = "press",
+    feature = "printing",
     doc = "| the drive of a bed without a cam | [`domains::press::analysis::drive::analysis`] |"
 )]
-#![cfg_attr(feature = "linkage", doc = "| the linkage that moves a bed | [`domains::linkage::analysis::analysis`] |")]
-#![cfg_attr(feature = "shaft", doc = "| the shaft under a cam | [`domains::shaft::analysis::analysis`] |")]
-#![cfg_attr(feature = "brake", doc = "| the belt brake of a paper roll | [`domains::brake::analysis::analysis`] |")]
+#![cfg_attr(feature = "printing", doc = "| the linkage that moves a bed | [`domains::linkage::analysis::analysis`] |")]
+#![cfg_attr(feature = "printing", doc = "| the shaft under a cam | [`domains::shaft::analysis::analysis`] |")]
+#![cfg_attr(feature = "printing", doc = "| the belt brake of a paper roll | [`domains::brake::analysis::analysis`] |")]
 //!
 //! ```
 //! use camgen::{Judged, Machine, Writing, analysis::size};
@@ -115,7 +115,7 @@
 //! assert!(!files.outputs().is_empty());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
-#![cfg_attr(feature = "press", doc = include_str!("domains/press/first_page.md"))]
+#![cfg_attr(feature = "printing", doc = include_str!("press.md"))]
 //!
 //! # Cams that belong together
 //!
@@ -166,107 +166,53 @@
 //!
 //! ARCHITECTURE.md describes them.
 #![forbid(unsafe_code)]
-// Some of what the core offers is used by domains only.
-#![cfg_attr(not(feature = "press"), allow(dead_code, unused_imports))]
 
-pub mod refusal;
-
-pub mod units;
-
-pub mod numeric;
-
-pub mod document;
-
-pub mod geometry;
-
-pub mod motion;
-
-pub mod follower;
-
-pub mod machine;
-
-pub mod profile;
-
-pub mod report;
-
-pub mod table;
-
-pub mod load;
-
-pub mod check;
-
-pub mod body;
-
-pub mod analysis;
-
-pub mod reading;
-
-pub mod verify;
-
-pub mod write;
-
-pub mod pipeline;
-pub mod trade;
-
-pub mod domain;
-
-pub mod domains;
-
-pub mod catalogue;
-pub mod study;
+#[doc(inline)]
+pub use camgen_kernel::{document, follower, geometry, motion, numeric, profile, refusal, units};
 
 #[cfg(feature = "html")]
-pub mod engine;
+#[doc(inline)]
+pub use camgen_cams::engine;
+#[doc(inline)]
+pub use camgen_cams::{
+    analysis, body, catalogue, check, domain, load, machine, pipeline, reading, report, study, table, trade, verify,
+    write,
+};
+
+/// The domains of printing machines. To be linked with them is to know their machines: they register themselves.
+#[cfg(feature = "printing")]
+#[doc(inline)]
+pub use camgen_printing as domains;
 
 #[doc(inline)]
-pub use analysis::Analysis;
-#[doc(inline)]
-pub use body::{Accuracy, Drawn, Part, Request};
-#[cfg(feature = "brake")]
-#[doc(inline)]
-pub use domains::brake::BuilderOfBrake;
-#[cfg(feature = "linkage")]
-#[doc(inline)]
-pub use domains::linkage::{BuilderOfLinkage, MachineOfLinkage};
-#[cfg(feature = "press")]
-#[doc(inline)]
-pub use domains::press::motion::equation_18::{ExactOn, Solver};
-#[cfg(feature = "press")]
-#[doc(inline)]
-pub use domains::press::{BuilderOfPress, MachineOfPress, SpecOfPress};
-#[cfg(feature = "shaft")]
-#[doc(inline)]
-pub use domains::shaft::{BuilderOfShaft, MachineOfShaft};
-#[doc(inline)]
-pub use follower::{Element, Follower, Touch};
-#[doc(inline)]
-pub use geometry::CurvePoint;
-#[doc(inline)]
-pub use geometry::contour::{Contour, Vertex};
-#[doc(inline)]
-pub use machine::{GuideData, Keyway, Machine, MachineError, Material, SpringData, Title, VibrationData};
-#[doc(inline)]
-pub use motion::laws::{Law, law};
-#[doc(inline)]
-pub use motion::program::Program;
-pub use motion::program::rows::samples::{SampleCurve, Smooth};
-#[doc(inline)]
-pub use motion::{Jet, Motion, Piece, Quantity};
+pub use camgen_kernel::{
+    Contour, CurvePoint, Element, Fit, Follower, Jet, Law, Motion, Outline, Piece, Program, Quantity, Refusal,
+    SampleCurve, Side, Smooth, Touch, Vertex, law,
+};
 #[doc(no_inline)]
 pub use nalgebra::{Vector2, Vector3};
+
 #[doc(inline)]
-pub use pipeline::{
-    ArmSide, Assembly, AssemblyDrawing, AssemblyReport, Builder, Cam, Drawing, Error, ExpectedFile, FileKind, FileSet,
-    FlatFaceFollower, Judged, KnifeEdgeFollower, Output, PlaceChoice, Proven, ProvenAssembly, RollerFollower, Spec,
-    SwingingFaceFollower, SwingingRollerFollower, Writing,
+pub use camgen_cams::{
+    Accuracy, Analysis, ArmSide, Assembly, AssemblyDrawing, AssemblyReport, Builder, Cam, Drawing, Drawn, Error,
+    ExpectedFile, FileKind, FileSet, Finding, FlatFaceFollower, GuideData, Judged, Keyway, KnifeEdgeFollower,
+    LazyReport, Machine, MachineError, Material, Output, Part, Place, PlaceChoice, Proven, ProvenAssembly, Report,
+    Request, Rolled, RollerFollower, Section, Spec, Speeds, SpringData, SwingingFaceFollower, SwingingRollerFollower,
+    Table, Title, Verdict, Version, VibrationData, Writing,
 };
+
+#[cfg(feature = "printing")]
 #[doc(inline)]
-pub use profile::outline::{Fit, Outline, Side};
+pub use camgen_printing::brake::BuilderOfBrake;
+#[cfg(feature = "printing")]
 #[doc(inline)]
-pub use refusal::Refusal;
+pub use camgen_printing::linkage::{BuilderOfLinkage, MachineOfLinkage};
+#[cfg(feature = "printing")]
 #[doc(inline)]
-pub use report::{Finding, LazyReport, Place, Report, Rolled, Section, Speeds, Verdict};
+pub use camgen_printing::press::motion::equation_18::{ExactOn, Solver};
+#[cfg(feature = "printing")]
 #[doc(inline)]
-pub use table::Table;
+pub use camgen_printing::press::{BuilderOfPress, MachineOfPress, SpecOfPress};
+#[cfg(feature = "printing")]
 #[doc(inline)]
-pub use write::dxf::Version;
+pub use camgen_printing::shaft::{BuilderOfShaft, MachineOfShaft};

@@ -4,9 +4,7 @@ use super::args::{
     AnalysisArgs, CompareArgs, DriveArgs, LawsArgs, RegimesArgs, ReportArgs, ScatterArgs, SizeArgs, SpringArgs, at_end,
     machine_of_a_cam, machine_with_free,
 };
-#[cfg(feature = "linkage")]
 use super::args::{LinkageArgs, LinkageGoal};
-#[cfg(feature = "shaft")]
 use super::args::{Order, ShaftArgs, ShaftSolver};
 use super::cams::{show, source_date};
 use super::put::put_set;
@@ -15,7 +13,6 @@ use camgen::analysis::compare::{self as comparison, ComparisonOptions, measured}
 use camgen::analysis::{Analysis, laws, size};
 use camgen::body::Cut;
 use camgen::document::file::table_text_of;
-#[cfg(feature = "linkage")]
 use camgen::domains::linkage::analysis::{self as linkage, DragLinkGoal};
 use camgen::domains::press::MachineOfPress;
 use camgen::domains::press::analysis::{drive, plain, regimes, spring};
@@ -24,17 +21,13 @@ use camgen::domains::press::buffer::spring_body::SpringShape;
 use camgen::domains::press::machine::{DriveMachine, PressCams};
 use camgen::domains::press::scatter::analysis as scatter_analysis;
 use camgen::domains::press::scatter::monte_carlo::Sampling;
-#[cfg(feature = "shaft")]
 use camgen::domains::shaft::analysis::{self as shaft, CriticalSpeedSolver, ShaftOptions};
-#[cfg(feature = "shaft")]
 use camgen::domains::shaft::machine::ShaftMachine;
 use camgen::machine::Machine;
 use camgen::pipeline::{Judged, Spec, Writing};
 
 /// Stations of the paper's shaft, and steps of a sweep, by default.
-#[cfg(feature = "shaft")]
 const STATIONS: usize = 18;
-#[cfg(feature = "shaft")]
 const STEPS: u32 = 10;
 
 /// The default speeds for a press, in sevenths of its design speed: 20, 25, 30 and 35 rpm for that of the paper.
@@ -130,13 +123,11 @@ pub(crate) fn drive_of(args: &DriveArgs, (machine, name): (DriveMachine, String)
     Ok((drive::analysis(&machine, args.solver, args.step).map_err(Failure::new)?, name))
 }
 
-#[cfg(feature = "linkage")]
 pub(super) fn linkage(args: &LinkageArgs) -> Result<Outcome, Failure> {
     judge_and_write(linkage_of(args, args.analysis.machine(&args.machine)?)?, &args.analysis)
 }
 
 /// The linkage of a loaded machine.
-#[cfg(feature = "linkage")]
 pub(crate) fn linkage_of(args: &LinkageArgs, (machine, name): (Machine, String)) -> Result<NamedAnalysis, Failure> {
     let rpm = args.rpm.or(machine.design_rpm()).unwrap_or(f64::NAN);
     let (keep, power) = (args.keep.is_some(), args.power_limit);
@@ -152,14 +143,12 @@ pub(crate) fn linkage_of(args: &LinkageArgs, (machine, name): (Machine, String))
     Ok((linkage::analysis(&machine, rpm, goal).map_err(Failure::new)?, name))
 }
 
-#[cfg(feature = "shaft")]
 pub(super) fn shaft(args: &ShaftArgs) -> Result<Outcome, Failure> {
     let loaded = ShaftMachine::load(&args.machine, &args.analysis.set).map_err(Failure::new)?;
     judge_and_write(shaft_of(args, loaded)?, &args.analysis)
 }
 
 /// The shaft of a loaded machine.
-#[cfg(feature = "shaft")]
 pub(crate) fn shaft_of(args: &ShaftArgs, (machine, name): (ShaftMachine, String)) -> Result<NamedAnalysis, Failure> {
     let order = match args.order {
         Order::Auto => None,

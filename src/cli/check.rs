@@ -172,7 +172,6 @@ impl CheckArgs {
 
 /// The cam that the file should contain.
 fn spec(args: &CheckArgs) -> Result<Spec, Failure> {
-    #[cfg(feature = "brake")]
     if args.cam == Some(CheckTarget::Brake) {
         let machine = super::brake::with_disc(args.common.machine_name(), &args.common.set)?;
         if !args.common.rpm.is_empty() || args.common.end.is_some() {
@@ -204,7 +203,6 @@ fn spec(args: &CheckArgs) -> Result<Spec, Failure> {
             Ok(Spec::translating(machine, rpm, solver, balance))
         }
         CheckTarget::Conoid => of_conoid(&args.common, machine, args.residual),
-        #[cfg(feature = "brake")]
         CheckTarget::Brake => Err(Failure("the disc of a brake is read from a file with [brake]".into())),
     }
 }

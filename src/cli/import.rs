@@ -7,8 +7,8 @@ use super::{Failure, Outcome};
 use camgen::Vector2;
 use camgen::analysis::compare::measured::{self, PointsOf, PointsStated};
 use camgen::analysis::import::{self, ImportOptions, ImportSource};
+use camgen::catalogue::lift_table;
 use camgen::document::file::{bytes_of, table_text_of};
-use camgen::motion::program::rows::TableRows;
 use camgen::pipeline::{Judged, Writing};
 use camgen::reading::outline::outline_of;
 use camgen::reading::{LARGEST_FILE, step};
@@ -281,7 +281,7 @@ fn table(args: &ImportArgs, options: &ImportOptions) -> Result<ImportSource, Fai
     let read = |options: &ImportOptions| {
         let text = import::frame(options).map_err(Failure::new)?;
         let all: Vec<String> = overrides.iter().cloned().chain(options.follower_settings()).collect();
-        TableRows::load(&text, &all).map_err(Failure::new)
+        lift_table(&text, &all).map_err(Failure::new)
     };
     match read(options) {
         Ok(rows) => match rows.possible_radii().filter(|_| args.taken_as.is_none()) {

@@ -2,7 +2,6 @@
 
 pub(crate) mod analyses;
 pub(crate) mod args;
-#[cfg(feature = "brake")]
 pub(crate) mod brake;
 mod cams;
 mod check;
@@ -89,11 +88,8 @@ fn run(command: &Command) -> Result<Outcome, Failure> {
         Command::Spring(DeferredArgs(args)) => analyses::spring(args),
         Command::Scatter(DeferredArgs(args)) => analyses::scatter(args),
         Command::Drive(DeferredArgs(args)) => analyses::drive(args),
-        #[cfg(feature = "linkage")]
         Command::Linkage(DeferredArgs(args)) => analyses::linkage(args),
-        #[cfg(feature = "shaft")]
         Command::Shaft(DeferredArgs(args)) => analyses::shaft(args),
-        #[cfg(feature = "brake")]
         Command::Brake(DeferredArgs(args)) => brake::run(args),
         Command::Size(DeferredArgs(args)) => analyses::size(args),
         Command::Import(DeferredArgs(args)) => import::run(args),

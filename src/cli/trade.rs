@@ -5,15 +5,12 @@ use super::args::{Speed, TradeArgs, TradeTarget, at_end, machine_with_free};
 use super::progress::Progress;
 use super::{Failure, Outcome};
 use camgen::analysis::Analysis;
-#[cfg(feature = "brake")]
 use camgen::catalogue::catalogue;
 use camgen::document::similar;
-#[cfg(feature = "brake")]
 use camgen::domains::brake::{BrakeMachine, BrakeOutput, analysis::trade as of_brake};
 use camgen::domains::press::MachineOfPress;
 use camgen::domains::press::analysis::trade as of_press;
 use camgen::domains::press::machine::{DriveMachine, PressCams};
-#[cfg(feature = "shaft")]
 use camgen::domains::shaft::{analysis::trade as of_shaft, machine::ShaftMachine};
 use camgen::machine::Machine;
 use camgen::refusal::Refusal;
@@ -27,14 +24,11 @@ use std::time::Instant;
 const PRESS: &str = "dpi";
 const PROGRAM: &str = "feeder";
 const DRIVE: &str = "dp";
-#[cfg(feature = "brake")]
 const BRAKE: &str = "roll";
-#[cfg(feature = "shaft")]
 const SHAFT: &str = "press-cylinder";
 
 pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
     let (target, file) = args.target();
-    #[cfg(feature = "shaft")]
     let target = target.or_else(|| file.filter(|file| is_shaft_alone(args, file)).map(|_| TradeTarget::Shaft));
     let shown = args.analysis.report.shows_progress();
     let mut bar: Option<Progress> = None;
@@ -50,7 +44,6 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
     let clock = || start.elapsed();
     let run = TradeRun { clock: &clock, progress: &mut progress };
     let (analysis, name, kind) = match target {
-        #[cfg(feature = "shaft")]
         Some(TradeTarget::Shaft) => {
             args.without_limits(target)?;
             let (machine, name) =
@@ -63,7 +56,6 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
                 DriveMachine::load(file.unwrap_or(DRIVE), &args.analysis.set).map_err(Failure::new)?;
             (of_press::drive(&machine, &clock), name, "drive")
         }
-        #[cfg(feature = "brake")]
         Some(TradeTarget::Brake) => {
             if args.residual.is_some() {
                 return Err(Failure("--residual belongs to the cams of a press: a brake balances no inertia".into()));
@@ -136,7 +128,6 @@ fn of_cam(
 
 /// What the camshaft of a file leaves, where it has one.
 fn others(args: &TradeArgs, file: &str, rpm: f64) -> Vec<LeftOver> {
-    #[cfg(feature = "shaft")]
     if let Ok((machine, _)) = ShaftMachine::load(file, &args.analysis.set) {
         return of_shaft::left_by_shaft(&machine, rpm).into_iter().collect();
     }
@@ -168,7 +159,6 @@ fn speed(speeds: &Speeds) -> String {
 }
 
 /// Whether a file describes a shaft without a press.
-#[cfg(feature = "shaft")]
 fn is_shaft_alone(args: &TradeArgs, file: &str) -> bool {
     ShaftMachine::load(file, &args.analysis.set).is_ok_and(|(machine, _)| machine.machine().is_none())
 }

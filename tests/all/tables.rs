@@ -40,7 +40,7 @@ fn lifter(text: &str, overrides: &[&str]) -> Spec {
 }
 
 /// A turret that is moved on.
-const INDEXER: &str = include_str!("../../profiles/indexer.toml");
+const INDEXER: &str = include_str!("../../crates/cams/profiles/indexer.toml");
 
 /// A cam of each kind. A new kind of body needs a line here.
 fn cam_of(kind: &Kind, overrides: &[&str]) -> Cam {
@@ -256,7 +256,7 @@ fn analysis_of(kind: &Kind) -> analysis::Analysis {
             let options = analysis::import::ImportOptions { name: "lift".into(), spline: true, ..Default::default() };
             let frame = analysis::import::frame(&options).expect("a follower");
             let table = [format!("motion.table={}", path.display())];
-            let rows = camgen::motion::program::rows::TableRows::load(&frame, &table).expect("rows");
+            let rows = camgen::catalogue::lift_table(&frame, &table).expect("rows");
             analysis::import::analysis(&analysis::import::ImportSource::Table(rows), &options).expect("a design")
         }
         "trade" => {

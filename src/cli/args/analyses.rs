@@ -2,13 +2,11 @@
 
 use super::common::ReportArgs;
 use super::files::OutputArgs;
-#[cfg(feature = "linkage")]
 use super::parse::power_share;
 use super::parse::{
     LawOrSpline, crank_step, cutter_diameter, cutter_radius, force, format, law, law_or_spline, lift, rpm,
     segment_angle, stiffness, word,
 };
-#[cfg(feature = "shaft")]
 use super::parse::{Order, order, stiffnesses};
 use camgen::analysis::compare::ComparisonFit;
 use camgen::analysis::compare::measured::PointsOf;
@@ -20,10 +18,8 @@ use camgen::domains::press::bed_motion::End;
 use camgen::domains::press::buffer::regime::Reset;
 use camgen::domains::press::scatter::monte_carlo::Distribution;
 use camgen::domains::press::scatter::reset::ScrewRule;
-#[cfg(feature = "shaft")]
 use camgen::domains::shaft::mechanics::Whirl;
 use camgen::motion::laws::Law;
-#[cfg(any(feature = "linkage", feature = "shaft"))]
 use clap::ValueEnum;
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
@@ -174,7 +170,6 @@ pub(crate) struct DriveArgs {
 }
 
 /// The goal of the design of a drag link.
-#[cfg(feature = "linkage")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum LinkageGoal {
     Equal,
@@ -183,13 +178,11 @@ pub(crate) enum LinkageGoal {
 }
 
 /// The condition that a design keeps.
-#[cfg(feature = "linkage")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum LinkageSymmetry {
     Symmetric,
 }
 
-#[cfg(feature = "linkage")]
 #[derive(Debug, Args)]
 pub(crate) struct LinkageArgs {
     /// An embedded machine or the path of a machine file with the table [linkage]
@@ -218,14 +211,12 @@ pub(crate) struct LinkageArgs {
 }
 
 /// How critical speeds are found.
-#[cfg(feature = "shaft")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ShaftSolver {
     Exact,
     Paper,
 }
 
-#[cfg(feature = "shaft")]
 #[derive(Debug, Args)]
 pub(crate) struct ShaftArgs {
     /// An embedded machine or the path of a machine file with the table [shaft]

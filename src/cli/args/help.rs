@@ -68,7 +68,6 @@ Examples:
   camgen drive --solver paper --step 5deg --set buffer.column=500mm --dry-run
       another column, solved as in the paper; only the report";
 
-#[cfg(feature = "linkage")]
 pub(super) const LINKAGE: &str = "\
 Examples:
   camgen linkage
@@ -76,7 +75,6 @@ Examples:
   camgen linkage dpi-crank-slider --synthesize least --keep symmetric --dry-run
       the drag link with the least acceleration for that crank-slider, as a table to paste; only the report";
 
-#[cfg(feature = "shaft")]
 pub(super) const SHAFT: &str = "\
 Examples:
   camgen shaft --sweep 1e8N/m..1e9N/m
@@ -84,7 +82,6 @@ Examples:
   camgen shaft dpi-shaft --rpm 35 --dry-run
       how much the shaft reduces the lift of the cam of a press; only the report";
 
-#[cfg(feature = "brake")]
 pub(super) const BRAKE: &str = "\
 Examples:
   camgen brake --cam

@@ -1,7 +1,6 @@
 //! What the user typed.
 
 mod analyses;
-#[cfg(feature = "brake")]
 mod brake;
 mod common;
 mod deferred;
@@ -16,16 +15,12 @@ pub(crate) use analyses::{
     AnalysisArgs, CompareArgs, DriveArgs, ImportArgs, ImportAs, ImportForm, LawsArgs, RegimesArgs, ScatterArgs,
     SizeArgs, SpringArgs,
 };
-#[cfg(feature = "linkage")]
 pub(crate) use analyses::{LinkageArgs, LinkageGoal};
-#[cfg(feature = "shaft")]
 pub(crate) use analyses::{ShaftArgs, ShaftSolver};
-#[cfg(feature = "brake")]
 pub(crate) use brake::BrakeArgs;
 pub(super) use common::{AccuracyArgs, CommonArgs, ReportArgs, at_end, machine_of_a_cam, machine_with_free};
 pub(super) use deferred::DeferredArgs;
 pub(super) use files::{CutterArgs, FileArgs, OutlineArgs, OutputArgs, PointsArgs};
-#[cfg(feature = "shaft")]
 pub(super) use parse::Order;
 pub(super) use parse::{LawOrSpline, Speed, gauge_follower};
 pub(super) use serve::ServeArgs;
@@ -106,20 +101,17 @@ pub(super) enum Command {
     /// Linkage that moves a bed: dead points, accelerations, transmission angles, torque
     ///
     /// A crank-slider, or a six-bar whose drag link turns the crank of the slider unevenly.
-    #[cfg(feature = "linkage")]
     #[command(after_help = help::LINKAGE)]
     Linkage(DeferredArgs<LinkageArgs>),
     /// The shaft under a cam, or alone: critical speeds, lift error, unbalance
     ///
     /// How much bending and twist of the shaft reduce the lift, and the residual force that results, for the cam of the file.
-    #[cfg(feature = "shaft")]
     #[command(after_help = help::SHAFT)]
     Shaft(DeferredArgs<ShaftArgs>),
     /// Belt brake of a paper roll: web tension, and the disc that holds it
     ///
     /// Web tension with a belt on a hinged frame, compared with the paper's equations; frames that hold it by themselves, and a disc on
     /// the frame's shaft that holds it exactly.
-    #[cfg(feature = "brake")]
     #[command(after_help = help::BRAKE)]
     Brake(DeferredArgs<BrakeArgs>),
     /// Smallest disc for a motion program, and the limit that decides it
@@ -227,11 +219,8 @@ impl Command {
             Command::Spring(DeferredArgs(args)) => (&args.machine, &args.analysis),
             Command::Scatter(DeferredArgs(args)) => (&args.machine, &args.analysis),
             Command::Drive(DeferredArgs(args)) => (&args.machine, &args.analysis),
-            #[cfg(feature = "linkage")]
             Command::Linkage(DeferredArgs(args)) => (&args.machine, &args.analysis),
-            #[cfg(feature = "shaft")]
             Command::Shaft(DeferredArgs(args)) => (&args.machine, &args.analysis),
-            #[cfg(feature = "brake")]
             Command::Brake(DeferredArgs(args)) => (&args.machine, &args.analysis),
             Command::Size(DeferredArgs(args)) => (&args.machine, &args.analysis),
             Command::Compare(DeferredArgs(args)) => (&args.machine, &args.analysis),
@@ -362,7 +351,6 @@ pub(super) enum CheckTarget {
     Translating,
     Conoid,
     Make,
-    #[cfg(feature = "brake")]
     Brake,
 }
 
@@ -378,10 +366,8 @@ pub(super) enum TradeTarget {
     /// The steps of the paper's method for the drive without a cam, dp by default.
     Drive,
     /// The disc of a belt brake, roll by default.
-    #[cfg(feature = "brake")]
     Brake,
     /// The first critical speed of a shaft, press-cylinder by default.
-    #[cfg(feature = "shaft")]
     Shaft,
 }
 

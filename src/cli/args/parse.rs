@@ -3,7 +3,6 @@
 use camgen::body::gauge::Gauge;
 use camgen::body::{Accuracy, RateTolerance};
 use camgen::document::{LengthOrAngle, NamedChoice, similar};
-#[cfg(feature = "shaft")]
 use camgen::domains::shaft::mechanics::MOST_ORDER;
 use camgen::machine::{fault_of_stem, valid_rpm};
 use camgen::motion::laws::{self, LAWS, Law};
@@ -132,7 +131,6 @@ pub(crate) fn crank_step(text: &str) -> Result<f64, String> {
     if (least..=most).contains(&quantity.si) { Ok(quantity.si) } else { Err("must be from 0.01 deg to 90 deg".into()) }
 }
 
-#[cfg(feature = "linkage")]
 pub(crate) fn power_share(text: &str) -> Result<f64, String> {
     let share = units::parse_bare(text).map_err(|error| format!("{error}; a share is a bare number, e.g. 0.831"))?;
     if share > 0.0 && share <= 10.0 { Ok(share) } else { Err("must be above 0 and at most 10".into()) }
@@ -145,7 +143,6 @@ pub(crate) fn stiffness(text: &str) -> Result<f64, String> {
 }
 
 /// Two stiffnesses, the first below the second, N/m.
-#[cfg(feature = "shaft")]
 pub(crate) fn stiffnesses(text: &str) -> Result<(f64, f64), String> {
     let (from, to) =
         text.split_once("..").ok_or("a sweep goes from one stiffness to another, e.g. \"1e8 N/m .. 1e9 N/m\"")?;
@@ -154,14 +151,12 @@ pub(crate) fn stiffnesses(text: &str) -> Result<(f64, f64), String> {
 }
 
 /// An order of load polynomials, or as many as it takes.
-#[cfg(feature = "shaft")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Order {
     Auto,
     Of(usize),
 }
 
-#[cfg(feature = "shaft")]
 pub(crate) fn order(text: &str) -> Result<Order, String> {
     if text.eq_ignore_ascii_case("auto") {
         return Ok(Order::Auto);

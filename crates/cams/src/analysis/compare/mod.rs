@@ -1,0 +1,398 @@
+//! A measured cam, compared with the exact one: deviations along the normal, the angle and the centre with which they agree best, what remains, what
+//! the follower feels of it, and the waviness.
+
+mod fit;
+pub mod measured;
+
+use super::{Analysis, Picture};
+use crate::body::{Body, Cut, Kind};
+use crate::check::{Check, CheckExplanation, CheckScope, Measure};
+use crate::report::plot::{Plot, PlotCurve, PlotPanel};
+use crate::report::{Bound, Place, Section, Verdict, sha256, shown};
+use crate::table::{ListedColumn, Table};
+use camgen_kernel::document::{Input, cams};
+use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::motion::Quantity;
+use camgen_kernel::refusal::Refusal;
+pub use fit::ComparisonFit;
+use fit::{ExactProfile, MeasuredMove, MeasuredPlace, covers, harmonics, highest_order, polar};
+use nalgebra::Vector2;
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// The comparison.
+pub const KIND: Kind = Kind { command: "compare", noun: "comparison of a measured cam", keys: cams::MAKE };
+
+/// The check.
+pub const DEVIATION: Check = Check {
+    name: "profile_deviation",
+    on: CheckScope::Analysis,
+    unit: "mm",
+    about: "The largest distance of a measured point from the exact profile along its normal, after the angle and, where asked for, the centre were fitted.",
+    explained: CheckExplanation {
+        bound: Bound::AtMost,
+        formula: "max |distance of the point from the profile − radius of the ball|",
+        usual: "half of title.profile_tolerance, the zone of ISO 1101; only reported without it",
+        change: "the part: grind it again, or permit a wider title.profile_tolerance",
+    },
+};
+
+/// Places at which the acceleration of the error is searched.
+const PLACES: u32 = 1440;
+
+/// How a cam was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ComparisonOptions {
+    /// Radius of the ball whose centres the points are, m; 0 where they lie on the profile.
+    pub ball: f64,
+    /// What may be moved.
+    pub fit: ComparisonFit,
+}
+
+/// The section of the report.
+#[derive(Debug, Serialize)]
+struct Comparison {
+    points: usize,
+    ball_radius_mm: f64,
+    /// By which the measured points were turned and shifted.
+    turn_deg: f64,
+    shift_mm: [f64; 2],
+    /// Positive where there is too much metal.
+    mean_mm: f64,
+    rms_mm: f64,
+    lowest_mm: f64,
+    highest_mm: f64,
+    /// Highest less lowest.
+    form_error_mm: f64,
+    largest_lift_error_mm: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    largest_acceleration_error_mm_per_rad2: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    largest_acceleration_error_m_per_s2: Option<f64>,
+    /// Amplitudes of the deviation by the polar angle on the part, from the first order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    waviness_mm: Vec<f64>,
+}
+
+/// A point of the table.
+struct PointRow {
+    number: f64,
+    place: MeasuredPlace,
+    /// Before anything was fitted.
+    raw: f64,
+}
+
+const COLUMNS: &[ListedColumn<PointRow>] = &[
+    ("point", |row| row.number),
+    ("x_mm", |row| row.place.point.x),
+    ("y_mm", |row| row.place.point.y),
+    ("polar_deg", |row| polar(row.place.foot).to_degrees()),
+    ("cam_deg", |row| row.place.angle.to_degrees()),
+    ("raw_deviation_mm", |row| row.raw),
+    ("deviation_mm", |row| row.place.deviation),
+    ("lift_error_mm", |row| row.place.lift),
+];
+
+/// Compares points (mm) that were measured on a cut of a body with its exact profile.
+///
+/// # Errors
+/// [`Refusal`] when the body has no such profile, or no point can be placed on it.
+pub fn analysis(
+    body: &dyn Body,
+    cut: &Cut<'_>,
+    points: &[Vector2<f64>],
+    options: ComparisonOptions,
+) -> Result<Analysis, Refusal> {
+    let no_profile = || {
+        let noun = body.kind().noun;
+        Refusal::new(format!("a {noun} has no profile about a shaft with which points are compared"))
+            .remedy("give the design of a disc, a ring, a groove or a rib")
+    };
+    let exact = ExactProfile::new(cut, MILLIMETRES * options.ball).map_err(Refusal::of)?.ok_or_else(no_profile)?;
+    let moved = exact.fitted(points, options.fit);
+    refuse_other_frame(&exact, points, &moved)?;
+    let rows = rows(&exact, points, &moved);
+    if rows.is_empty() {
+        return Err(
+            Refusal::new("no measured point lies on the profile").remedy("give points in millimetres about the shaft")
+        );
+    }
+    let by_polar: Vec<(f64, f64)> = rows.iter().map(|row| (polar(row.place.foot), row.place.deviation)).collect();
+    let by_angle: Vec<(f64, f64)> = rows.iter().map(|row| (row.place.angle, row.place.lift)).collect();
+    let waves = covers(&by_polar).then(|| harmonics(&by_polar, highest_order(&by_polar))).flatten().unwrap_or_default();
+    let felt = covers(&by_angle).then(|| harmonics(&by_angle, highest_order(&by_angle))).flatten();
+    let section = section(body, (&rows, options.ball), &moved, (&waves, felt.as_deref()));
+    let mut inputs = vec![Input::word("command", KIND.command)];
+    inputs.extend(body.machine().inputs(body.kind().keys));
+    let lines: Vec<String> = points.iter().map(|point| format!("{} {}", point.x, point.y)).collect();
+    inputs.push(Input::word("points", sha256(lines.join("\n").as_bytes())));
+    inputs.push(Input::quantity("ball", options.ball, ("mm", 1e-3)));
+    inputs.push(Input::word("fit", word(options.fit)));
+    Ok(Analysis {
+        kind: &KIND,
+        machine: body.machine().name().to_owned(),
+        speeds: body.speeds(),
+        inputs,
+        measures: vec![measure(body, &rows, covers(&by_polar))],
+        notes: if waves.is_empty() { vec![PART_OF_TURN.to_owned()] } else { Vec::new() },
+        tables: vec![("", Table::listed(COLUMNS, &rows))],
+        by: &[],
+        along: "polar_deg",
+        picture: Picture::Curves(plot(body, &rows, &waves)),
+        mechanism: None,
+        document: None,
+        diagrams: &[],
+        not_modelled: Vec::new(),
+        sections: vec![section],
+    })
+}
+
+/// Rms deviation above which other frames are tried, mm; the largest ratio of rms in another frame to rms as read that refuses the points.
+const OFF: f64 = 0.02;
+const BETTER: f64 = 0.2;
+/// Largest number of points compared.
+const LOOKED: usize = 720;
+/// Millimetres in an inch.
+const INCH: f64 = 25.4;
+
+/// A wrong unit or mirror image of the points.
+struct OtherFrame {
+    /// Factors of x and y.
+    by: Vector2<f64>,
+    what: &'static str,
+    remedy: &'static str,
+}
+
+const OTHER_FRAMES: [OtherFrame; 5] = [
+    OtherFrame {
+        by: Vector2::new(1.0, -1.0),
+        what: "the mirror image of this cam",
+        remedy: "negate y of the points, or set cam.rotation to the other direction in the file",
+    },
+    OtherFrame {
+        by: Vector2::new(INCH, INCH),
+        what: "this cam in inches",
+        remedy: "name the columns x_in and y_in, or angle_deg and radius_in",
+    },
+    OtherFrame {
+        by: Vector2::new(INCH, -INCH),
+        what: "the mirror image of this cam in inches",
+        remedy: "name the columns x_in and y_in, and negate y of the points",
+    },
+    OtherFrame {
+        by: Vector2::new(1.0 / INCH, 1.0 / INCH),
+        what: "this cam in millimetres, read as inches",
+        remedy: "name the columns x_mm and y_mm, or angle_deg and radius_mm",
+    },
+    OtherFrame {
+        by: Vector2::new(1.0 / INCH, -1.0 / INCH),
+        what: "the mirror image of this cam in millimetres, read as inches",
+        remedy: "name the columns x_mm and y_mm, and negate y of the points",
+    },
+];
+
+/// Refuses points of the cam in another unit, or of its mirror image.
+fn refuse_other_frame(exact: &ExactProfile<'_>, points: &[Vector2<f64>], moved: &MeasuredMove) -> Result<(), Refusal> {
+    let every = points.len().div_ceil(LOOKED).max(1);
+    let looked: Vec<Vector2<f64>> = points.iter().step_by(every).copied().collect();
+    let found = rms(exact, &looked, moved);
+    if found <= OFF {
+        return Ok(());
+    }
+    // Turned points of a symmetric cam would also fit its mirror image.
+    let turned = rms(exact, &looked, &exact.fitted(&looked, ComparisonFit::Angle)).min(found);
+    if turned <= OFF {
+        return Ok(());
+    }
+    let mut nearest: Option<(&OtherFrame, f64)> = None;
+    for frame in &OTHER_FRAMES {
+        let other: Vec<Vector2<f64>> = looked.iter().map(|point| point.component_mul(&frame.by)).collect();
+        let best = rms(exact, &other, &exact.fitted(&other, ComparisonFit::Angle));
+        // Of a mirror image in another unit the unit alone makes much of the error: a later frame is taken where it is clearly better.
+        if best < BETTER * nearest.map_or(turned, |(_, before)| before) {
+            nearest = Some((frame, best));
+        }
+    }
+    let Some((frame, best)) = nearest else { return Ok(()) };
+    let (best, found) = (shown(best), shown(found));
+    let what = format!("the points are {}: they are {best} mm rms off it, and {found} mm as they are read", frame.what);
+    Err(Refusal::new(what).remedy(frame.remedy))
+}
+
+/// Rms deviation of moved points, mm; a point without a foot on the profile counts with its radius.
+fn rms(exact: &ExactProfile<'_>, points: &[Vector2<f64>], moved: &MeasuredMove) -> f64 {
+    let off = |point: &Vector2<f64>| exact.place(moved.of(*point)).map_or(point.norm(), |place| place.deviation);
+    let squares: f64 = points.iter().map(|point| off(point).powi(2)).sum();
+    #[expect(clippy::cast_precision_loss, reason = "few points")]
+    let count = points.len().max(1) as f64;
+    (squares / count).sqrt()
+}
+
+/// The note on points that leave a part of the turn out.
+const PART_OF_TURN: &str = "the points leave a part of the turn out: waviness is not found";
+
+/// The name of a fit on the command line.
+const fn word(fit: ComparisonFit) -> &'static str {
+    match fit {
+        ComparisonFit::Nothing => "none",
+        ComparisonFit::Angle => "angle",
+        ComparisonFit::Centre => "centre",
+    }
+}
+
+impl camgen_kernel::document::NamedChoice for ComparisonFit {
+    const ALL: &'static [(&'static str, Self)] =
+        &[("angle", Self::Angle), ("centre", Self::Centre), ("center", Self::Centre), ("none", Self::Nothing)];
+}
+
+/// The points by their polar angle on the part.
+fn rows(exact: &ExactProfile<'_>, points: &[Vector2<f64>], moved: &MeasuredMove) -> Vec<PointRow> {
+    let mut rows = Vec::new();
+    for (index, point) in points.iter().enumerate() {
+        let Some(place) = exact.place(moved.of(*point)) else { continue };
+        let raw = exact.place(*point).map_or(f64::NAN, |place| place.deviation);
+        #[expect(clippy::cast_precision_loss, reason = "few points")]
+        rows.push(PointRow { number: (index + 1) as f64, place, raw });
+    }
+    rows.sort_by(|a, b| polar(a.place.foot).total_cmp(&polar(b.place.foot)));
+    rows
+}
+
+fn measure(body: &dyn Body, rows: &[PointRow], round: bool) -> Measure {
+    let worst = rows.iter().max_by(|a, b| a.place.deviation.abs().total_cmp(&b.place.deviation.abs()));
+    let (value, at) = worst.map_or((f64::NAN, 0.0), |row| (row.place.deviation, row.place.angle));
+    let zone = body.machine().title.profile_tolerance;
+    let measure = DEVIATION.measure(value.abs(), zone.map(|zone| 0.5 * MILLIMETRES * zone));
+    let what = if value > 0.0 { "too much metal there" } else { "too little metal there" };
+    let note = match zone {
+        Some(_) => what.to_owned(),
+        None => format!("{what}; title.profile_tolerance gives the limit"),
+    };
+    let kept = zone.is_some_and(|zone| value.abs() <= 0.5 * MILLIMETRES * zone);
+    // A few places of a cam do not show that it is right.
+    let measure = if kept && !round { measure.judged(Verdict::Warn) } else { measure };
+    let note = if round { note } else { format!("{note}; the points leave a part of the turn out") };
+    measure.placed(Place::at_angle(at)).noted(note)
+}
+
+/// The amplitude of a harmonic.
+fn amplitude([cos, sin]: &[f64; 2]) -> f64 {
+    libm::hypot(*cos, *sin)
+}
+
+/// The largest second derivative by the angle of a sum of harmonics.
+fn largest_second(felt: &[[f64; 2]]) -> f64 {
+    let at = |i: u32| {
+        let angle = TAU * f64::from(i) / f64::from(PLACES);
+        let of = |(k, [cos, sin]): (usize, &[f64; 2])| {
+            #[expect(clippy::cast_precision_loss, reason = "a few dozen orders")]
+            let k = k as f64;
+            let (s, c) = libm::sincos(k * angle);
+            -k * k * (cos * c + sin * s)
+        };
+        felt.iter().enumerate().map(of).sum::<f64>().abs()
+    };
+    (0..PLACES).map(at).fold(0.0, f64::max)
+}
+
+fn section(
+    body: &dyn Body,
+    (rows, ball): (&[PointRow], f64),
+    moved: &MeasuredMove,
+    (waves, felt): (&[[f64; 2]], Option<&[[f64; 2]]>),
+) -> Section {
+    let deviations = || rows.iter().map(|row| row.place.deviation);
+    #[expect(clippy::cast_precision_loss, reason = "few points")]
+    let count = rows.len() as f64;
+    let (lowest, highest) =
+        deviations().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), next| (low.min(next), high.max(next)));
+    let second = felt.map(largest_second);
+    let turn = moved.turn.to_degrees().rem_euclid(360.0);
+    let value = Comparison {
+        points: rows.len(),
+        ball_radius_mm: MILLIMETRES * ball,
+        turn_deg: if turn > 180.0 { turn - 360.0 } else { turn },
+        shift_mm: [moved.shift.x, moved.shift.y],
+        mean_mm: deviations().sum::<f64>() / count,
+        rms_mm: (deviations().map(|value| value * value).sum::<f64>() / count).sqrt(),
+        lowest_mm: lowest,
+        highest_mm: highest,
+        form_error_mm: highest - lowest,
+        largest_lift_error_mm: rows.iter().map(|row| row.place.lift.abs()).fold(0.0, f64::max),
+        largest_acceleration_error_mm_per_rad2: second,
+        largest_acceleration_error_m_per_s2: second
+            .zip(body.shaft_speed())
+            .map(|(second, speed)| second * speed * speed / MILLIMETRES),
+        waviness_mm: waves.iter().skip(1).map(amplitude).collect(),
+    };
+    let words = words(body, &value);
+    Section::new("comparison", &value).with_words(words)
+}
+
+fn words(body: &dyn Body, found: &Comparison) -> Vec<String> {
+    let mut words = vec![
+        format!(
+            "{} points, turned by {}° and shifted by {} and {} mm to fit",
+            found.points,
+            shown(found.turn_deg),
+            shown(found.shift_mm[0]),
+            shown(found.shift_mm[1])
+        ),
+        format!(
+            "deviation from {} to {} mm, form error {} mm, mean {} mm, rms {} mm",
+            shown(found.lowest_mm),
+            shown(found.highest_mm),
+            shown(found.form_error_mm),
+            shown(found.mean_mm),
+            shown(found.rms_mm)
+        ),
+    ];
+    let swings = crate::body::curves(body).is_some_and(|curves| curves.motion.quantity() == Quantity::Angle);
+    let along = if swings { "along the arc of the roller" } else { "along its path" };
+    let by_time =
+        found.largest_acceleration_error_m_per_s2.map_or(String::new(), |value| format!(", {} m/s²", shown(value)));
+    let acceleration = found
+        .largest_acceleration_error_mm_per_rad2
+        .map_or(String::new(), |value| format!("; acceleration off by {} mm/rad²{by_time}", shown(value)));
+    words.push(format!("the follower is off by up to {} mm {along}{acceleration}", shown(found.largest_lift_error_mm)));
+    let mut orders: Vec<(usize, f64)> = found.waviness_mm.iter().copied().enumerate().collect();
+    orders.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let largest: Vec<String> =
+        orders.iter().take(3).map(|(index, value)| format!("order {}: {} mm", index + 1, shown(*value))).collect();
+    if !largest.is_empty() {
+        words.push(format!("waviness, largest amplitudes: {}", largest.join(", ")));
+    }
+    words
+}
+
+fn plot(body: &dyn Body, rows: &[PointRow], waves: &[[f64; 2]]) -> Plot {
+    let curve = |name: &str, colour: usize, value: fn(&PointRow) -> f64| PlotCurve {
+        name: name.into(),
+        colour,
+        bold: colour == 0,
+        points: rows.iter().map(|row| [polar(row.place.foot).to_degrees(), MILLIMETRES * value(row)]).collect(),
+    };
+    let deviations = PlotPanel {
+        name: "Deviation along the normal, µm, positive where there is too much metal".into(),
+        curves: vec![curve("as measured", 8, |row| row.raw), curve("fitted", 0, |row| row.place.deviation)],
+    };
+    let lift =
+        PlotPanel { name: "Error of the lift, µm".into(), curves: vec![curve("lift", 1, |row| row.place.lift)] };
+    let orders = waves.iter().enumerate().skip(1);
+    #[expect(clippy::cast_precision_loss, reason = "a few dozen orders")]
+    let amplitudes = orders.map(|(order, wave)| [order as f64, MILLIMETRES * amplitude(wave)]).collect::<Vec<_>>();
+    let spectrum = PlotPanel {
+        name: "Waviness: amplitude of each order, µm".into(),
+        curves: vec![PlotCurve { name: "amplitude".into(), colour: 0, bold: true, points: amplitudes }],
+    };
+    Plot {
+        title: format!("{}: the measured cam", body.machine().name()),
+        places: "polar angle on the part, degrees".into(),
+        panels: vec![deviations, lift],
+        own: if waves.is_empty() { Vec::new() } else { vec![("order".into(), spectrum)] },
+        scheme: None,
+    }
+}
+
+#[cfg(test)]
+mod tests;

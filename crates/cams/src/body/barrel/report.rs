@@ -1,0 +1,145 @@
+//! The sections of the report on a barrel.
+
+use super::Barrel;
+use crate::body::disc::program;
+use crate::body::flank_switch::SwitchFigures;
+use crate::body::{DrawingEvidence, in_groove};
+use crate::report::{Section, shown};
+use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::geometry::contour::Contour;
+use camgen_kernel::motion::{Jet, Quantity};
+use camgen_kernel::profile::lifts;
+use serde::Serialize;
+
+/// The section `barrel`.
+#[derive(Debug, Serialize)]
+struct BarrelSection {
+    outer_radius_mm: f64,
+    floor_radius_mm: f64,
+    groove_depth_mm: f64,
+    groove_width_mm: f64,
+    roller_radius_mm: f64,
+    roller_height_mm: f64,
+    blank_length_mm: f64,
+    z_from_mm: f64,
+    z_to_mm: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_lift_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_lift_deg: Option<f64>,
+    /// The smallest radius of the outside that keeps every limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    smallest_outer_radius_mm: Option<f64>,
+    /// Largest at the inner end of the roller and at the outside.
+    pressure_angle_deg: [f64; 2],
+    largest_reduced_curvature_per_mm: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    volume_mm3: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mass_kg: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spline_patches: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spline_deviation_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    switches: Vec<SwitchFigures>,
+}
+
+/// Everything that is reported of a barrel.
+pub(super) fn sections(barrel: &Barrel, found: &DrawingEvidence<'_>) -> Vec<Section> {
+    let mut sections = vec![section(barrel, found)];
+    sections.extend(program::of_motion(&*barrel.motion, barrel.speed()));
+    sections.extend(in_groove::sections(barrel));
+    sections
+}
+
+/// Cubic millimetres in a cubic metre.
+const CUBIC: f64 = MILLIMETRES * MILLIMETRES * MILLIMETRES;
+
+fn section(barrel: &Barrel, found: &DrawingEvidence<'_>) -> Section {
+    let drawn = found.drawn.and_then(|drawn| drawn.swept.as_deref());
+    let swings = barrel.motion.quantity() == Quantity::Angle;
+    let top = lifts(&*barrel.motion).1;
+    let angle = |end: usize| {
+        let at = |jet: &Jet| barrel.path.pressure_angle(jet, barrel.touched(&barrel.path.at(jet))[end]).abs();
+        barrel.largest(at).value.to_degrees()
+    };
+    let sharpest = barrel.largest(|jet| {
+        let axis = barrel.path.at(jet);
+        let of = |v: f64, distance: f64| axis.point(v).reduced_curvature(&axis, distance);
+        let [upper, lower] = barrel.distances;
+        let [inner, outer] = barrel.touched(&axis);
+        [of(inner, upper), of(inner, -lower), of(outer, upper), of(outer, -lower)].into_iter().fold(0.0, f64::max)
+    });
+    let volume = drawn.map(|drawn| drawn.solid.volume);
+    let value = BarrelSection {
+        outer_radius_mm: MILLIMETRES * barrel.outer,
+        floor_radius_mm: MILLIMETRES * barrel.floor(),
+        groove_depth_mm: MILLIMETRES * barrel.depth,
+        groove_width_mm: MILLIMETRES * barrel.distances.iter().sum::<f64>(),
+        roller_radius_mm: MILLIMETRES * barrel.roller,
+        roller_height_mm: MILLIMETRES * barrel.reach,
+        blank_length_mm: MILLIMETRES * (barrel.ends.1 - barrel.ends.0),
+        z_from_mm: MILLIMETRES * barrel.ends.0,
+        z_to_mm: MILLIMETRES * barrel.ends.1,
+        max_lift_mm: (!swings).then_some(MILLIMETRES * top),
+        max_lift_deg: swings.then_some(top.to_degrees()),
+        smallest_outer_radius_mm: barrel.smallest_outer().ok().map(|radius| MILLIMETRES * radius),
+        pressure_angle_deg: [angle(0), angle(1)],
+        largest_reduced_curvature_per_mm: sharpest.value / MILLIMETRES,
+        volume_mm3: volume,
+        mass_kg: volume.map(|volume| volume / CUBIC * barrel.machine.cam.density()),
+        spline_patches: drawn.map(|_| barrel.patches()),
+        spline_deviation_mm: drawn.map(|drawn| drawn.deviation),
+        switches: in_groove::switches(barrel),
+    };
+    let words = words(&value, barrel, drawn.map(|drawn| drawn.developed.len()));
+    let figures = words.iter().take(3).cloned().collect();
+    Section::new("barrel", &value).with_words(words).with_figures(figures)
+}
+
+fn words(section: &BarrelSection, barrel: &Barrel, arcs: Option<usize>) -> Vec<String> {
+    let BarrelSection { outer_radius_mm, floor_radius_mm, groove_width_mm, groove_depth_mm, .. } = section;
+    let mut words = vec![
+        format!(
+            "outside Ø{} mm, floor Ø{} mm, {} mm long from z = {} to {} mm",
+            shown(2.0 * outer_radius_mm),
+            shown(2.0 * floor_radius_mm),
+            shown(section.blank_length_mm),
+            shown(section.z_from_mm),
+            shown(section.z_to_mm)
+        ),
+        format!(
+            "groove {} mm wide, {} mm deep; the roller Ø{} mm reaches {} mm into it",
+            shown(*groove_width_mm),
+            shown(*groove_depth_mm),
+            shown(2.0 * section.roller_radius_mm),
+            shown(section.roller_height_mm)
+        ),
+    ];
+    let [inner, outer] = section.pressure_angle_deg;
+    words.push(format!(
+        "largest pressure angle {}° at the inner end of the roller, {}° at the outside",
+        shown(inner),
+        shown(outer)
+    ));
+    if let Some(smallest) = section.smallest_outer_radius_mm {
+        words.push(format!("the smallest outside that keeps every limit has a radius of {} mm", shown(smallest)));
+    }
+    if let (Some(patches), Some(deviation)) = (section.spline_patches, section.spline_deviation_mm) {
+        words.push(format!(
+            "solid: {patches} spline patches, off the exact flanks by {} mm between their nodes",
+            shown(deviation)
+        ));
+    }
+    words.extend(arcs.map(|arcs| format!("developed view: {arcs} arcs and lines")));
+    if let Some(mass) = section.mass_kg {
+        words.push(format!("mass {} kg", shown(mass)));
+    }
+    let bore: Option<Contour> = barrel.holes().into_iter().next();
+    if bore.is_none() {
+        words.push("without a bore".into());
+    }
+    words.extend(section.switches.iter().map(SwitchFigures::words));
+    words
+}

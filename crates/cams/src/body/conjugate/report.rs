@@ -1,0 +1,59 @@
+//! The section of the report on a pair of conjugate discs.
+
+use crate::body::closure::Closure;
+use crate::body::{Body, curves};
+use crate::report::{Finding, Section, shown};
+use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::motion::Quantity;
+use camgen_kernel::profile::lifts;
+use camgen_kernel::units::LengthUnit;
+
+/// The checks of the counter disc that the report on both names; its own sheet has all.
+const NAMED: [&str; 4] = ["pressure_angle", "undercut", "wall", "contact_stress"];
+
+/// The section of the report on a pair, with what the checks of its counter disc found.
+pub(crate) fn section(found: &Closure, main: &dyn Body, (counter, checks): (&dyn Body, &[Finding])) -> Section {
+    let of = curves(counter).map(|curves| (curves, curves.follower.prime_radius().unwrap_or(f64::NAN)));
+    let (roller, prime) = of.map_or((f64::NAN, f64::NAN), |(curves, prime)| (curves.offset(), prime));
+    let [roller, prime] = [roller, prime].map(|length| MILLIMETRES * length);
+    let value = serde_json::json!({
+        "counter_prime_radius_mm": prime,
+        "counter_base_radius_mm": prime - roller,
+        "counter_roller_radius_mm": roller,
+        "closure": found,
+    });
+    let size = format!(
+        "counter disc: base radius {} mm, roller Ø{} mm, prime radius {} mm",
+        shown(prime - roller),
+        shown(2.0 * roller),
+        shown(prime)
+    );
+    let swings = curves(counter).is_some_and(|curves| curves.motion.quantity() == Quantity::Angle);
+    let along = if swings { "along the arc of the first roller" } else { "along the path" };
+    let sum = format!(
+        "both lifts as written add up to the largest within {} to {} mm {along}",
+        shown(found.play_mm),
+        shown(found.pinch_mm)
+    );
+    let named = |name: &&str| {
+        let found = checks.iter().find(|found| found.check == *name && found.value.is_finite())?;
+        Some(format!("{name} {} {}", shown(found.value), found.unit))
+    };
+    let checks: Vec<String> = NAMED.iter().filter_map(named).collect();
+    let checks = format!("checks of the counter disc, which its own sheet has in full: {}", checks.join(", "));
+    let words = [Some(size), spacing(main, counter, LengthUnit::default()), Some(sum), Some(checks)];
+    Section::new("conjugate", &value).with_words(words.into_iter().flatten().collect())
+}
+
+/// How the two rollers are set on their follower.
+pub(crate) fn spacing(main: &dyn Body, counter: &dyn Body, units: LengthUnit) -> Option<String> {
+    let (main, counter) = (curves(main)?, curves(counter)?);
+    let apart = super::lowest(main.follower)? + super::lowest(counter.follower)? + lifts(main.motion).1;
+    Some(match main.motion.quantity() {
+        Quantity::Angle => format!("the arms of the two rollers include {}°", shown(apart.to_degrees())),
+        Quantity::Length => {
+            let apart = shown(units.of_mm(MILLIMETRES * apart));
+            format!("the two rollers are {apart} {} apart along the path", units.symbol())
+        }
+    })
+}

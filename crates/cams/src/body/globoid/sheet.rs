@@ -1,0 +1,199 @@
+//! What the review sheet of a globoid shows: the section of its blank with the turret, and a table of places of both flanks.
+
+use super::mechanism::outline;
+use super::{End, Flank, Globoid};
+use crate::body::Drawn;
+use crate::body::sheet::{keyway_note, tolerance_note};
+use crate::report::sheet::Dimensions;
+use crate::report::sheet::{Mark, PlaceTable, ShapeGroup, SheetShape, SheetView, TitleFacts, rounded};
+use camgen_kernel::geometry::{Entity, MILLIMETRES};
+use nalgebra::Vector2;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Rows of the finest table of places.
+const ROWS: u32 = 72;
+/// What stands for a place beyond the ends.
+const NOWHERE: &str = "–";
+
+/// What the review sheet shows.
+pub(super) fn view(globoid: &Globoid, drawn: &Drawn) -> SheetView {
+    let swept = drawn.swept.as_deref();
+    let volume = swept.map(|swept| swept.solid.volume);
+    let mass = |volume: f64| volume / (MILLIMETRES * MILLIMETRES * MILLIMETRES) * globoid.machine.cam.density();
+    let height = MILLIMETRES * globoid.rim(globoid.floor).1;
+    let mut view = SheetView {
+        groups: section(globoid),
+        tables: tables(globoid),
+        facts: TitleFacts { thickness_mm: Some(2.0 * height), ..TitleFacts::of(&globoid.machine, volume.map(mass)) },
+        notes: tolerance_note(&globoid.machine).into_iter().chain(keyway_note(&globoid.machine)).collect(),
+        ..SheetView::default()
+    };
+    let sense = if globoid.is_clockwise() { "clockwise" } else { "counter-clockwise" };
+    view.notes.push(format!(
+        "Section through the axes of cam and turret. The cam turns {sense} seen from above; its rollers move up."
+    ));
+    view.notes.push(format!(
+        "{} rollers; a turn of the cam moves the turret on by {}°.",
+        globoid.turret.rollers,
+        rounded(globoid.turret.index().to_degrees())
+    ));
+    marks(globoid, &mut view);
+    view
+}
+
+/// The blank, its floor, the bore, the axes, and the rollers as they stand at the start.
+fn section(globoid: &Globoid) -> Vec<ShapeGroup> {
+    let [distance, floor] = [globoid.turret.distance, globoid.floor].map(|length| MILLIMETRES * length);
+    let height = MILLIMETRES * globoid.rim(globoid.floor).1;
+    let at = Vector2::new;
+    let blank = [1.0, -1.0].map(|side| SheetShape::Path(outline(globoid, side))).to_vec();
+    let (sin, cos) = libm::sincos(globoid.end_angle);
+    let bottom = |side: f64| {
+        let end = |way: f64| at(side * (distance - floor * cos), way * floor * sin);
+        // Hollow, as the turret sees it.
+        let bulge = -side * libm::tan(0.5 * globoid.end_angle);
+        SheetShape::Arc(end(-1.0), end(1.0), bulge)
+    };
+    let mut rollers = Vec::new();
+    for number in globoid.rollers() {
+        let angle = globoid.line_at(0.0, f64::from(number)).angle[0];
+        if angle.abs() > globoid.end_angle {
+            continue;
+        }
+        let (sin, cos) = libm::sincos(angle);
+        let place = |along: f64, across: f64| {
+            let (along, across) = (MILLIMETRES * along, MILLIMETRES * across);
+            at(distance - along * cos + across * sin, along * sin + across * cos)
+        };
+        let [inner, outer, radius] = [globoid.outside, globoid.reached, globoid.roller];
+        let corners = [(inner, -radius), (outer, -radius), (outer, radius), (inner, radius), (inner, -radius)];
+        rollers.push(SheetShape::Path(corners.map(|(a, b)| place(a, b)).to_vec()));
+    }
+    let bore = globoid.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius);
+    let edges = bore.iter().flat_map(|radius| [*radius, -radius]);
+    let hidden: Vec<SheetShape> = edges.map(|x| SheetShape::Line(at(x, -height), at(x, height))).collect();
+    let beyond = 0.1 * distance;
+    let turret = vec![SheetShape::Entity(Entity::Circle(at(distance, 0.0), 0.04 * distance))];
+    let axes = vec![
+        SheetShape::Line(at(0.0, -height - beyond), at(0.0, height + beyond)),
+        SheetShape::Line(at(-beyond, 0.0), at(distance + beyond, 0.0)),
+    ];
+    vec![
+        ShapeGroup { id: "blank".into(), ..ShapeGroup::new("side", "turned blank", blank).with_legend() },
+        ShapeGroup {
+            id: "floor".into(),
+            ..ShapeGroup::new("hidden", "floor of the grooves, bore", vec![bottom(1.0), bottom(-1.0)])
+        },
+        ShapeGroup { id: "bore".into(), ..ShapeGroup::new("hidden", "hidden edges", hidden) },
+        ShapeGroup::new("roller", "rollers at θ = 0", rollers).with_legend(),
+        ShapeGroup { id: "turret".into(), ..ShapeGroup::new("pitch-curve", "axis of the turret", turret) },
+        ShapeGroup::new("axis", "axes", axes).with_legend(),
+    ]
+}
+
+/// The dimensions of the blank.
+fn marks(globoid: &Globoid, view: &mut SheetView) {
+    let units = globoid.machine.units();
+    let at = Vector2::new;
+    let [distance, outside, floor] =
+        [globoid.turret.distance, globoid.outside, globoid.floor].map(|length| MILLIMETRES * length);
+    let (outer, outer_z) = globoid.rim(globoid.outside);
+    let (outer, outer_z) = (MILLIMETRES * outer, MILLIMETRES * outer_z);
+    let (rim, height) = globoid.rim(globoid.floor);
+    let (rim, height) = (MILLIMETRES * rim, MILLIMETRES * height);
+    let waist = distance - outside;
+    let dimension = |from: Vector2<f64>, to: Vector2<f64>, away: Vector2<f64>, text: String| Mark::Distance {
+        from,
+        to,
+        away,
+        text,
+    };
+    let (up, down, left) = (at(0.0, 1.0), at(0.0, -1.0), at(-1.0, 0.0));
+    view.marks.push(dimension(
+        at(-outer, outer_z),
+        at(outer, outer_z),
+        up,
+        format!("Ø{}", units.dimension(2.0 * outer)),
+    ));
+    view.marks.push(dimension(at(-rim, -height), at(rim, -height), down, format!("Ø{}", units.dimension(2.0 * rim))));
+    view.marks.push(dimension(at(-outer, -height), at(-outer, height), left, units.dimension(2.0 * height)));
+    view.marks.push(dimension(at(outer, -outer_z), at(outer, outer_z), at(1.0, 0.0), units.dimension(2.0 * outer_z)));
+    view.marks.push(dimension(at(0.0, -height), at(distance, -height), down, units.dimension(distance)));
+    if let Some(radius) = globoid.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius) {
+        let fit = globoid.machine.cam.bore_fit.map_or(String::new(), |fit| format!(" {fit}"));
+        view.marks.push(dimension(
+            at(-radius, height),
+            at(radius, height),
+            up,
+            format!("Ø{}{fit}", units.dimension(2.0 * radius)),
+        ));
+    }
+    let hollow = -0.5 * globoid.end_angle;
+    let (sin, cos) = libm::sincos(hollow);
+    view.marks.push(Mark::Label {
+        class: "dimension",
+        at: at(distance - outside * cos, outside * sin),
+        towards: at(0.9, -0.4),
+        text: format!("R{} about the turret, waist Ø{}", units.dimension(outside), units.dimension(2.0 * waist)),
+    });
+    let width = MILLIMETRES * globoid.distances.iter().sum::<f64>();
+    view.marks.push(Mark::Label {
+        class: "dimension",
+        at: at(-(distance - floor), 0.0),
+        towards: at(-0.7, 0.7),
+        text: format!("groove {} wide, floor R{} about the turret", units.dimension(width), units.dimension(floor)),
+    });
+}
+
+/// Angle, radius and height of both flanks on the outside and at the floor, from where the first groove enters to where it leaves.
+fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
+    let [Some(from), Some(to)] = [(Flank::Upper, End::Bottom), (Flank::Lower, End::Top)]
+        .map(|(flank, end)| globoid.passes(flank, end, (globoid.outside, 0.0)))
+    else {
+        return Vec::new();
+    };
+    let units = globoid.machine.units();
+    // Whole steps of five degrees, as many as the groove is long.
+    let step = TAU / f64::from(ROWS);
+    let (first, last) = ((from / step).floor(), (to / step).ceil());
+    let mut rows = Vec::new();
+    let mut i = first;
+    while i <= last {
+        let angle = i * step;
+        let mut cells = vec![rounded(angle.to_degrees())];
+        for from_turret in [globoid.outside, globoid.floor] {
+            for flank in Flank::BOTH {
+                let found = globoid.edge(flank, from_turret, (angle, 0.0));
+                let inside =
+                    found.filter(|found| found.about_turret(globoid.turret.distance).abs() <= globoid.end_angle);
+                cells.extend(match inside {
+                    Some(found) => [
+                        format!("{:.4}", globoid.sense() * (angle + found.ahead()).to_degrees()),
+                        units.cell(MILLIMETRES * found.radius()),
+                        units.cell(MILLIMETRES * found.place.z),
+                    ],
+                    None => [NOWHERE; 3].map(str::to_owned),
+                });
+            }
+        }
+        if cells.iter().skip(1).any(|cell| cell != NOWHERE) {
+            rows.push(cells);
+        }
+        i += 1.0;
+    }
+    let rows: Arc<[Vec<String>]> = rows.into();
+    let group = ["φ above", "r above", "z above", "φ below", "r below", "z below"];
+    let heads: Vec<String> = ["θ"].into_iter().chain(group).chain(group).map(str::to_owned).collect();
+    let [outside, floor] = [globoid.outside, globoid.floor].map(|from| units.dimension(MILLIMETRES * from));
+    let of = |every: usize| PlaceTable {
+        title: format!(
+            "Both flanks of groove 1, first at R {outside} about the turret, then at the floor R {floor}: angle φ, °, radius r and height z, {}",
+            units.symbol()
+        ),
+        heads: heads.clone(),
+        rows: Arc::clone(&rows),
+        every,
+    };
+    [1, 2, 3, 6, 12].map(of).to_vec()
+}

@@ -1,0 +1,215 @@
+//! What the report says of a plate.
+
+use super::Wedge;
+use crate::body::{Body, CORNER_REACH, DrawingEvidence, Figures};
+use crate::report::sheet::rounded;
+use crate::report::{Section, Weight, shown};
+use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::motion::Motion;
+use camgen_kernel::motion::program::{EndClass, Program, SegmentSummary};
+use camgen_kernel::numeric::extremum;
+use nalgebra::Vector2;
+use serde::Serialize;
+
+/// The section `cam`.
+#[derive(Debug, Serialize)]
+struct PlateSection {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    roller_radius_mm: Option<f64>,
+    max_lift_mm: f64,
+    stroke_mm: f64,
+    length_mm: f64,
+    height_mm: f64,
+    run_in_mm: f64,
+    drive_angle_deg: f64,
+    /// From the back to the flank.
+    thinnest_mm: f64,
+    thinnest_at_x_mm: f64,
+    /// Largest, and largest of the other sign.
+    pressure_angle_deg: [f64; 2],
+    /// The shortest stroke that keeps the limits of the pressure angle with all lengths in proportion.
+    shortest_stroke_mm: Option<f64>,
+    #[serde(flatten)]
+    weight: Weight,
+}
+
+/// Largest sizes on a segment by the travel in mm, and where; `None` of a jerk without bound.
+#[derive(Debug, Serialize)]
+struct Peaks {
+    velocity_mm_per_mm: f64,
+    velocity_at_x_mm: f64,
+    acceleration_mm_per_mm2: f64,
+    acceleration_at_x_mm: f64,
+    jerk_mm_per_mm3: Option<f64>,
+    jerk_at_x_mm: f64,
+}
+
+/// A segment; positions in mm.
+#[derive(Debug, Serialize)]
+struct SegmentFigures {
+    law: &'static str,
+    class: String,
+    from_x_mm: f64,
+    to_x_mm: f64,
+    from: f64,
+    to: f64,
+    lowest: f64,
+    highest: f64,
+    overshoot: f64,
+    peaks: Peaks,
+    /// The shortest length of it that keeps the limits of the pressure angle.
+    shortest_mm: Option<f64>,
+    /// Of a spline or a table.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rows: Option<usize>,
+}
+
+/// The section `motion`.
+#[derive(Debug, Serialize)]
+struct MotionSection {
+    unit: &'static str,
+    stroke_mm: f64,
+    segments: Vec<SegmentFigures>,
+}
+
+/// The sections of the report.
+pub(super) fn sections(wedge: &Wedge, found: &DrawingEvidence<'_>) -> Vec<Section> {
+    let part = found.drawn.and_then(|drawn| drawn.parts.first());
+    // The corners of a plate's ends are intended.
+    let reach = CORNER_REACH * found.tolerance_mm / MILLIMETRES;
+    let corner = |point: Vector2<f64>| wedge.corner_within(point / MILLIMETRES, reach);
+    let outline = part.map(|part| part.measures(found.tolerance_mm, corner).section());
+    let mut weight = part.map(|part| part.weight(&wedge.machine)).unwrap_or_default();
+    // A plate does not turn.
+    weight.unbalance_g_mm = None;
+    let mut sections = vec![cam(wedge, weight)];
+    sections.extend(wedge.motion.program().map(|program| motion(wedge, program)));
+    sections.push(outline.unwrap_or_else(|| Section::new("outline", &())));
+    sections.push(Section::new("rolling", &found.rolled.first()));
+    sections
+}
+
+fn cam(wedge: &Wedge, weight: Weight) -> Section {
+    let (from, to) = wedge.stroke();
+    let slopes = [1.0, -1.0].map(|way| wedge.largest(|piece, x| way * wedge.motion.jet(piece, x).ds).value.max(0.0));
+    let shortest = wedge.shortest_share(slopes).map(|share| MILLIMETRES * share * (to - from));
+    let value = PlateSection {
+        roller_radius_mm: wedge.roller_radius().map(|radius| MILLIMETRES * radius),
+        max_lift_mm: MILLIMETRES * wedge.max_lift(),
+        stroke_mm: MILLIMETRES * (to - from),
+        length_mm: MILLIMETRES * wedge.length(),
+        height_mm: MILLIMETRES * wedge.height,
+        run_in_mm: MILLIMETRES * wedge.run_in,
+        drive_angle_deg: wedge.machine.cam.plate.drive_angle.to_degrees(),
+        thinnest_mm: MILLIMETRES * wedge.thinnest.0,
+        thinnest_at_x_mm: MILLIMETRES * wedge.thinnest.1,
+        pressure_angle_deg: wedge.pressure_angles().map(|worst| worst.value.to_degrees()),
+        shortest_stroke_mm: shortest,
+        weight,
+    };
+    let follower = value
+        .roller_radius_mm
+        .map_or("knife edge".to_owned(), |radius| format!("roller Ø{} mm", rounded(2.0 * radius)));
+    let inclined = if value.drive_angle_deg == 0.0 {
+        String::new()
+    } else {
+        format!(", path inclined by {}°", shown(value.drive_angle_deg))
+    };
+    let size = format!("plate {} × {} mm", rounded(value.length_mm), rounded(value.height_mm));
+    let lift = format!("lift {:.3} mm over a stroke of {} mm", value.max_lift_mm, shown(value.stroke_mm));
+    let mut words = vec![
+        format!(
+            "{size}, {:.3} mm at its thinnest (x = {:.2} mm), run-in {} mm, {follower}{inclined}, {lift}",
+            value.thinnest_mm,
+            value.thinnest_at_x_mm,
+            shown(value.run_in_mm)
+        ),
+        match shortest {
+            Some(shortest) => format!("shortest stroke for the limit of the pressure angle {} mm", shown(shortest)),
+            None => "no stroke keeps the limit of the pressure angle on this inclined path".to_owned(),
+        },
+    ];
+    words.extend(value.weight.words());
+    let figures = [format!("{size}, {follower}"), lift].into_iter().chain(value.weight.figure()).collect();
+    Section::new("cam", &value).with_words(words).with_figures(figures)
+}
+
+fn motion(wedge: &Wedge, program: &Program) -> Section {
+    let rows = |index: usize| program.rows().iter().find(|rows| rows.segment == Some(index)).map(|rows| rows.count);
+    let all = program.segments().iter().enumerate();
+    let segments: Vec<SegmentFigures> = all.map(|(index, summary)| segment(wedge, summary, rows(index))).collect();
+    let mut words: Vec<String> = segments.iter().map(line).collect();
+    words.extend(program.rows().iter().flat_map(|rows| rows.told.iter().cloned()));
+    let (from, to) = wedge.stroke();
+    let value = MotionSection { unit: "mm", stroke_mm: MILLIMETRES * (to - from), segments };
+    Section::new("motion", &value).with_words(words)
+}
+
+/// The largest and the least slope between two places, m/m, the least as a positive number.
+fn slopes(wedge: &Wedge, (from, to): (f64, f64)) -> [f64; 2] {
+    let inside = |piece: &camgen_kernel::motion::Piece| {
+        from <= 0.5 * (piece.start + piece.end) && 0.5 * (piece.start + piece.end) <= to
+    };
+    let pieces = wedge.motion.pieces().iter().enumerate().skip(1).filter(|(_, piece)| inside(piece));
+    pieces.fold([0.0_f64; 2], |[rise, fall], (index, piece)| {
+        let of = |x: f64| {
+            let jet = wedge.motion.jet(index, x);
+            [jet.ds, jet.dds, jet.ddds]
+        };
+        let cells = wedge.motion.cells(index);
+        let [top, low] = extremum::largest_of_both_signs(of, (piece.start, piece.end), cells);
+        [rise.max(top.value), fall.max(low.value)]
+    })
+}
+
+fn segment(wedge: &Wedge, summary: &SegmentSummary, rows: Option<usize>) -> SegmentFigures {
+    let [first, last] = summary.classes.map(EndClass::letter);
+    let mm = |length: f64| MILLIMETRES * length;
+    let [velocity, acceleration, jerk] = summary.peaks;
+    let share = wedge.shortest_share(slopes(wedge, summary.angles));
+    SegmentFigures {
+        law: summary.law,
+        class: format!("{first}-{last}"),
+        from_x_mm: mm(summary.angles.0),
+        to_x_mm: mm(summary.angles.1),
+        from: mm(summary.positions.0),
+        to: mm(summary.positions.1),
+        lowest: mm(summary.range.0),
+        highest: mm(summary.range.1),
+        overshoot: mm(summary.overshoot),
+        peaks: Peaks {
+            velocity_mm_per_mm: velocity.0,
+            velocity_at_x_mm: mm(velocity.1),
+            acceleration_mm_per_mm2: acceleration.0 / MILLIMETRES,
+            acceleration_at_x_mm: mm(acceleration.1),
+            jerk_mm_per_mm3: Some(jerk.0 / (MILLIMETRES * MILLIMETRES)).filter(|jerk| jerk.is_finite()),
+            jerk_at_x_mm: mm(jerk.1),
+        },
+        shortest_mm: share.map(|share| mm(share * (summary.angles.1 - summary.angles.0))),
+        rows,
+    }
+}
+
+fn line(segment: &SegmentFigures) -> String {
+    let SegmentFigures { law, class, from_x_mm, to_x_mm, from, to, overshoot, peaks, shortest_mm, rows, .. } = segment;
+    let range = format!("x {} to {} mm {law}", shown(*from_x_mm), shown(*to_x_mm));
+    if peaks.velocity_mm_per_mm == 0.0 {
+        return format!("{range} at {} mm", shown(*from));
+    }
+    let jerk = peaks.jerk_mm_per_mm3.map_or(", j unbounded".to_owned(), |jerk| format!(", j {} mm/mm³", shown(jerk)));
+    let through = rows.map_or(String::new(), |rows| format!(" through {rows} rows"));
+    let mut text = format!(
+        "{range}{through} {class} from {} to {} mm: v {} mm/mm, a {} mm/mm²{jerk}",
+        shown(*from),
+        shown(*to),
+        shown(peaks.velocity_mm_per_mm),
+        shown(peaks.acceleration_mm_per_mm2)
+    );
+    if let Some(shortest) = shortest_mm {
+        text.push_str(&format!("; at least {} mm long for the pressure angle", shown(*shortest)));
+    }
+    if *overshoot > 0.0 {
+        text.push_str(&format!("; it overshoots its ends by {} mm", shown(*overshoot)));
+    }
+    text
+}

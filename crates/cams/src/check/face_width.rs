@@ -1,0 +1,56 @@
+//! Whether the contact stays on a flat face.
+
+use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
+use crate::report::{Bound, Verdict};
+use camgen_kernel::follower::{Carrier, FaceMiddle};
+use camgen_kernel::profile::{Worst, extremes};
+
+/// The check.
+pub const CHECK: Check = Check {
+    name: "face_width",
+    on: CheckScope::Cam,
+    unit: "mm",
+    about: "The least width of a flat face on which the cam touches it everywhere: with the stem in its middle on a straight path, \
+            from the nearest to the farthest contact on an arm. A narrower face touches with its edge and does not keep the motion.",
+    explained: CheckExplanation {
+        bound: Bound::AtMost,
+        formula: "2 max |s' cos δ + s sin δ + (R_b sin δ − e)/cos δ| with tilt δ and stem offset e; on an arm max ℓ − min ℓ of \
+                  ℓ = a cos ψ/(1 ± ψ')",
+        usual: "the width of the face, `follower.flat.width` or `follower.swinging-flat.width`; the width of the contact itself must be added",
+        change: "a wider face, an offset of its stem (`follower.flat.offset`), a smoother law of motion or a longer rise",
+    },
+};
+
+/// Rounding of a width that was typed from the reported least width, m.
+const ROUNDING: f64 = 1e-9;
+
+/// Measure of the face of a machine; `None` under a roller.
+#[must_use]
+pub fn measure(subject: &Subject<'_>) -> Option<Measure> {
+    let (curves, face) = (subject.curves?, subject.machine.follower.face?);
+    let [least, most] = extremes::places_on_face(curves)?;
+    let farther = if most.value >= -least.value { most } else { least };
+    let (needed, place, from) = match face.middle {
+        FaceMiddle::Stem => (2.0 * farther.value.abs(), farther, "stem"),
+        FaceMiddle::Anywhere => (most.value - least.value, most, "pivot"),
+    };
+    let kept = face.width.is_none_or(|width| needed <= width + ROUNDING);
+    let verdict = face.width.map_or(Verdict::Info, |_| Verdict::of(kept));
+    let contacts = format!("contact from {:.3} to {:.3} mm from the {from}", 1e3 * least.value, 1e3 * most.value);
+    let path = subject.machine.follower.path;
+    let remedy = match (face.width, curves.follower.carrier()) {
+        (None, _) => Some(format!("{path}.width gives a limit")),
+        (Some(_), _) if kept => None,
+        // Contacts come nearer to the stem by e/cos δ.
+        (Some(_), Carrier::Stem { offset, tilt }) => {
+            let middle = offset + 0.5 * (least.value + most.value) * libm::cos(tilt);
+            let narrowest = 1e3 * (most.value - least.value);
+            Some(format!("with {path}.offset = \"{:.3} mm\" it needs {narrowest:.3} mm", 1e3 * middle))
+        }
+        (Some(_), _) => Some("a face as wide as this, from the contact nearest to the pivot on, would pass".into()),
+    };
+    let worst = Worst { value: place.value, at: place.at, z: 0.0 };
+    let note = std::iter::once(contacts).chain(remedy).collect::<Vec<_>>().join("; ");
+    let measure = CHECK.measure(1e3 * needed, face.width.map(|width| 1e3 * width)).judged(verdict).noted(note);
+    Some(measure.at(subject, &worst))
+}

@@ -1,0 +1,51 @@
+//! Whether the cam runs slower than the speed at which its follower leaves it.
+
+use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
+use crate::report::{Bound, Verdict, shown};
+use camgen_kernel::profile::Worst;
+use std::f64::consts::TAU;
+
+/// The check.
+pub const CHECK: Check = Check {
+    name: "jump_speed",
+    on: CheckScope::Cam,
+    unit: "rpm",
+    about: "The lowest speed of the cam at which the follower leaves it: there its inertia cancels the force that presses it on.",
+    explained: CheckExplanation {
+        bound: Bound::AtLeast,
+        formula: "ω² = min (k s + F0 + load)/(−m s'') where s'' is negative, by the cam angle; with damping the first speed at which the \
+                  least force is 0",
+        usual: "the speed of the cam, times `limits.jump_margin`",
+        change: "a higher `spring.preload`, a stiffer `spring.rate`, less mass, or a slower cam",
+    },
+};
+
+/// Measure of the speed of the cam at which the follower first leaves it, rad/s, infinite where it never does; or why that is not known. With the
+/// preload that holds the follower at so many times the speed of the cam.
+#[must_use]
+pub fn measure(
+    jump: Result<Worst, String>,
+    holding: impl FnOnce(f64) -> Option<String>,
+    subject: &Subject<'_>,
+) -> Measure {
+    let jump = match jump {
+        Ok(jump) => jump,
+        Err(why) => return CHECK.unknown(&why),
+    };
+    let rpm = |speed: f64| 60.0 * speed / TAU;
+    let margin = subject.machine.limits.jump_margin;
+    let limit = subject.speed.map(|speed| margin * rpm(speed));
+    let kept = limit.is_none_or(|limit| rpm(jump.value) >= limit);
+    let verdict = limit.map_or(Verdict::Info, |_| Verdict::of(kept));
+    let note = match (subject.speed, kept) {
+        (_, false) => {
+            holding(margin).map(|key| format!("{key} would hold it at {} rpm", shown(limit.unwrap_or(f64::NAN))))
+        }
+        (Some(speed), true) if jump.value.is_finite() => {
+            Some(format!("{} times the speed of the cam", shown(jump.value / speed)))
+        }
+        (Some(_), true) => Some("the follower does not leave the cam at any speed".into()),
+        (None, true) => Some("without motion.rpm or --rpm there is no limit".into()),
+    };
+    CHECK.measure(rpm(jump.value), limit).judged(verdict).noted(note).at(subject, &jump)
+}

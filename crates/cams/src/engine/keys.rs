@@ -1,0 +1,111 @@
+//! The table of keys as data, for fields and sliders: what a value of each may be, its range, its units and what it means.
+
+use crate::catalogue::catalogue;
+use camgen_kernel::document::{Bounds, Key, KeyForm, KeySection, Occurrence, Presence};
+use camgen_kernel::motion::laws::{LAWS, Law, LawCurve, LawTask};
+use camgen_kernel::units::{self, Dimension};
+use serde_json::{Map, Value, json};
+
+/// Every table with its keys, and the units of each dimension with their sizes in SI.
+pub(super) fn table() -> Value {
+    let mut units = Map::new();
+    let sections: Vec<Value> =
+        catalogue().keys.sections.iter().map(|section| section_of(section, &mut units)).collect();
+    json!({"sections": sections, "units": units, "laws": laws()})
+}
+
+fn section_of(section: &KeySection, units: &mut Map<String, Value>) -> Value {
+    let keys: Vec<Value> = section.keys.iter().map(|key| key_of(section, key, units)).collect();
+    json!({"path": section.path, "about": section.about, "repeated": section.occurs == Occurrence::Repeated, "keys": keys})
+}
+
+fn key_of(section: &KeySection, key: &Key, units: &mut Map<String, Value>) -> Value {
+    let (kind, example) = match key.presence {
+        Presence::Required(text) | Presence::RequiredUnless(_, text) => ("required", text),
+        Presence::Default(text) => ("default", text),
+        Presence::Optional(text) => ("optional", text),
+    };
+    let mut field = json!({
+        "name": key.name, "about": key.about, "presence": kind, "example": example,
+        "cams": catalogue().keys.listed(section.cams_of(key)), "halves": key.halved,
+    });
+    let ranges: Vec<Value> = ranges(key.form).into_iter().map(|range| range_of(range, units)).collect();
+    if !ranges.is_empty() {
+        field["ranges"] = Value::from(ranges);
+    }
+    match key.form {
+        KeyForm::Words(words) | KeyForm::WordsOrQuantity(words, ..) => field["words"] = json!(words),
+        KeyForm::Boolean => field["words"] = json!(["true", "false"]),
+        KeyForm::Columns => field["file"] = Value::Bool(true),
+        _ => {}
+    }
+    field
+}
+
+/// A range of a value: of a dimension, or of bare numbers.
+type Range = (Option<Dimension>, Bounds);
+
+/// The ranges of a single number of this form; none where it is a text or a list.
+fn ranges(form: KeyForm) -> Vec<Range> {
+    let angle = |bounds| (Some(Dimension::Angle), bounds);
+    let length = |bounds| (Some(Dimension::Length), bounds);
+    match form {
+        KeyForm::Number(bounds) | KeyForm::Share(bounds) => vec![(None, bounds)],
+        KeyForm::Quantity(dimension, bounds) | KeyForm::WordsOrQuantity(_, dimension, bounds) => {
+            vec![(Some(dimension), bounds)]
+        }
+        KeyForm::LengthOrAngle(first, second) => vec![length(first), angle(second)],
+        KeyForm::AngleOrLength(first, second) => vec![angle(first), length(second)],
+        KeyForm::LengthAngleOrShare(first, second, share) => vec![length(first), angle(second), (None, share)],
+        KeyForm::Either((first, of_first), (second, of_second)) => {
+            vec![(Some(first), of_first), (Some(second), of_second)]
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn range_of((dimension, bounds): Range, units: &mut Map<String, Value>) -> Value {
+    let name = dimension.map(|dimension| dimension.to_string());
+    if let (Some(dimension), Some(name)) = (dimension, &name) {
+        units.entry(name.clone()).or_insert_with(|| units_of(dimension));
+    }
+    let (low, high) = bounds.ends();
+    json!({"dimension": name, "low": low, "high": high})
+}
+
+/// The units of a dimension, in all their spellings, with their sizes in SI.
+fn units_of(dimension: Dimension) -> Value {
+    let symbols = dimension.unit_list();
+    let size = |symbol: &str| units::parse(&format!("1 {symbol}"), dimension).ok().map(|quantity| quantity.si);
+    let all = symbols.split(", ").map(str::to_owned).chain(dimension.spellings().map(str::to_owned));
+    let sizes = all.filter_map(|symbol| Some((symbol.clone(), json!(size(&symbol)?))));
+    Value::Object(sizes.collect())
+}
+
+/// Places of the picture of a law.
+const PICTURED: u32 = 24;
+
+/// The laws from rest to rest: the name, the largest velocity, acceleration and jerk for a travel of 1 over a width of 1 (`null` where the one before
+/// jumps, at a rest too), and its lift, velocity and acceleration at even places.
+fn laws() -> Vec<Value> {
+    let of = |law: &Law| {
+        let curve = law.solve(&LawTask::default()).ok()?;
+        let peaks = curve.peaks();
+        let values = [peaks.velocity.value, peaks.acceleration.value, peaks.jerk.value];
+        // The acceleration is infinite where the velocity jumps (continuity 0), the jerk where the acceleration does (1).
+        let bounded = [true, law.continuity >= 1, law.continuity >= 2];
+        let peaks = [0, 1, 2].map(|order| (bounded[order] && values[order].is_finite()).then_some(values[order]));
+        let shapes = [0, 1, 2].map(|order| shape(&curve, order));
+        Some(json!({"name": law.name, "peaks": peaks, "shapes": shapes}))
+    };
+    LAWS.iter().filter(|law| law.serves_rests()).filter_map(of).collect()
+}
+
+/// A derivative of a law at even places, rounded for a picture.
+fn shape(curve: &LawCurve, order: u32) -> Vec<f64> {
+    let at = |place: u32| {
+        let x = f64::from(place) / f64::from(PICTURED);
+        (1e3 * curve.derivative(curve.part_of(x), x, order)).round() / 1e3
+    };
+    (0..=PICTURED).map(at).collect()
+}

@@ -1,0 +1,147 @@
+//! The files of a proven cam, and of cams that belong together, in memory.
+
+use super::{Error, FileSet, Proven, ProvenAssembly, Writing};
+use crate::body::Body;
+use crate::report::{LazyReport, Report};
+use crate::verify::WrittenOutline;
+use crate::write::Rendering;
+use camgen_kernel::numeric::parallel;
+use std::sync::LazyLock;
+
+impl Proven {
+    /// Makes the files in memory.
+    ///
+    /// ```
+    /// use camgen::{Error, Spec, Writing};
+    ///
+    /// # let motion = camgen::motion::EccentricCircle::new(0.005, 0.040);
+    /// let builder = Spec::builder("eccentric").roller(0.010).base_radius(0.030).thickness(0.012);
+    /// let proven = builder.bore_radius(0.008).motion(motion)?.solve()?.draw(5e-6)?.prove()?;
+    /// let writing = Writing::to("output", "eccentric");
+    /// let files = proven.files(&writing)?;
+    /// let names: Vec<&str> = files.outputs().iter().map(|file| file.name.as_str()).collect();
+    /// assert_eq!(names, ["eccentric.dxf", "eccentric.svg", "eccentric.step", "eccentric.csv"]);
+    ///
+    /// assert!(matches!(proven.files(&writing.formats(&["dwg"])), Err(Error::NoSuchFormat { .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Refused`] when a check failed and `writing.force` is not set; [`Error::NoOutline`], [`Error::Unfit`],
+    /// [`Error::Format`].
+    pub fn files(&self, writing: &Writing) -> Result<FileSet, Error> {
+        of_first(&self.clone().into(), writing, &[])
+    }
+}
+
+impl ProvenAssembly {
+    /// The settings for the files of a cam of this name.
+    fn writing(name: &str, writing: &Writing) -> Writing {
+        let stem = if name.is_empty() { writing.stem.clone() } else { format!("{}-{name}", writing.stem) };
+        Writing { stem, ..writing.clone() }
+    }
+
+    /// The names of the files of all cams together.
+    fn names_of_all(&self, writing: &Writing) -> Result<Vec<String>, Error> {
+        let Some(report) = self.joint_report() else { return Ok(Vec::new()) };
+        let (formats, _) = writing.chosen(self.first().body())?;
+        let formats: Vec<&str> = formats.iter().map(|format| format.name).collect();
+        let names = report.file_names(self.first(), &formats);
+        Ok(names.into_iter().map(|name| format!("{}{name}", writing.stem)).collect())
+    }
+
+    /// The names of the files of the others.
+    fn names_of_others(&self, writing: &Writing) -> Result<Vec<String>, Error> {
+        let names = self.others().iter().map(|(name, cam)| names(cam, &Self::writing(name, writing)));
+        Ok(names.collect::<Result<Vec<_>, _>>()?.concat())
+    }
+
+    /// The names of all files.
+    pub(super) fn names(&self, writing: &Writing) -> Result<Vec<String>, Error> {
+        let first = names(self.first(), &Self::writing(self.name(), writing))?;
+        Ok([first, self.names_of_others(writing)?, self.names_of_all(writing)?].concat())
+    }
+
+    /// Makes the files of all of them in memory.
+    ///
+    /// # Errors
+    /// As [`Proven::files`], of the first cam that has none.
+    pub fn files(&self, writing: &Writing) -> Result<FileSet, Error> {
+        // The report of the first, which some of its files contain, names those of all.
+        let of_all = self.names_of_all(writing)?;
+        let other_names = [self.names_of_others(writing)?, of_all.clone()].concat();
+        // What is changed in a live page is the design, and its page is that of the first.
+        let plain = Writing {
+            #[cfg(feature = "live")]
+            live: None,
+            ..writing.clone()
+        };
+        let made = |(name, cam): &(String, Proven)| cam.files(&Self::writing(name, &plain));
+        let of_others = || parallel::map(self.others(), made);
+        let (first, others) =
+            parallel::both(|| of_first(self, writing, &other_names), (!self.others().is_empty()).then_some(of_others));
+        let mut all = first?;
+        for other in others.into_iter().flatten() {
+            all.add(other?);
+        }
+        if let Some(report) = self.joint_report().filter(|_| !of_all.is_empty()) {
+            let (title, mark) = (all.report().title(), all.report().mark());
+            let bytes = report.files(self.first(), self.others(), (&title, &mark, writing.created))?;
+            all.extend(of_all.into_iter().zip(bytes));
+        }
+        Ok(all)
+    }
+}
+
+/// The names of the files of a cam.
+fn names(proven: &Proven, writing: &Writing) -> Result<Vec<String>, Error> {
+    let drawn = proven.outlined()?;
+    let (formats, _) = writing.chosen(proven.body())?;
+    let endings = formats.iter().flat_map(|format| (format.endings)(drawn));
+    Ok(endings.map(|ending| format!("{}{ending}", writing.stem)).collect())
+}
+
+/// The files of the first cam of an assembly, whose report also names those of the other cams.
+fn of_first(whole: &ProvenAssembly, writing: &Writing, other_names: &[String]) -> Result<FileSet, Error> {
+    let proven = whole.first();
+    if !whole.passed() && !writing.force {
+        return Err(Error::Refused(whole.failed().join(", ")));
+    }
+    let (formats, _) = writing.chosen(proven.body())?;
+    let drawn = proven.outlined()?;
+    if let Some(format) = formats.iter().find(|format| format.flank)
+        && proven.body().surface().is_some()
+        && drawn.flank.is_none()
+    {
+        // The solid of one section would take its place.
+        return Err(Error::Unfit { format: format.name, why: "the flank of this cam was not drawn (Request::flank)" });
+    }
+    let names = names(proven, &ProvenAssembly::writing(whole.name(), writing))?;
+    let placed = names.iter().chain(other_names).map(|name| crate::report::listed_path(&writing.directory.join(name)));
+    let files: Vec<String> = placed.collect();
+    let assembly = whole.clone();
+    let report = LazyReport::new(Box::new(move || Report { files, ..assembly.report() }));
+    let rendering = proven.rendering(&report, writing.samples, &writing.template)?;
+    let others: Vec<(&dyn Body, &[WrittenOutline])> =
+        whole.others().iter().map(|(_, other)| (other.body(), other.outlines())).collect();
+    let rendering = Rendering {
+        created: writing.created,
+        other_cams: &others,
+        #[cfg(feature = "live")]
+        live: writing.live.as_ref(),
+        ..rendering
+    };
+    let filled: Vec<_> = formats.iter().filter(|format| !(format.endings)(rendering.drawn).is_empty()).collect();
+    // Made by one of several at the same time, it could wait for itself: its sections spread over the threads that write the others.
+    if filled.len() > 1 {
+        LazyLock::force(&report);
+    }
+    let made = parallel::map(&filled, |format| (format.write)(&rendering));
+    let bytes: Vec<Vec<Vec<u8>>> = made.into_iter().collect::<Result<_, _>>().map_err(Error::Format)?;
+    Ok(FileSet::new(
+        writing,
+        (proven.body().machine().name(), proven.inputs().to_vec()),
+        report,
+        names.into_iter().zip(bytes.into_iter().flatten()).collect(),
+    ))
+}

@@ -1,0 +1,382 @@
+//! Labels, dimensions and arrows at the size of the lettering.
+
+use super::paper::rectangle;
+use super::placing::{OccupiedPaper, field_near, filling, half_field};
+use super::{Mark, ShapeGroup, SheetShape, TextAnchor, font, words};
+use camgen_kernel::geometry::contour::Extents;
+use nalgebra::Vector2;
+
+/// Over the lettering of an A4, mm: texts, arrow heads, the distance of a dimension line from what it measures and from the next.
+const TEXT: f64 = 3.0;
+const HEAD: f64 = 2.8;
+const APART: f64 = 7.0;
+/// Width of a head over its length.
+const SLENDER: f64 = 0.3;
+/// Distances of a text from its place that are tried, in the same unit, the nearest first.
+const DISTANCES: [f64; 12] = [2.0, 3.5, 5.5, 8.0, 11.0, 15.0, 20.0, 27.0, 36.0, 50.0, 70.0, 100.0];
+/// Farther ones for what found no place, with as many times the directions.
+const FARTHER: [f64; 4] = [60.0, 85.0, 120.0, 150.0];
+const MORE: u32 = 4;
+/// Directions that are tried, to either side of the wanted one.
+const DIRECTIONS: u32 = 24;
+/// Height of a frame over that of its letters (ISO 7083: 2).
+const CELL: f64 = 2.0;
+/// Least length of an arrow, over that of its head.
+const LEAST_LEADER: f64 = 1.3;
+/// A text farther away than this is tied to its place with a line.
+const TIED: f64 = 3.0;
+
+/// The pen with which marks are drawn.
+pub(super) struct Marker<'a> {
+    /// Size of the lettering over that of an A4.
+    pub(super) lettering: f64,
+    /// The occupied parts of the paper.
+    pub(super) taken: &'a mut OccupiedPaper,
+    /// What the view covers, mm of paper.
+    pub(super) covered: Extents,
+    /// Dimension lines so far on each side.
+    pub(super) lines: [f64; 2],
+    /// Texts of marks with a fixed place: they are placed when all lines are known.
+    pub(super) texts: Vec<Mark>,
+}
+
+fn triangle(tip: Vector2<f64>, along: Vector2<f64>, length: f64) -> SheetShape {
+    let (back, side) = (tip - along * length, Vector2::new(-along.y, along.x) * (0.5 * SLENDER * length));
+    SheetShape::Triangle([tip, back + side, back - side])
+}
+
+/// A text where there is room for it, with its leader.
+pub(in crate::report) fn label(
+    taken: &mut OccupiedPaper,
+    lettering: f64,
+    at: Vector2<f64>,
+    towards: Vector2<f64>,
+    text: &str,
+) -> Vec<SheetShape> {
+    let size = TEXT * lettering;
+    let Some((field, leader)) = place(taken, lettering, at, towards, (half_field(text, size), TIED)) else {
+        return Vec::new();
+    };
+    let shapes: Vec<SheetShape> = std::iter::once(filling(&field, size, text)).chain(leader).collect();
+    for shape in &shapes {
+        taken.put(shape);
+    }
+    shapes
+}
+
+/// How free the place of a text must be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Room {
+    /// Of lines and texts, with a leader that crosses no text.
+    Free,
+    /// As free, but farther away or in directions between.
+    Farther,
+    /// The leader may cross texts.
+    CrossedTexts,
+    /// The text may cover lines as well.
+    CoveredLines,
+}
+
+/// A field of these half sides as near to a place as there is one, and the leader of a field farther away than `tied` (over the lettering of an
+/// A4, mm). What a shop must read is never left out: where nothing is free, the leader crosses texts, then the text covers lines.
+fn place(
+    taken: &OccupiedPaper,
+    lettering: f64,
+    at: Vector2<f64>,
+    towards: Vector2<f64>,
+    sizes: (Vector2<f64>, f64),
+) -> Option<(Extents, Option<SheetShape>)> {
+    [Room::Free, Room::Farther, Room::CrossedTexts, Room::CoveredLines]
+        .into_iter()
+        .find_map(|room| place_in(room, taken, lettering, (at, towards), sizes))
+}
+
+fn place_in(
+    room: Room,
+    taken: &OccupiedPaper,
+    lettering: f64,
+    (at, towards): (Vector2<f64>, Vector2<f64>),
+    (half, tied): (Vector2<f64>, f64),
+) -> Option<(Extents, Option<SheetShape>)> {
+    let wanted = libm::atan2(towards.y, towards.x);
+    let (farther, directions): (&[f64], u32) =
+        if room == Room::Free { (&[], DIRECTIONS) } else { (&FARTHER, MORE * DIRECTIONS) };
+    for &distance in DISTANCES.iter().chain(farther) {
+        for index in 0..directions {
+            // 0, +1, −1, +2, −2, …
+            let step = f64::from(index.div_ceil(2)) * if index % 2 == 0 { -1.0 } else { 1.0 };
+            let angle = wanted + step * std::f64::consts::TAU / f64::from(directions);
+            let along = Vector2::new(libm::cos(angle), libm::sin(angle));
+            let field = field_near(at, along, distance * lettering, half);
+            let nearest = at.sup(&field.least).inf(&field.largest);
+            let apart = (nearest - at).norm();
+            let is_free = if room == Room::CoveredLines { taken.free_of_texts(&field) } else { taken.free(&field) };
+            if apart > distance * lettering * 1.01 + 1e-9 || !is_free {
+                continue;
+            }
+            let tied = apart > tied * lettering;
+            let towards = (at - nearest) / apart.max(1e-9);
+            if tied && matches!(room, Room::Free | Room::Farther) && !taken.clear(at, nearest) {
+                continue;
+            }
+            return Some((field, tied.then(|| SheetShape::Line(at, nearest + towards * (0.4 * lettering)))));
+        }
+    }
+    None
+}
+
+/// The sign of the profile of a line, ISO 1101: an arc over its chord, in a square with this lower left corner.
+fn profile_sign(corner: Vector2<f64>, side: f64) -> SheetShape {
+    let at = |x: f64| corner + Vector2::new(x * side, 0.3 * side);
+    SheetShape::Arc(at(0.85), at(0.15), 1.0)
+}
+
+impl Marker<'_> {
+    /// The groups of a mark whose places are millimetres of paper.
+    pub(super) fn groups(&mut self, mark: &Mark) -> Vec<ShapeGroup> {
+        let (class, shapes) = match mark {
+            Mark::Label { class, at, towards, text } => (*class, self.label(*at, *towards, text)),
+            Mark::Distance { from, to, away, text } => ("dimension", self.distance(*from, *to, *away, text)),
+            Mark::Radius { centre, to, text } => ("dimension", self.radius("dimension", *centre, *to, text)),
+            Mark::Angle { class, corner, from, to, radius, text } => {
+                (*class, self.angle(class, *corner, [*from, *to], *radius, text))
+            }
+            Mark::Tolerance { places, cells, behind } => ("dimension", self.tolerance(places, cells, behind)),
+            Mark::Roughness { places, text } => ("dimension", self.roughness(places, text)),
+            Mark::Start { at, along, outward } => ("dimension", self.start(*at, *along, *outward)),
+            Mark::Datum { at, towards, letter } => ("dimension", self.datum(*at, *towards, letter)),
+            Mark::Turning { class, radius, from_deg, sweep_deg, text } => {
+                (*class, self.turning(class, *radius, *from_deg, *sweep_deg, text))
+            }
+        };
+        vec![ShapeGroup { id: String::new(), class, label: class.into(), colour: None, shapes, in_legend: false }]
+    }
+
+    fn put(&mut self, shapes: &[SheetShape]) {
+        for shape in shapes {
+            self.taken.put(shape);
+        }
+    }
+
+    fn label(&mut self, at: Vector2<f64>, towards: Vector2<f64>, text: &str) -> Vec<SheetShape> {
+        label(self.taken, self.lettering, at, towards, text)
+    }
+
+    /// A dimension line outside of the view, with its extension lines.
+    fn distance(&mut self, from: Vector2<f64>, to: Vector2<f64>, away: Vector2<f64>, text: &str) -> Vec<SheetShape> {
+        let (k, size) = (self.lettering, TEXT * self.lettering);
+        let upright = away.x != 0.0;
+        let number = self.lines.get_mut(usize::from(upright));
+        let line = number.map_or(0.0, |number| {
+            *number += 1.0;
+            *number
+        });
+        let covered = if away.x + away.y < 0.0 { self.covered.least } else { self.covered.largest };
+        let moved = |point: Vector2<f64>| {
+            let place = covered + away * (APART * k * line);
+            if upright { Vector2::new(place.x, point.y) } else { Vector2::new(point.x, place.y) }
+        };
+        let (a, b) = (moved(from), moved(to));
+        let (length, along) = ((b - a).norm(), (b - a).normalize());
+        let mut shapes: Vec<SheetShape> = [(from, a), (to, b)]
+            .into_iter()
+            .map(|(point, end)| SheetShape::Line(point + away * (1.0 * k), end + away * (1.5 * k)))
+            .collect();
+        let inside = length > 3.0 * HEAD * k;
+        let head = if inside { along } else { -along };
+        shapes.push(triangle(a, -head, HEAD * k));
+        shapes.push(triangle(b, head, HEAD * k));
+        let (half, middle) = (0.5 * font::width(text, size), 0.5 * (a + b));
+        if upright {
+            // The text is in a gap of the line.
+            let gap = along * (0.75 * size);
+            shapes.push(SheetShape::Line(a, middle - gap));
+            shapes.push(SheetShape::Line(middle + gap, b));
+            shapes.push(words(middle - Vector2::new(0.0, 0.35 * size), size, TextAnchor::Middle, text));
+        } else if 2.0 * (half + HEAD * k) < length {
+            let gap = along * (half + 0.5 * size);
+            shapes.push(SheetShape::Line(a, middle - gap));
+            shapes.push(SheetShape::Line(middle + gap, b));
+            shapes.push(words(middle - Vector2::new(0.0, 0.35 * size), size, TextAnchor::Middle, text));
+        } else {
+            shapes.push(SheetShape::Line(a, b));
+            // To the right where there is paper, else to the left.
+            let apart = Vector2::new(1.5 * HEAD * k, 0.35 * size);
+            let right = words(a.sup(&b) + Vector2::new(apart.x, -apart.y), size, TextAnchor::Start, text);
+            let is_free = right.text_field().is_some_and(|field| self.taken.free(&field));
+            let left = words(a.inf(&b) - apart, size, TextAnchor::End, text);
+            shapes.push(if is_free { right } else { left });
+        }
+        self.put(&shapes);
+        shapes
+    }
+
+    /// Leaves a text for later.
+    fn defer(&mut self, class: &'static str, at: Vector2<f64>, towards: Vector2<f64>, text: &str) {
+        self.texts.push(Mark::Label { class, at, towards, text: text.into() });
+    }
+
+    fn radius(&mut self, class: &'static str, centre: Vector2<f64>, to: Vector2<f64>, text: &str) -> Vec<SheetShape> {
+        let along = (to - centre).normalize();
+        let shapes = vec![SheetShape::Line(centre, to), triangle(to, along, HEAD * self.lettering)];
+        self.put(&shapes);
+        self.defer(class, centre + (to - centre) * 0.6, Vector2::new(-along.y, along.x), text);
+        shapes
+    }
+
+    fn angle(
+        &mut self,
+        class: &'static str,
+        corner: Vector2<f64>,
+        sides: [Vector2<f64>; 2],
+        radius: f64,
+        text: &str,
+    ) -> Vec<SheetShape> {
+        let [from, to] = sides;
+        let sweep = libm::atan2(from.perp(&to), from.dot(&to));
+        let arc = SheetShape::Arc(corner + from * radius, corner + to * radius, libm::tan(0.25 * sweep));
+        let shapes = vec![arc];
+        self.put(&shapes);
+        let half = libm::atan2(from.y, from.x) + 0.5 * sweep;
+        let middle = Vector2::new(libm::cos(half), libm::sin(half));
+        self.defer(class, corner + middle * radius, middle, text);
+        shapes
+    }
+
+    /// A frame of cells, the first with the sign, where there is room for it.
+    fn tolerance(
+        &mut self,
+        places: &[(Vector2<f64>, Vector2<f64>)],
+        cells: &[String],
+        behind: &str,
+    ) -> Vec<SheetShape> {
+        let size = TEXT * self.lettering;
+        let (high, inset) = (CELL * size, 0.5 * size);
+        let widths: Vec<f64> = std::iter::once(high)
+            .chain(cells.iter().map(|cell| (font::width(cell, size) + 2.0 * inset).max(high)))
+            .collect();
+        let framed: f64 = widths.iter().sum();
+        let word = if behind.is_empty() { 0.0 } else { font::width(behind, size) + inset };
+        let Some((field, arrow)) = self.pointing(places, 0.5 * Vector2::new(framed + word, high)) else {
+            return Vec::new();
+        };
+        let (low, base) = (field.least, field.least.y + 0.5 * (high - size) + 0.15 * size);
+        let right = low.x + framed;
+        let line = |y: f64| SheetShape::Line(Vector2::new(low.x, y), Vector2::new(right, y));
+        let mut shapes = vec![line(low.y), line(low.y + high), profile_sign(low, high)];
+        let mut x = low.x;
+        shapes.push(SheetShape::Line(Vector2::new(x, low.y), Vector2::new(x, low.y + high)));
+        for (width, text) in widths.iter().zip(std::iter::once("").chain(cells.iter().map(String::as_str))) {
+            if !text.is_empty() {
+                shapes.push(words(Vector2::new(x + 0.5 * width, base), size, TextAnchor::Middle, text));
+            }
+            x += width;
+            shapes.push(SheetShape::Line(Vector2::new(x, low.y), Vector2::new(x, low.y + high)));
+        }
+        if !behind.is_empty() {
+            shapes.push(words(Vector2::new(right + inset, base), size, TextAnchor::Start, behind));
+        }
+        shapes.extend(arrow);
+        self.put(&shapes);
+        shapes
+    }
+
+    /// The free field of these half sides that is nearest to one of some places, each with the direction outwards, and the arrow from it
+    /// to that place.
+    fn pointing(
+        &self,
+        places: &[(Vector2<f64>, Vector2<f64>)],
+        half: Vector2<f64>,
+    ) -> Option<(Extents, [SheetShape; 2])> {
+        let found = places.iter().filter_map(|(at, towards)| {
+            let (field, leader) = place_in(Room::Free, self.taken, self.lettering, (*at, *towards), (half, 0.0))?;
+            let Some(SheetShape::Line(from, to)) = leader else { return None };
+            let away = to - from;
+            let arrow = [SheetShape::Line(from, to), triangle(from, -away.normalize(), HEAD * self.lettering)];
+            let room = away.dot(towards) > LEAST_LEADER * HEAD * self.lettering;
+            room.then(|| (away.norm(), field, arrow))
+        });
+        found.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, field, arrow)| (field, arrow))
+    }
+
+    /// The sign of a roughness on a line, where there is room for it; its sizes over the lettering are those of ISO 21920-1, annex A.
+    fn roughness(&mut self, places: &[(Vector2<f64>, Vector2<f64>)], text: &str) -> Vec<SheetShape> {
+        let size = TEXT * self.lettering;
+        let (short, long) = (1.4 * size, 3.0 * size);
+        // The legs lean by 30° from upright.
+        let lean = libm::tan(std::f64::consts::FRAC_PI_6);
+        let after = (short + long) * lean;
+        let width = after + font::width(text, size) + 0.6 * size;
+        let Some((field, arrow)) = self.pointing(places, 0.5 * Vector2::new(width, long)) else { return Vec::new() };
+        let at = |x: f64, y: f64| field.least + Vector2::new(x, y);
+        let foot = short * lean;
+        let mut shapes = vec![
+            SheetShape::Path(vec![at(0.0, short), at(foot, 0.0), at(after, long), at(width, long)]),
+            SheetShape::Line(at(0.0, short), at(2.0 * foot, short)),
+            SheetShape::Line(at(0.0, 0.0), at(width, 0.0)),
+            words(at(after + 0.3 * size, long - 1.5 * size), size, TextAnchor::Start, text),
+        ];
+        shapes.extend(arrow);
+        self.put(&shapes);
+        shapes
+    }
+
+    /// A tick across the profile, and an arrow beside it.
+    fn start(&mut self, at: Vector2<f64>, along: Vector2<f64>, outward: Vector2<f64>) -> Vec<SheetShape> {
+        let k = self.lettering;
+        let beside = at + outward * (1.5 * k);
+        let end = beside + along * (2.0 * HEAD * k);
+        let shapes = vec![
+            SheetShape::Line(at - outward * (1.5 * k), at + outward * (2.5 * k)),
+            SheetShape::Line(beside, end),
+            triangle(end, along, HEAD * k),
+        ];
+        self.put(&shapes);
+        self.defer("dimension", at + outward * (2.5 * k), outward, "start of the cut");
+        shapes
+    }
+
+    fn datum(&mut self, at: Vector2<f64>, towards: Vector2<f64>, letter: &str) -> Vec<SheetShape> {
+        let (k, size) = (self.lettering, TEXT * self.lettering);
+        let half = Vector2::repeat(0.5 * CELL * size);
+        let Some((field, leader)) = place(self.taken, k, at, towards, (half, 0.0)) else { return Vec::new() };
+        let mut shapes = rectangle(&field);
+        let base = Vector2::new(0.5 * (field.least.x + field.largest.x), field.least.y + half.y - 0.35 * size);
+        shapes.push(words(base, size, TextAnchor::Middle, letter));
+        if let Some(SheetShape::Line(from, to)) = leader {
+            // The base of the triangle lies on what is the datum.
+            let along = (to - from).normalize();
+            let (tip, side) = (from + along * (HEAD * k), Vector2::new(-along.y, along.x) * (0.5 * HEAD * k));
+            shapes.push(SheetShape::Triangle([tip, from + side, from - side]));
+            shapes.push(SheetShape::Line(tip, to));
+        }
+        self.put(&shapes);
+        shapes
+    }
+
+    fn turning(
+        &mut self,
+        class: &'static str,
+        radius: f64,
+        from_deg: f64,
+        sweep_deg: f64,
+        text: &str,
+    ) -> Vec<SheetShape> {
+        let on = |degrees: f64, radius: f64| {
+            let angle = degrees.to_radians();
+            Vector2::new(radius * libm::cos(angle), radius * libm::sin(angle))
+        };
+        let sense = libm::copysign(1.0, sweep_deg);
+        let end = from_deg + sweep_deg;
+        let (head, half) = (HEAD * self.lettering, 0.5 * SLENDER * HEAD * self.lettering);
+        let ahead = sense * (head / radius).to_degrees();
+        let shapes = vec![
+            SheetShape::Arc(on(from_deg, radius), on(end, radius), libm::tan(0.25 * sweep_deg.to_radians())),
+            SheetShape::Triangle([on(end, radius - half), on(end, radius + half), on(end + ahead, radius)]),
+        ];
+        self.put(&shapes);
+        let middle = from_deg + 0.5 * sweep_deg;
+        self.defer(class, on(middle, radius), on(middle, 1.0), text);
+        shapes
+    }
+}

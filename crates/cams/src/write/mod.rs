@@ -1,0 +1,198 @@
+//! Drawing to bytes, bytes to files. Writers only format: no trigonometry, no offsets, no clock.
+//!
+//! One table of formats, walked for every kind of cam: a new format is one file and one line in [`FORMATS`].
+
+pub mod csv;
+pub mod diagram;
+mod directory;
+pub mod dxf;
+mod error;
+pub mod files;
+mod finite;
+pub mod gauge;
+pub mod gcode;
+pub mod growing;
+#[cfg(feature = "html")]
+pub mod html;
+pub mod inspection;
+mod interrupted;
+pub mod json;
+mod known;
+pub mod number;
+mod one_file;
+mod part;
+mod path_data;
+#[cfg(feature = "pdf")]
+pub mod pdf;
+pub mod points;
+pub mod proof;
+pub mod record;
+#[cfg(feature = "second-reader")]
+mod second_reader;
+pub mod servo;
+pub mod step;
+pub mod step_assembly;
+pub mod stl;
+pub mod svg;
+mod template;
+pub mod toml;
+
+use crate::analysis::Analysis;
+use crate::body::inspection::InspectionList;
+use crate::body::{Body, Drawn, Part};
+use crate::report::{Finding, Report};
+use crate::verify::WrittenOutline;
+use camgen_kernel::profile::outline::Fit;
+use camgen_kernel::refusal::Refusal;
+use std::ops::Deref;
+
+/// A proven cam, as the formats receive it.
+#[derive(Clone, Copy)]
+pub struct Rendering<'a> {
+    /// The solved cam.
+    pub body: &'a dyn Body,
+    /// The other cams on the same shaft, and their outlines as read back.
+    pub other_cams: &'a [(&'a dyn Body, &'a [WrittenOutline])],
+    /// Its drawing.
+    pub drawn: &'a Drawn,
+    /// Its outlines as read back.
+    pub outlines: &'a [WrittenOutline],
+    /// The cut files, written and proved, one for each part of the drawing.
+    pub cut_files: &'a [Vec<u8>],
+    /// The tables of points, written and proved, one for each part of the drawing; empty when they were not requested.
+    pub points: &'a [Vec<u8>],
+    /// The programs for a milling machine, written and proved, one for each part of the drawing; empty when they were not requested.
+    pub programs: &'a [Vec<u8>],
+    /// The tables for servo drives by the names of their formats, written and proved; empty when they were not requested.
+    pub servo: &'a [(&'static str, Vec<u8>)],
+    /// The lists of places for a measuring machine, each with its files, written and proved; empty when they were not requested.
+    pub inspections: &'a [(InspectionList, Vec<Vec<u8>>)],
+    /// The lift table of a gauge follower, written and proved, where it was requested.
+    pub gauge: Option<&'a [u8]>,
+    /// The tolerance of the outlines, and on which side of the exact curves they lie.
+    pub fit: Fit,
+    /// Radius of the cutter whose path was drawn, m.
+    pub cutter_radius: Option<f64>,
+    /// Version of the cut files.
+    pub dxf_version: dxf::Version,
+    /// The findings of every check.
+    pub findings: &'a [Finding],
+    /// Its report, the names of the files in it.
+    pub report: &'a (dyn Deref<Target = Report> + Sync),
+    /// Rows of the table over a turn or a stroke.
+    pub samples: u32,
+    /// The template of the review sheet.
+    pub template: &'a str,
+    /// The design with which the moving report is made live.
+    #[cfg(feature = "live")]
+    pub live: Option<&'a html::live::LiveDesign>,
+    /// The time stamp of the files, seconds since 1970 UTC.
+    pub created: Option<u64>,
+}
+
+/// An analysis, as the formats receive it.
+#[derive(Debug, Clone, Copy)]
+pub struct AnalysisRendering<'a> {
+    /// The analysis.
+    pub analysis: &'a Analysis,
+    /// Its report, the names of the files in it.
+    pub report: &'a Report,
+    /// The template of the plot.
+    pub template: &'a str,
+}
+
+/// How a format is made of an analysis.
+#[derive(Debug, Clone, Copy)]
+pub struct AnalysisFormat {
+    /// The endings of its files, added to the stem of their names; empty where the analysis has nothing for the format.
+    pub endings: fn(&Analysis) -> Vec<String>,
+    /// The files, in the same order.
+    pub write: fn(&AnalysisRendering<'_>) -> Result<Vec<Vec<u8>>, Refusal>,
+}
+
+/// When a format is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FormatSelection {
+    /// By default, and when it is requested.
+    Usual,
+    /// When it is requested.
+    Asked,
+    /// Whenever the drawing has something for it; it cannot be requested by name.
+    Drawn,
+}
+
+/// A format: its name, the cams it fits, and its files. Each computes only what it shows.
+#[derive(Debug)]
+pub struct Format {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// When it is written.
+    pub when: FormatSelection,
+    /// Whether it shows the flank of a body whose sections differ, which then has to be drawn.
+    pub flank: bool,
+    /// Why a cam cannot have it, if it cannot.
+    pub unfit: fn(&dyn Body) -> Option<&'static str>,
+    /// The endings of its files, added to the stem of their names; empty where the drawing has nothing for the format.
+    pub endings: fn(&Drawn) -> Vec<String>,
+    /// The files, in the same order.
+    pub write: fn(&Rendering<'_>) -> Result<Vec<Vec<u8>>, Refusal>,
+    /// How it is made of an analysis, where that is possible.
+    pub of_analysis: Option<AnalysisFormat>,
+}
+
+/// Every format, in the order in which files are listed.
+pub const FORMATS: &[Format] = &[
+    dxf::FORMAT,
+    svg::FORMAT,
+    step::FORMAT,
+    csv::FORMAT,
+    json::FORMAT,
+    #[cfg(feature = "html")]
+    html::FORMAT,
+    #[cfg(feature = "pdf")]
+    pdf::FORMAT,
+    stl::FORMAT,
+    points::FORMAT,
+    diagram::FORMAT,
+    gcode::FORMAT,
+    servo::CSV,
+    servo::XYVA,
+    servo::TWINCAT,
+    servo::ISG,
+    inspection::FORMAT,
+    gauge::FORMAT,
+    toml::FORMAT,
+    dxf::CUTTER_PATH,
+    csv::FURTHER,
+];
+
+/// The formats that can be requested.
+pub fn by_name() -> impl Iterator<Item = &'static Format> {
+    FORMATS.iter().filter(|format| format.when != FormatSelection::Drawn)
+}
+
+/// The endings of the files of every part: a section has the speed it is for before the ending, one of several outlines its
+/// name.
+fn of_parts(drawn: &Drawn, ending: &str) -> Vec<String> {
+    let speeds: Vec<f64> = drawn.parts.iter().filter_map(|part| part.rpm).collect();
+    let mut speeds = number::names(&speeds).into_iter();
+    let mut of_part = |part: &Part| match part.rpm.and_then(|_| speeds.next()) {
+        Some(rpm) => format!("-{rpm}rpm{ending}"),
+        None if part.name.is_empty() => ending.to_owned(),
+        None => format!("-{}{ending}", part.name),
+    };
+    drawn.parts.iter().map(&mut of_part).collect()
+}
+
+/// The endings of files of every outline: of several of a part each has its name before the ending.
+fn of_outlines(drawn: &Drawn, ending: &str) -> Vec<String> {
+    if drawn.parts.iter().all(|part| part.track.as_ref().is_none_or(|track| track.others.is_empty())) {
+        return of_parts(drawn, ending);
+    }
+    drawn.outlines().map(|(_, layer, _)| format!("-{}{ending}", layer.word())).collect()
+}
+
+/// Any cam.
+fn fits_all(_: &dyn Body) -> Option<&'static str> {
+    None
+}

@@ -1,0 +1,335 @@
+//! Sections of the report on a brake: the frame at both ends, the tension, the printed equations, power, web.
+
+use super::TensionDisc;
+use super::braking::LoadedBrake;
+use crate::brake::machine::{BeltMode, BrakeData, BrakeModel};
+use crate::brake::mechanics::{FramePose, PaperRoll};
+use camgen_cams::report::{Section, shown};
+use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::numeric::extremum::Extremum;
+use serde::Serialize;
+
+/// Change of the friction for which tensions are also reported, as a share.
+pub(super) const FRICTION_CHANGE: f64 = 0.2;
+/// Modulus of newsprint, Pa, as the paper has it.
+const NEWSPRINT: [f64; 2] = [4000e6, 5000e6];
+
+/// The frame at one end of the roll.
+#[derive(Debug, Serialize)]
+struct FrameEnd {
+    roll_radius_mm: f64,
+    frame_deg: f64,
+    wrap_deg: f64,
+    k: f64,
+    weight_arm_mm: f64,
+    press_arm_mm: f64,
+    tight_arm_mm: f64,
+    slack_arm_mm: f64,
+    tension_n: f64,
+    tension_printed_n: f64,
+    belt_slack_n: f64,
+    belt_tight_n: f64,
+    friction_sensitivity: f64,
+}
+
+fn end(braking: &LoadedBrake<'_>, pose: &FramePose) -> FrameEnd {
+    let tension = braking.tension(pose);
+    let (slack, tight) = braking.belt_tensions(pose);
+    FrameEnd {
+        roll_radius_mm: MILLIMETRES * pose.radius,
+        // The full roll is at 0, not at −0.
+        frame_deg: pose.theta.to_degrees() + 0.0,
+        wrap_deg: pose.wrap.to_degrees(),
+        k: pose.k,
+        weight_arm_mm: MILLIMETRES * pose.h1,
+        press_arm_mm: MILLIMETRES * pose.h2,
+        tight_arm_mm: MILLIMETRES * pose.q_tight,
+        slack_arm_mm: MILLIMETRES * pose.q_slack,
+        tension_n: tension,
+        tension_printed_n: braking.brake.tension_printed(braking.printed_weight, pose),
+        belt_slack_n: slack,
+        belt_tight_n: tight,
+        friction_sensitivity: braking.sensitivity(pose),
+    }
+}
+
+/// The frame at the full and at the run-down roll.
+pub(super) fn frame(braking: &LoadedBrake<'_>) -> Section {
+    let ends = [0, 1].map(|index| braking.ends.get(index).map(|pose| end(braking, pose)));
+    let words = ends.iter().flatten().map(|end| {
+        format!(
+            "at {:.0} mm: frame {:.3}°, wrap {:.3}°, K {:.6}; arms: weight {:.2}, press {:.2}, tight span {:.2}, slack span {:.2} mm",
+            end.roll_radius_mm,
+            end.frame_deg,
+            end.wrap_deg,
+            end.k,
+            end.weight_arm_mm,
+            end.press_arm_mm,
+            end.tight_arm_mm,
+            end.slack_arm_mm
+        )
+    });
+    let words = words.collect();
+    Section::new("frame", &ends).with_words(words)
+}
+
+/// Another friction, and the tension at both ends with it; `None` where the brake jams.
+#[derive(Debug, Serialize)]
+struct OtherFriction {
+    friction: f64,
+    tension_full_n: Option<f64>,
+    tension_run_down_n: Option<f64>,
+}
+
+/// The section `brake`.
+#[derive(Debug, Serialize)]
+struct BrakeFigures {
+    model: &'static str,
+    mode: &'static str,
+    weight_n: f64,
+    weight_exact_n: f64,
+    weight_printed_n: f64,
+    belt_length_mm: f64,
+    tension_wanted_n: f64,
+    tension_least_n: f64,
+    tension_least_roll_radius_mm: f64,
+    tension_largest_n: f64,
+    tension_largest_roll_radius_mm: f64,
+    tension_spread: f64,
+    other_friction: Vec<OtherFriction>,
+}
+
+/// Weight, tension over the roll, and the effect of friction on it.
+pub(super) fn brake(braking: &LoadedBrake<'_>, (least, largest): (Extremum, Extremum)) -> Section {
+    let [full, run_down] = &braking.ends;
+    let friction = braking.brake.friction();
+    let with_share = |share: f64| {
+        let friction = friction * share;
+        let at = |pose: &FramePose| braking.tension_with(pose, friction);
+        OtherFriction { friction, tension_full_n: at(full), tension_run_down_n: at(run_down) }
+    };
+    let figures = BrakeFigures {
+        model: if braking.data.model == BrakeModel::Consistent { "consistent" } else { "printed" },
+        mode: if braking.data.mode == BeltMode::Slip { "slip" } else { "no-slip" },
+        weight_n: braking.weight,
+        weight_exact_n: braking.brake.weight_for(braking.data.tension, full),
+        weight_printed_n: braking.brake.weight_for_printed(braking.data.tension, full),
+        belt_length_mm: MILLIMETRES * braking.brake.belt_length(),
+        tension_wanted_n: braking.data.tension,
+        tension_least_n: least.value,
+        tension_least_roll_radius_mm: MILLIMETRES * least.at,
+        tension_largest_n: largest.value,
+        tension_largest_roll_radius_mm: MILLIMETRES * largest.at,
+        tension_spread: super::spread(least.value, largest.value),
+        other_friction: vec![with_share(1.0 - FRICTION_CHANGE), with_share(1.0 + FRICTION_CHANGE)],
+    };
+    Section::new("brake", &figures).with_words(words(&figures))
+}
+
+fn words(figures: &BrakeFigures) -> Vec<String> {
+    let newtons =
+        |tension: Option<f64>| tension.map_or("the brake jams".to_owned(), |tension| format!("{tension:.2} N"));
+    let mut lines = vec![
+        format!(
+            "weight {:.2} N; {} N on the full roll needs {:.2} N, or {:.2} N by the printed moment (5)",
+            figures.weight_n, figures.tension_wanted_n, figures.weight_exact_n, figures.weight_printed_n
+        ),
+        format!(
+            "web tension from {:.2} N at {:.1} mm to {:.2} N at {:.1} mm: {:.3} % of the largest",
+            figures.tension_least_n,
+            figures.tension_least_roll_radius_mm,
+            figures.tension_largest_n,
+            figures.tension_largest_roll_radius_mm,
+            100.0 * figures.tension_spread
+        ),
+    ];
+    lines.extend(figures.other_friction.iter().map(|other| {
+        format!(
+            "with a friction of {:.3}: {} on the full roll, {} on the run-down roll",
+            other.friction,
+            newtons(other.tension_full_n),
+            newtons(other.tension_run_down_n)
+        )
+    }));
+    lines
+}
+
+/// The regulation by (8), (9) and (10), and its real effect.
+#[derive(Debug, Serialize)]
+struct PrintedFigures {
+    /// (8), N.
+    press_full_n: f64,
+    weight_by_8_n: f64,
+    belt_speed_ratio_full: f64,
+    /// (9).
+    belt_speed_ratio_run_down: f64,
+    /// (10), of V.
+    belt_speed_range: f64,
+    /// The range as a share of the starting slip.
+    belt_speed_range_of_slip: f64,
+    /// The tension that this weight really makes.
+    tension_in_truth_n: f64,
+    tension_in_truth_run_down_n: f64,
+}
+
+/// The paper's regulation of a slipping belt, and its real effect.
+pub(super) fn printed(braking: &LoadedBrake<'_>) -> Section {
+    let ([full, run_down], wanted) = (&braking.ends, braking.data.tension);
+    let slip = 1.0 - braking.data.belt_speed_ratio;
+    let weight = braking.brake.weight_for_printed(wanted, full) / slip;
+    let stands = |pose: &FramePose| braking.brake.tension_printed(weight, pose);
+    let by_9 = 1.0 - wanted / stands(run_down);
+    let figures = PrintedFigures {
+        press_full_n: weight * full.h1 / full.h2,
+        weight_by_8_n: weight,
+        belt_speed_ratio_full: braking.data.belt_speed_ratio,
+        belt_speed_ratio_run_down: by_9,
+        belt_speed_range: by_9 - braking.data.belt_speed_ratio,
+        belt_speed_range_of_slip: (braking.data.belt_speed_ratio - by_9) / slip,
+        tension_in_truth_n: braking.brake.tension(weight, full),
+        tension_in_truth_run_down_n: braking.brake.tension(weight, run_down),
+    };
+    let words = vec![
+        format!(
+            "(8) press force {:.2} N, weight {:.2} N at V_z/V = {}; (9) V_z/V = {:.6} on the run-down roll; (10) range {:.3} % of V",
+            figures.press_full_n,
+            weight,
+            figures.belt_speed_ratio_full,
+            by_9,
+            100.0 * figures.belt_speed_range
+        ),
+        format!(
+            "in fact the speed of a slipping belt regulates nothing: that weight makes {:.2} N on the full roll, and {:.2} N on the run-down roll",
+            figures.tension_in_truth_n, figures.tension_in_truth_run_down_n
+        ),
+    ];
+    Section::new("printed", &figures).with_words(words)
+}
+
+/// The section `web`.
+#[derive(Debug, Serialize)]
+struct WebFigures {
+    stress_mpa: f64,
+    strain: f64,
+    belt_speed_ratio_printed: f64,
+    belt_speed_ratio_exact: f64,
+    speed_sensitivity: f64,
+    stretch_mm: Option<f64>,
+    /// With the modulus of newsprint at a fixed speed of the belt.
+    tension_4000_mpa_n: f64,
+    tension_5000_mpa_n: f64,
+    belt_power_w: f64,
+    heat_w: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    roll_inertia_kg_m2: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    acceleration_tension_n: Option<f64>,
+}
+
+/// Stress, strain and power of the web at the wanted tension, and the inertia of a roll.
+pub(super) fn web(data: &BrakeData, roll: Option<&PaperRoll>) -> Option<Section> {
+    let (web, wanted) = (data.web.as_ref()?, data.tension);
+    let exact = web.belt_speed(wanted);
+    let ratio = super::braking::belt_speed(data);
+    let (belt, heat) = web.powers(wanted, ratio);
+    let with = |modulus: f64| crate::brake::mechanics::Web { modulus, ..*web }.tension(exact);
+    let [soft, stiff] = NEWSPRINT;
+    let dense = roll.zip(data.density);
+    let inertia = dense.map(|(roll, density)| web.inertia(density, roll.largest_radius, roll.smallest_radius));
+    let speeding = inertia.zip(roll).filter(|_| data.acceleration > 0.0);
+    let speeding =
+        speeding.map(|(inertia, roll)| web.acceleration_tension(inertia, roll.largest_radius, data.acceleration));
+    let figures = WebFigures {
+        stress_mpa: 1e-6 * web.stress(wanted),
+        strain: web.strain(wanted),
+        belt_speed_ratio_printed: web.belt_speed_printed(wanted),
+        belt_speed_ratio_exact: exact,
+        speed_sensitivity: web.sensitivity(wanted),
+        stretch_mm: web.stretch(wanted).map(|stretch| MILLIMETRES * stretch),
+        tension_4000_mpa_n: with(soft),
+        tension_5000_mpa_n: with(stiff),
+        belt_power_w: belt,
+        heat_w: heat,
+        roll_inertia_kg_m2: inertia,
+        acceleration_tension_n: speeding,
+    };
+    let mut words = vec![
+        format!(
+            "stress {:.4} MPa at {wanted} N; of {:.1} W of power {belt:.1} W go to the belt drive and {heat:.1} W become heat",
+            figures.stress_mpa,
+            belt + heat
+        ),
+        format!(
+            "without slip V_z/V = {:.6} (printed (14): {:.6}); a change of it by 0.01 % changes the tension by {:.2} %",
+            exact,
+            figures.belt_speed_ratio_printed,
+            0.01 * figures.speed_sensitivity
+        ),
+    ];
+    words.extend(figures.stretch_mm.map(|stretch| format!("stretch to the printing nip (15) {stretch:.4} mm")));
+    words.extend(speeding.zip(inertia).map(|(tension, inertia)| {
+        format!(
+            "speeding up at {} m/s² adds {tension:.3} N on the full roll ({inertia:.3} kg·m²), and less as it runs down",
+            data.acceleration
+        )
+    }));
+    Some(Section::new("web", &figures).with_words(words))
+}
+
+/// The section `disc`.
+#[derive(Debug, Serialize)]
+struct DiscFigures {
+    turns_per_frame_turn: f64,
+    cam_end_deg: f64,
+    work_j: f64,
+    lift_full_mm: f64,
+    lift_largest_mm: f64,
+    spring_force_max_n: f64,
+    moment_run_down_nm: f64,
+    tension_as_cut_least_n: Option<f64>,
+    tension_as_cut_largest_n: Option<f64>,
+    tension_as_cut_error_max_n: Option<f64>,
+}
+
+/// The disc that holds the tension, by its law and as cut.
+pub(super) fn disc(braking: &LoadedBrake<'_>, held: &TensionDisc<'_>) -> Section {
+    let (disc, wanted) = (held.disc, braking.data.tension);
+    let [_, run_down] = &braking.ends;
+    let lift = |radius: f64| super::of_disc(disc, radius).map_or(f64::NAN, |(_, _, lift)| MILLIMETRES * lift);
+    let roll = braking.brake.roll();
+    let top = braking.radii(super::PLACES).map(lift).fold(0.0, f64::max);
+    let cut = held.as_cut;
+    let figures = DiscFigures {
+        turns_per_frame_turn: disc.holding().turns_per_frame_turn(),
+        cam_end_deg: disc.holding().total_angle().to_degrees(),
+        work_j: disc.stored(),
+        lift_full_mm: lift(roll.largest_radius),
+        lift_largest_mm: top,
+        spring_force_max_n: disc.law().spring_force(top / MILLIMETRES),
+        moment_run_down_nm: disc.holding().moment(run_down),
+        tension_as_cut_least_n: cut.map(|cut| cut.least[1]),
+        tension_as_cut_largest_n: cut.map(|cut| cut.largest[1]),
+        tension_as_cut_error_max_n: cut.map(|cut| (cut.largest[1] - wanted).max(wanted - cut.least[1])),
+    };
+    let mut words = vec![
+        format!(
+            "a disc that turns {} times as far as the frame, to {}°, takes {} J from its spring; lift {} mm on the full roll",
+            shown(figures.turns_per_frame_turn),
+            shown(figures.cam_end_deg),
+            shown(figures.work_j),
+            shown(figures.lift_full_mm)
+        ),
+        format!(
+            "spring at most {} N; moment on the frame {} N·m on the run-down roll",
+            shown(figures.spring_force_max_n),
+            shown(figures.moment_run_down_nm)
+        ),
+    ];
+    words.extend(cut.map(|cut| {
+        format!("as cut the web tension is between {:.3} and {:.3} N over the whole roll", cut.least[1], cut.largest[1])
+    }));
+    words.push(
+        "it compensates the change of the radius, not of the friction: another friction changes the tension as stated above".into(),
+    );
+    Section::new("disc", &figures).with_words(words)
+}

@@ -1,0 +1,150 @@
+//! The forces of the buffers of a press at several speeds, with a cam and without one: the curves, their picture, and the volume of (15).
+
+use crate::press::buffer::bottom_law::column_for;
+use crate::press::buffer::crank_law::CrankLaw;
+use crate::press::buffer::regime::Reset;
+use crate::press::checks::added_volume;
+use crate::press::scatter::fault::FrozenBuffer;
+use crate::press::scatter::reset::ScrewRule;
+use crate::press::scatter::settings::FixedBottom;
+use camgen_cams::analysis::PLACES;
+use camgen_cams::check::Measure;
+use camgen_cams::report::plot::{PlotCurve, PlotPanel};
+use camgen_cams::report::shown;
+use camgen_cams::table::ListedColumn;
+use camgen_kernel::geometry::MILLIMETRES;
+
+/// A volume of less than this share of the cylinders' is rounding.
+const NO_VOLUME: f64 = 1e-12;
+
+/// A fixed bottom with its own reset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct FixedSetting {
+    /// Column, m.
+    pub(super) column: f64,
+    /// Largest residual force, N.
+    pub(super) residual: f64,
+}
+
+/// A fixed bottom set by a rule of `camgen regimes` for the loading A at a speed.
+pub(super) fn left_by_reset(frozen: &FrozenBuffer, reset: Reset) -> FixedSetting {
+    let column = column_by(frozen, reset);
+    FixedSetting { column, residual: FixedBottom::new(frozen).left(column, 1.0) }
+}
+
+/// Column of a fixed bottom, m, by a rule of `camgen regimes` for the loading A at a speed.
+pub(super) fn column_by(frozen: &FrozenBuffer, reset: Reset) -> f64 {
+    let fixed = FixedBottom::new(frozen);
+    match reset {
+        Reset::End => fixed.column(1.0, ScrewRule::End),
+        Reset::Half => {
+            let worst = fixed.left(fixed.column(1.0, ScrewRule::End), 1.0) / frozen.unit_force;
+            // By `end` the air is too weak in mid-stroke: half of that residual is added at the end.
+            column_for(frozen.path.stroke(), frozen.end_load() + 0.5 * worst, frozen.exponent)
+        }
+        Reset::Level => fixed.column(1.0, ScrewRule::Level),
+    }
+}
+
+/// The forces at a place of the reversal and a speed.
+pub(super) struct ForcePlace {
+    pub(super) rpm: f64,
+    /// Crank angle from the start of the reversal, rad; not known under a yoke.
+    pub(super) crank: f64,
+    pub(super) x: f64,
+    pub(super) inertia: f64,
+    pub(super) air: f64,
+    pub(super) residual: f64,
+}
+
+pub(super) const CURVES: &[ListedColumn<ForcePlace>] = &[
+    ("rpm", |row| row.rpm),
+    ("x_mm", |row| MILLIMETRES * row.x),
+    ("inertia_n", |row| row.inertia),
+    ("air_n", |row| row.air),
+    ("residual_n", |row| row.residual),
+];
+
+/// Under a linkage the bed comes to one place with two forces: the curves run along the crank angle.
+const CURVES_OF_A_LINKAGE: &[ListedColumn<ForcePlace>] = &[
+    ("rpm", |row| row.rpm),
+    ("crank_deg", |row| row.crank.to_degrees()),
+    ("x_mm", |row| MILLIMETRES * row.x),
+    ("inertia_n", |row| row.inertia),
+    ("air_n", |row| row.air),
+    ("residual_n", |row| row.residual),
+];
+
+/// The horizontal axis of the curves.
+pub(super) struct CurveAxis {
+    pub(super) list: &'static [ListedColumn<ForcePlace>],
+    pub(super) column: &'static str,
+    pub(super) words: &'static str,
+    value: fn(&ForcePlace) -> f64,
+}
+
+impl CurveAxis {
+    pub(super) const OVERRUN: Self =
+        Self { list: CURVES, column: "x_mm", words: "overrun x of the bed, mm", value: |place| MILLIMETRES * place.x };
+
+    pub(super) fn of(design: &CrankLaw) -> Self {
+        match design {
+            CrankLaw::Yoke(_) => Self::OVERRUN,
+            CrankLaw::Linkage(_) => Self {
+                list: CURVES_OF_A_LINKAGE,
+                column: "crank_deg",
+                words: "crank angle from the start of the reversal, degrees",
+                value: |place| place.crank.to_degrees(),
+            },
+        }
+    }
+}
+
+/// A reset of the air column for a speed.
+pub(super) struct ColumnReset {
+    pub(super) rpm: f64,
+    pub(super) column_mm: f64,
+    pub(super) added_mm3: f64,
+}
+
+/// The least volume to add, mm³, to the own one of the cylinders: air cannot be taken away from a cylinder at ambient pressure.
+pub(super) fn volume(resets: &[ColumnReset], own: f64) -> Measure {
+    let rounding = NO_VOLUME * own;
+    let least = resets.iter().map(|reset| reset.added_mm3).fold(f64::INFINITY, f64::min);
+    let below: Vec<String> = resets
+        .iter()
+        .filter(|reset| reset.added_mm3 < -rounding)
+        .map(|reset| format!("to {:.3} mm for {} rpm", reset.column_mm, reset.rpm))
+        .collect();
+    let note =
+        format!("air would have to be taken away; shorten the column by its screw instead, {}", below.join(", "));
+    let least = if least.abs() <= rounding { 0.0 } else { least };
+    added_volume::CHECK.measure(least, Some(0.0)).noted((!below.is_empty()).then_some(note))
+}
+
+/// A number with so many decimals; what is 0 with them has no sign.
+pub(super) fn unsigned_zero(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    text.strip_prefix('-')
+        .filter(|size| size.bytes().all(|c| matches!(c, b'0' | b'.')))
+        .map_or(text.clone(), str::to_owned)
+}
+
+/// The forces of both and what is left, a curve for each speed.
+pub(super) fn force_panels(all: &[ForcePlace], along: &CurveAxis) -> Vec<PlotPanel> {
+    let speeds: Vec<&[ForcePlace]> = all.chunks(PLACES as usize + 1).collect();
+    let curve = |(colour, places): (usize, &&[ForcePlace]), bold: bool, value: fn(&ForcePlace) -> f64| PlotCurve {
+        name: places.first().filter(|_| bold).map_or_else(String::new, |place| format!("{} rpm", shown(place.rpm))),
+        colour,
+        bold,
+        points: places.iter().map(|place| [(along.value)(place), value(place)]).collect(),
+    };
+    let of = |bold, value: fn(&ForcePlace) -> f64| -> Vec<PlotCurve> {
+        speeds.iter().enumerate().map(|one| curve(one, bold, value)).collect()
+    };
+    let forces = [of(false, |place| place.inertia), of(true, |place| place.air)].concat();
+    vec![
+        PlotPanel { name: "Force, N: inertia of the bed (thin), air of both cylinders (bold)".into(), curves: forces },
+        PlotPanel { name: "Residual force, inertia less air, N".into(), curves: of(true, |place| place.residual) },
+    ]
+}

@@ -1,0 +1,293 @@
+//! One cam at other speeds: the column is reset, or air is added, and a residual force is left. Equations (14) and (15), figure 5.
+
+use super::at_speeds::{
+    ColumnReset, CurveAxis, FixedSetting, ForcePlace, force_panels, left_by_reset, unsigned_zero, volume,
+};
+use crate::press::MachineOfPress;
+use crate::press::balance::reversal_of_bed;
+use crate::press::buffer::CYLINDERS;
+use crate::press::buffer::crank_law::CrankLaw;
+use crate::press::buffer::regime::{self, Regime, Reset};
+use crate::press::cams;
+use crate::press::checks::column;
+use crate::press::checks::fixed_bottom::{self, Rivals};
+use crate::press::machine::Press;
+use crate::press::machine::PressCams;
+use crate::press::motion::Transition;
+use crate::press::report::CylinderMeasures;
+use crate::press::scatter::fault::FrozenBuffer;
+use camgen_cams::analysis::{Analysis, Picture, places};
+use camgen_cams::body::Kind;
+use camgen_cams::machine::Machine;
+use camgen_cams::report::plot::Plot;
+use camgen_cams::report::{Section, Speeds, shown};
+use camgen_cams::table::{ListedColumn, Table};
+use camgen_kernel::document::{Input, NamedChoice};
+use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::refusal::{Refusal, WorkBound};
+use camgen_kernel::units::TECHNICAL_ATMOSPHERE;
+use serde::Serialize;
+
+/// Resets for other speeds.
+pub const KIND: Kind = Kind { command: "regimes", noun: "reset of the column", keys: cams::REGIMES };
+
+/// Speeds of one call.
+const SPEEDS: WorkBound = WorkBound { what: "speeds", most: 1000 };
+/// Cubic millimetres in a cubic metre.
+const CUBIC: f64 = MILLIMETRES * MILLIMETRES * MILLIMETRES;
+
+/// The figures of a speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+struct SpeedRow {
+    rpm: f64,
+    a_per_mm: f64,
+    column_length_mm: f64,
+    /// For all cylinders.
+    added_volume_mm3: f64,
+    residual_max_n: f64,
+    residual_share: f64,
+    residual_at_mm: f64,
+    end_residual_n: f64,
+    lambda: f64,
+    end_pressure_pa: f64,
+    crank_torque_max_nm: f64,
+    camshaft_torque_max_nm: f64,
+    added_volume_each_mm3: f64,
+    /// A fixed bottom with its own reset by the same rule.
+    fixed_column_length_mm: f64,
+    fixed_residual_max_n: f64,
+}
+
+impl SpeedRow {
+    fn reset(&self) -> ColumnReset {
+        ColumnReset { rpm: self.rpm, column_mm: self.column_length_mm, added_mm3: self.added_volume_mm3 }
+    }
+
+    fn rivals(&self) -> Rivals {
+        Rivals { rpm: self.rpm, cam: self.residual_max_n, fixed: self.fixed_residual_max_n }
+    }
+}
+
+const COLUMNS: &[ListedColumn<SpeedRow>] = &[
+    ("rpm", |row| row.rpm),
+    ("a_per_mm", |row| row.a_per_mm),
+    ("column_length_mm", |row| row.column_length_mm),
+    ("added_volume_mm3", |row| row.added_volume_mm3),
+    ("residual_max_n", |row| row.residual_max_n),
+    ("residual_share", |row| row.residual_share),
+    ("residual_at_mm", |row| row.residual_at_mm),
+    ("end_residual_n", |row| row.end_residual_n),
+    ("lambda", |row| row.lambda),
+    ("end_pressure_pa", |row| row.end_pressure_pa),
+    ("crank_torque_max_nm", |row| row.crank_torque_max_nm),
+    ("camshaft_torque_max_nm", |row| row.camshaft_torque_max_nm),
+    ("added_volume_each_mm3", |row| row.added_volume_each_mm3),
+    ("fixed_column_length_mm", |row| row.fixed_column_length_mm),
+    ("fixed_residual_max_n", |row| row.fixed_residual_max_n),
+];
+
+/// The section `regimes`.
+#[derive(Debug, Serialize)]
+struct Regimes<'a> {
+    cam_rpm: f64,
+    reset: &'static str,
+    column_length_mm: f64,
+    #[serde(flatten)]
+    cylinders: CylinderMeasures,
+    speeds: &'a [SpeedRow],
+}
+
+/// The cam that is cut for `cam_rpm` at other speeds (all rpm of the main shaft), with its column reset for each.
+///
+/// ```
+/// use camgen::domains::press::analysis::regimes;
+/// use camgen::domains::press::buffer::regime::Reset;
+/// use camgen::{Judged, Machine};
+///
+/// let (machine, _) = Machine::load("dpi", &[])?;
+/// let judged = Judged::new(regimes::analysis(&machine, 35.0, &[20.0, 25.0, 30.0, 35.0], Reset::End)?);
+/// assert!(judged.report().section("regimes").is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`Refusal`] when the machine file describes none.
+pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -> Result<Analysis, Refusal> {
+    SPEEDS.allow(speeds.len())?;
+    let press = machine.press()?;
+    let (design, cylinder) = (press.bottom_law(cam_rpm), press.cylinder());
+    let all: Vec<(f64, Regime)> =
+        speeds.iter().map(|rpm| (*rpm, regime::reset(&design, &cylinder, *rpm, reset))).collect();
+    let lobes = f64::from(PressCams::of(machine).lobes);
+    let rows: Vec<SpeedRow> = all
+        .iter()
+        .map(|(rpm, regime)| {
+            let fixed = left_by_reset(&FrozenBuffer::of_law(&press.bottom_law(*rpm), &cylinder), reset);
+            at_speed((press, &design), *rpm, (regime, fixed), lobes)
+        })
+        .collect();
+    let curves: Vec<ForcePlace> = all.iter().flat_map(|(rpm, regime)| curve(&design, *rpm, regime)).collect();
+    let along = CurveAxis::of(&design);
+    let columns: Vec<(f64, f64)> = rows.iter().map(|row| (row.column_length_mm / MILLIMETRES, row.rpm)).collect();
+    let resets: Vec<ColumnReset> = rows.iter().map(SpeedRow::reset).collect();
+    let rivals: Vec<Rivals> = rows.iter().map(SpeedRow::rivals).collect();
+    let regimes = Regimes {
+        cam_rpm,
+        reset: reset.word(),
+        column_length_mm: MILLIMETRES * design.column(),
+        cylinders: CylinderMeasures::new(cylinder.piston_area),
+        speeds: &rows,
+    };
+    let mut inputs = vec![Input::word("command", KIND.command)];
+    inputs.extend(machine.inputs(KIND.keys));
+    inputs.extend([
+        Input::numbers("rpm", speeds),
+        Input::number("cut-for", cam_rpm),
+        Input::word("reset", reset.word()),
+    ]);
+    Ok(Analysis {
+        kind: &KIND,
+        machine: machine.name().to_owned(),
+        speeds: Speeds::Several(speeds.to_vec()),
+        inputs,
+        sections: std::iter::once(Section::new(KIND.command, &regimes).with_words(words(&regimes)))
+            .chain(reversal_of_bed(machine))
+            .collect(),
+        measures: std::iter::once(volume(&resets, CUBIC * cylinder.volume(design.column())))
+            .chain([fixed_bottom::measure(&rivals)])
+            .chain(column::measure(&columns, machine, |press, rpm| Some(press.bottom_law(rpm).column())))
+            .collect(),
+        notes: notes(machine),
+        picture: Picture::Curves(plot(machine.name(), cam_rpm, &curves, &along)),
+        mechanism: None,
+        document: None,
+        tables: vec![("", Table::listed(COLUMNS, &rows)), ("-curves", Table::listed(along.list, &curves))],
+        by: &["rpm"],
+        along: along.column,
+        diagrams: &[],
+        not_modelled: NOT_MODELLED.to_vec(),
+    })
+}
+
+fn notes(machine: &Machine) -> Vec<String> {
+    let blend = matches!(machine.transition(), Transition::Blend { .. });
+    let follower = &machine.follower;
+    let more = follower.mass.is_some() || follower.preload.is_some();
+    let regimes = [
+        (
+            blend,
+            "a blend leaves a residual force of its own, which `camgen rotary` reports; here the cam is assumed to follow its law",
+        ),
+        (more, "the torque of the camshaft is that of the air alone, without preload and mass of the follower"),
+    ];
+    let of_press = regimes.into_iter().filter(|(holds, _)| *holds).map(|(_, words)| words.to_owned());
+    // A key that is reported here is not reported as without effect.
+    let idle = machine.idle_key_notes(KIND.keys, KIND.noun).into_iter();
+    idle.filter(|note| !note.contains("`transition.") && !note.contains("`follower.")).chain(of_press).collect()
+}
+
+const NOT_MODELLED: &[&str] = &[
+    "The transition before the reversal: the cam is assumed to follow its law.",
+    "Leakage and the flow of heat: the exponent of the air is the same at every speed.",
+    "Elasticity and play between cam and bottom.",
+];
+
+fn at_speed(
+    (press, design): (&Press, &CrankLaw),
+    rpm: f64,
+    (regime, fixed): (&Regime, FixedSetting),
+    lobes: f64,
+) -> SpeedRow {
+    let residual_at = match design {
+        CrankLaw::Yoke(_) => regime.residual_at,
+        CrankLaw::Linkage(_) => design.bed(design.where_decelerated(regime.residual_at))[0],
+    };
+    SpeedRow {
+        rpm,
+        a_per_mm: regime.loading / MILLIMETRES,
+        column_length_mm: MILLIMETRES * regime.column,
+        added_volume_mm3: CUBIC * regime.added_volume,
+        residual_max_n: regime.residual.abs(),
+        residual_share: regime.residual.abs() / press.largest_inertia(rpm),
+        residual_at_mm: MILLIMETRES * residual_at,
+        end_residual_n: regime.end_residual,
+        lambda: regime.length_ratio,
+        end_pressure_pa: regime.end_pressure,
+        crank_torque_max_nm: regime.crank_torque_max(),
+        camshaft_torque_max_nm: lobes * regime.camshaft_torque_max(),
+        added_volume_each_mm3: CUBIC * regime.added_volume / f64::from(CYLINDERS),
+        fixed_column_length_mm: MILLIMETRES * fixed.column,
+        fixed_residual_max_n: fixed.residual,
+    }
+}
+
+/// Over the braking half under a yoke, whose other half is its mirror; over the whole reversal under a linkage.
+fn curve(design: &CrankLaw, rpm: f64, regime: &Regime) -> Vec<ForcePlace> {
+    let at = |crank: f64, [x, a]: [f64; 2]| ForcePlace {
+        rpm,
+        crank,
+        x,
+        inertia: regime.inertia(a),
+        air: regime.air(a),
+        residual: regime.residual(a),
+    };
+    match design {
+        CrankLaw::Yoke(law) => places(law.stroke).map(|x| at(f64::NAN, [x, x])).collect(),
+        CrankLaw::Linkage(law) => places(law.end.angle()).map(|crank| at(crank, design.bed(crank))).collect(),
+    }
+}
+
+fn words(regimes: &Regimes<'_>) -> Vec<String> {
+    let mut lines = vec![format!(
+        "cam for {} rpm, column {:.3} mm there; reset: {}; {}",
+        regimes.cam_rpm,
+        regimes.column_length_mm,
+        regimes.reset,
+        regimes.cylinders.words()
+    )];
+    lines.push(format!(
+        "{:>8} {:>11} {:>8} {:>12} {:>12} {:>11} {:>10} {:>8} {:>9} {:>10} {:>9} {:>11} {:>11}",
+        "rpm",
+        "column/mm",
+        "λ",
+        "V each/cm³",
+        "V all/cm³",
+        "left/N",
+        "fixed/N",
+        "left/%",
+        "at x/mm",
+        "end/N",
+        "p_end/at",
+        "crank/Nm",
+        "cam/Nm"
+    ));
+    lines.extend(regimes.speeds.iter().map(|row| {
+        format!(
+            "{:>8} {:>11.3} {:>8.5} {:>12} {:>12} {:>11.2} {:>10.2} {:>8.3} {:>9.3} {:>10} {:>9.4} {:>11.2} {:>11.2}",
+            row.rpm,
+            row.column_length_mm,
+            row.lambda,
+            unsigned_zero(1e-3 * row.added_volume_each_mm3, 1),
+            unsigned_zero(1e-3 * row.added_volume_mm3, 1),
+            row.residual_max_n,
+            row.fixed_residual_max_n,
+            100.0 * row.residual_share,
+            row.residual_at_mm,
+            unsigned_zero(row.end_residual_n, 3),
+            row.end_pressure_pa / TECHNICAL_ATMOSPHERE,
+            row.crank_torque_max_nm,
+            row.camshaft_torque_max_nm
+        )
+    }));
+    lines
+}
+
+/// Figure 5 of the paper, with the residual below.
+fn plot(machine: &str, cam_rpm: f64, all: &[ForcePlace], along: &CurveAxis) -> Plot {
+    Plot {
+        title: format!("{machine}: the cam for {} rpm at other speeds, column reset", shown(cam_rpm)),
+        places: along.words.into(),
+        panels: force_panels(all, along),
+        ..Plot::default()
+    }
+}

@@ -1,0 +1,430 @@
+//! Buffers whose bottoms rest on springs instead of a cam. Equations (26) to (28), figure 11.
+
+use super::at_speeds::CurveAxis;
+use crate::press::MachineOfPress;
+use crate::press::buffer::spring::{self, BrakedBed, SpringBuffer};
+use crate::press::buffer::spring_body::SpringBody;
+use crate::press::cams;
+use crate::press::checks::{buckling, column, spring_coils, spring_stress, surge};
+use crate::press::machine::{Press, PressCams};
+use crate::press::report::CylinderMeasures;
+use camgen_cams::analysis::{Analysis, PLACES, Picture, places};
+use camgen_cams::body::Kind;
+use camgen_cams::check::Measure;
+use camgen_cams::machine::Machine;
+use camgen_cams::report::plot::{self, Plot, PlotCurve, PlotPanel};
+use camgen_cams::report::{Section, Speeds, shown};
+use camgen_cams::table::{ListedColumn, Table};
+use camgen_kernel::document::Input;
+use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::refusal::{Refusal, WorkBound};
+use serde::Serialize;
+
+/// Pneumatic-spring buffers.
+pub const KIND: Kind = Kind { command: "spring", noun: "pneumatic-spring buffer", keys: cams::SPRING };
+
+/// Springs of one call, each at a speed.
+const SETS: WorkBound = WorkBound { what: "springs at a speed", most: 1000 };
+/// Stiffnesses that are looked at by default, over the least one: near those of the paper's figure.
+const USUAL: [f64; 3] = [1.125, 1.375, 2.75];
+
+fn braked_by(press: &Press) -> BrakedBed {
+    BrakedBed { bed: press.bed, linkage: press.stroke_end }
+}
+
+/// The figures of a spring at a speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+struct SpringSet {
+    stiffness_n_per_mm: f64,
+    spring_travel_mm: f64,
+    air_length_mm: f64,
+    residual_max_n: f64,
+    rpm: f64,
+    compressed_length_mm: f64,
+    residual_at_mm: f64,
+    screw_mm: Option<f64>,
+    spring_force_max_n: f64,
+}
+
+const COLUMNS: &[ListedColumn<SpringSet>] = &[
+    ("stiffness_n_per_mm", |row| row.stiffness_n_per_mm),
+    ("spring_travel_mm", |row| row.spring_travel_mm),
+    ("air_length_mm", |row| row.air_length_mm),
+    ("residual_max_n", |row| row.residual_max_n),
+    ("rpm", |row| row.rpm),
+    ("compressed_length_mm", |row| row.compressed_length_mm),
+    ("residual_at_mm", |row| row.residual_at_mm),
+    ("screw_mm", |row| row.screw_mm.unwrap_or(f64::NAN)),
+    ("spring_force_max_n", |row| row.spring_force_max_n),
+];
+
+/// A place of a curve.
+struct SpringRow {
+    stiffness: f64,
+    rpm: f64,
+    /// Crank angle from the start of the reversal, rad.
+    crank: f64,
+    x: f64,
+    inertia: f64,
+    air: f64,
+    residual: f64,
+    travel: f64,
+}
+
+const CURVES: &[ListedColumn<SpringRow>] = &[
+    ("stiffness_n_per_mm", |row| row.stiffness / MILLIMETRES),
+    ("rpm", |row| row.rpm),
+    ("x_mm", |row| MILLIMETRES * row.x),
+    ("inertia_n", |row| row.inertia),
+    ("air_n", |row| row.air),
+    ("residual_n", |row| row.residual),
+    ("spring_travel_mm", |row| MILLIMETRES * row.travel),
+];
+
+/// Under a linkage the bed comes to one place with two forces: the curves run along the crank angle.
+const CURVES_OF_A_LINKAGE: &[ListedColumn<SpringRow>] = &[
+    ("stiffness_n_per_mm", |row| row.stiffness / MILLIMETRES),
+    ("rpm", |row| row.rpm),
+    ("crank_deg", |row| row.crank.to_degrees()),
+    ("x_mm", |row| MILLIMETRES * row.x),
+    ("inertia_n", |row| row.inertia),
+    ("air_n", |row| row.air),
+    ("residual_n", |row| row.residual),
+    ("spring_travel_mm", |row| MILLIMETRES * row.travel),
+];
+
+/// The section `spring`.
+#[derive(Debug, Serialize)]
+struct Springs<'a> {
+    #[serde(flatten)]
+    cylinders: CylinderMeasures,
+    least_stiffness_n_per_mm: f64,
+    residual_fixed_bottom_max_n: f64,
+    settings: &'a [SpringSet],
+}
+
+/// Buffers on springs of these stiffnesses (N/m), and of that which leaves a wanted residual force (N) at the design speed, at
+/// some speeds of the main shaft (rpm; none: the design speed).
+///
+/// ```
+/// use camgen::domains::press::analysis::spring;
+/// use camgen::{Judged, Machine};
+///
+/// // Springs of 80 N/mm under the bottoms, and what they leave at 30 and 35 rpm.
+/// let (machine, _) = Machine::load("dpi", &[])?;
+/// let judged = Judged::new(spring::analysis(&machine, &[30.0, 35.0], &[80e3], None)?);
+/// println!("{}", judged.report().title());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`Refusal`] when the file has no press, a spring is too soft at one of the speeds, or none leaves that residual.
+pub fn analysis(
+    machine: &Machine,
+    speeds: &[f64],
+    stiffnesses: &[f64],
+    residual: Option<f64>,
+) -> Result<Analysis, Refusal> {
+    let press = machine.press()?;
+    let braked = braked_by(press);
+    let (cylinder, own) = (press.cylinder(), [press.design_rpm]);
+    let speeds = if speeds.is_empty() { &own[..] } else { speeds };
+    let least = spring::least_stiffness(&braked, press.design_rpm);
+    let mut all = stiffnesses.to_vec();
+    if let Some(residual) = residual {
+        all.push(spring::stiffness_for(residual, &braked, &cylinder, press.design_rpm)?);
+    } else if all.is_empty() {
+        let highest = speeds.iter().map(|rpm| spring::least_stiffness(&braked, *rpm)).fold(least, f64::max);
+        all.extend(USUAL.map(|over| over * highest));
+    }
+    SETS.allow(all.len().saturating_mul(speeds.len()))?;
+    let sets = sets_of(press, &all, speeds)?;
+    let rows: Vec<SpringSet> = sets.iter().map(|(rpm, spring)| set_of(*rpm, spring)).collect();
+    let curves: Vec<SpringRow> = sets.iter().flat_map(|(rpm, spring)| curve(press, *rpm, spring)).collect();
+    let (curve_columns, along) = match press.stroke_end {
+        None => (CURVES, "x_mm"),
+        Some(_) => (CURVES_OF_A_LINKAGE, "crank_deg"),
+    };
+    let bodies = bodies_of(machine, &sets);
+    let springs = Springs {
+        cylinders: CylinderMeasures::new(cylinder.piston_area),
+        least_stiffness_n_per_mm: least / MILLIMETRES,
+        residual_fixed_bottom_max_n: spring::plain_residual(&braked, &cylinder, press.design_rpm).value,
+        settings: &rows,
+    };
+    let mut inputs = vec![Input::word("command", KIND.command)];
+    inputs.extend(machine.inputs(KIND.keys));
+    inputs.extend([Input::numbers("rpm", speeds), Input::numbers("stiffness", stiffnesses)]);
+    inputs.extend(residual.map(|residual| Input::quantity("residual", residual, ("N", 1.0))));
+    Ok(Analysis {
+        kind: &KIND,
+        machine: machine.name().to_owned(),
+        speeds: Speeds::Several(speeds.to_vec()),
+        inputs,
+        sections: std::iter::once(Section::new(KIND.command, &springs).with_words(words(&springs, press)))
+            .chain(bodies.as_ref().map(|(rows, _)| section_of_bodies(rows)))
+            .collect(),
+        measures: measures(machine, &sets, bodies.as_ref()),
+        notes: machine.idle_key_notes(KIND.keys, KIND.noun),
+        picture: Picture::Curves(curves_of(machine.name(), &sets, &curves)),
+        mechanism: None,
+        document: None,
+        tables: std::iter::once(("", Table::listed(COLUMNS, &rows)))
+            .chain(bodies.as_ref().map(|(rows, _)| ("-bodies", Table::listed(BODIES, rows))))
+            .chain([("-curves", Table::listed(curve_columns, &curves))])
+            .collect(),
+        by: &["stiffness_n_per_mm", "rpm"],
+        along,
+        diagrams: &[],
+        not_modelled: NOT_MODELLED.to_vec(),
+    })
+}
+
+/// What checks judge: the columns, and the springs where the file describes them.
+fn measures(
+    machine: &Machine,
+    sets: &[(f64, SpringBuffer)],
+    bodies: Option<&(Vec<SpringBodyRow>, f64)>,
+) -> Vec<Measure> {
+    let columns: Vec<(f64, f64)> = sets.iter().map(|(rpm, spring)| (spring.column, *rpm)).collect();
+    let of_bodies = bodies.map_or_else(Vec::new, |(rows, stress)| measures_of(rows, *stress));
+    column::measure_of_analysis(&columns, machine).into_iter().chain(of_bodies).collect()
+}
+
+/// A spring of a stiffness, for the largest force of all speeds.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+struct SpringBodyRow {
+    stiffness_n_per_mm: f64,
+    force_max_n: f64,
+    wire_mm: f64,
+    coil_mm: f64,
+    coils: f64,
+    stress_mpa: f64,
+    surge_hz: f64,
+    crank_hz: f64,
+    solid_length_mm: f64,
+    free_length_mm: f64,
+    buckling: f64,
+}
+
+const BODIES: &[ListedColumn<SpringBodyRow>] = &[
+    ("stiffness_n_per_mm", |row| row.stiffness_n_per_mm),
+    ("force_max_n", |row| row.force_max_n),
+    ("wire_mm", |row| row.wire_mm),
+    ("coil_mm", |row| row.coil_mm),
+    ("coils", |row| row.coils),
+    ("stress_mpa", |row| row.stress_mpa),
+    ("surge_hz", |row| row.surge_hz),
+    ("crank_hz", |row| row.crank_hz),
+    ("solid_length_mm", |row| row.solid_length_mm),
+    ("free_length_mm", |row| row.free_length_mm),
+    ("buckling", |row| row.buckling),
+];
+
+/// The springs of each stiffness, with the allowable stress, Pa; `None` where the file does not describe them.
+fn bodies_of(machine: &Machine, sets: &[(f64, SpringBuffer)]) -> Option<(Vec<SpringBodyRow>, f64)> {
+    let (data, bed) = (PressCams::of(machine).spring_body?, machine.bed()?);
+    let fastest = sets.iter().map(|(rpm, _)| *rpm).fold(0.0, f64::max);
+    let crank_hz = bed.crank_speed(fastest) / std::f64::consts::TAU;
+    let of = |of_one: &[(f64, SpringBuffer)]| {
+        let rate = of_one.first()?.1.stiffness;
+        let force = of_one.iter().map(|(_, spring)| spring.spring_force_max).fold(0.0, f64::max);
+        let body = SpringBody::new(data.shape, force, rate, data.stress);
+        Some(SpringBodyRow {
+            stiffness_n_per_mm: rate / MILLIMETRES,
+            force_max_n: force,
+            wire_mm: MILLIMETRES * body.wire,
+            coil_mm: MILLIMETRES * body.coil,
+            coils: body.coils,
+            stress_mpa: 1e-6 * body.stress,
+            surge_hz: body.surge,
+            crank_hz,
+            solid_length_mm: MILLIMETRES * body.solid_length,
+            free_length_mm: MILLIMETRES * body.free_length,
+            buckling: body.buckling,
+        })
+    };
+    let rows = sets.chunk_by(|(_, a), (_, b)| a.stiffness == b.stiffness).filter_map(of).collect();
+    Some((rows, data.stress))
+}
+
+fn section_of_bodies(rows: &[SpringBodyRow]) -> Section {
+    let mut words = vec![format!(
+        "{:>10} {:>10} {:>9} {:>9} {:>8} {:>10} {:>9} {:>9} {:>9}",
+        "N/mm each", "N each", "wire/mm", "coil/mm", "coils", "stress/MPa", "surge/Hz", "solid/mm", "free/mm"
+    )];
+    words.extend(rows.iter().map(|row| {
+        format!(
+            "{:>10.3} {:>10.1} {:>9.3} {:>9.2} {:>8.2} {:>10.1} {:>9.2} {:>9.1} {:>9.1}",
+            row.stiffness_n_per_mm,
+            row.force_max_n,
+            row.wire_mm,
+            row.coil_mm,
+            row.coils,
+            row.stress_mpa,
+            row.surge_hz,
+            row.solid_length_mm,
+            row.free_length_mm
+        )
+    }));
+    Section::new("spring_bodies", &serde_json::json!({ "springs": rows })).with_words(words)
+}
+
+/// Rounding of the stress of a wire that is found for it.
+const ROUNDING: f64 = 1e-12;
+
+fn measures_of(rows: &[SpringBodyRow], allowable: f64) -> Vec<Measure> {
+    let largest = rows.iter().map(|row| row.stress_mpa).fold(0.0, f64::max);
+    let slowest = rows.iter().map(|row| row.surge_hz / row.crank_hz).fold(f64::INFINITY, f64::min);
+    let limit = 1e-6 * allowable;
+    let bent = rows.iter().map(|row| row.buckling).fold(0.0, f64::max);
+    let least = |of: fn(&SpringBodyRow) -> f64| rows.iter().map(of).fold(f64::INFINITY, f64::min);
+    let thickest = rows.iter().map(|row| row.wire_mm).fold(0.0, f64::max);
+    let stress = spring_stress::CHECK.measure(largest, Some(limit)).kept(largest <= limit * (1.0 + ROUNDING));
+    let coiled = spring_coils::measures(least(|row| row.coils), thickest, least(|row| row.coil_mm / row.wire_mm));
+    std::iter::once(stress)
+        .chain(coiled)
+        .chain([surge::CHECK.measure(slowest, Some(surge::LEAST)), buckling::measure(bent)])
+        .collect()
+}
+
+/// Every spring at every speed.
+fn sets_of(press: &Press, stiffnesses: &[f64], speeds: &[f64]) -> Result<Vec<(f64, SpringBuffer)>, Refusal> {
+    let set = |stiffness: f64, rpm: f64| {
+        let set = spring::set_for(&braked_by(press), &press.cylinder(), stiffness, rpm);
+        set.map_err(|soft| soft.at(format!("{rpm} rpm")))
+    };
+    // The speed that needs the stiffest spring comes first: its report serves for all.
+    let fastest = speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    for stiffness in stiffnesses {
+        set(*stiffness, fastest)?;
+    }
+    let all = stiffnesses.iter().flat_map(|stiffness| speeds.iter().map(|rpm| (*stiffness, *rpm)));
+    all.map(|(stiffness, rpm)| Ok((rpm, set(stiffness, rpm)?))).collect()
+}
+
+const NOT_MODELLED: &[&str] = &[
+    "Mass of spring and bottom, and their oscillation.",
+    "Leakage and the flow of heat: the exponent of the air is the same at every speed.",
+];
+
+fn set_of(rpm: f64, spring: &SpringBuffer) -> SpringSet {
+    SpringSet {
+        stiffness_n_per_mm: spring.stiffness / MILLIMETRES,
+        spring_travel_mm: MILLIMETRES * spring.travel,
+        air_length_mm: MILLIMETRES * spring.column,
+        residual_max_n: spring.residual,
+        rpm,
+        compressed_length_mm: MILLIMETRES * spring.compressed_length,
+        residual_at_mm: MILLIMETRES * spring.residual_at,
+        screw_mm: spring.screw.map(|screw| MILLIMETRES * screw),
+        spring_force_max_n: spring.spring_force_max,
+    }
+}
+
+/// Over the braking half under a yoke, whose other half is its mirror; over the whole reversal under a linkage.
+fn curve(press: &Press, rpm: f64, spring: &SpringBuffer) -> Vec<SpringRow> {
+    let at = |crank: f64, [x, deceleration]: [f64; 2], residual: f64| {
+        let inertia = press.bed.inertia(rpm, deceleration);
+        let (air, travel) = (spring.air(x), spring.spring_travel(x));
+        SpringRow { stiffness: spring.stiffness, rpm, crank, x, inertia, air, residual, travel }
+    };
+    match &press.stroke_end {
+        None => places(press.bed.crank_radius).map(|x| at(f64::NAN, [x, x], spring.residual(x))).collect(),
+        Some(end) => places(end.angle())
+            .map(|crank| {
+                let bed = end.at(crank);
+                at(crank, [bed.x[0], bed.deceleration()[0].max(0.0)], spring.residual_at_crank(crank))
+            })
+            .collect(),
+    }
+}
+
+fn words(springs: &Springs<'_>, press: &Press) -> Vec<String> {
+    let design = press.design_rpm;
+    let fastest = springs.settings.iter().map(|row| row.rpm).fold(design, f64::max);
+    let faster = spring::least_stiffness(&braked_by(press), fastest) / MILLIMETRES;
+    let faster = (fastest > design).then(|| format!(", at {} rpm more than {faster:.4}", shown(fastest)));
+    let mut lines = vec![
+        format!("{}; a spring under the bottom of each", springs.cylinders.words()),
+        format!(
+            "at the design speed of {} rpm more than {:.4} N/mm each are needed{}; a fixed bottom leaves {:.2} N there",
+            shown(design),
+            springs.least_stiffness_n_per_mm,
+            faster.unwrap_or_default(),
+            springs.residual_fixed_bottom_max_n
+        ),
+        format!(
+            "{:>10} {:>8} {:>10} {:>9} {:>9} {:>11} {:>9} {:>9} {:>11}",
+            "N/mm each", "rpm", "travel/mm", "air/mm", "left/mm", "residual/N", "at x/mm", "screw/mm", "N each"
+        ),
+    ];
+    lines.extend(springs.settings.iter().map(|row| {
+        format!(
+            "{:>10.3} {:>8} {:>10.3} {:>9.3} {:>9.3} {:>11.2} {:>9.3} {:>9} {:>11.1}",
+            row.stiffness_n_per_mm,
+            shown(row.rpm),
+            row.spring_travel_mm,
+            row.air_length_mm,
+            row.compressed_length_mm,
+            row.residual_max_n,
+            row.residual_at_mm,
+            row.screw_mm.map_or("–".into(), |screw| format!("{screw:.3}")),
+            row.spring_force_max_n
+        )
+    }));
+    lines
+}
+
+/// Figure 11 of the paper, with the residual below.
+fn curves_of(machine: &str, sets: &[(f64, SpringBuffer)], rows: &[SpringRow]) -> Plot {
+    let name =
+        |rpm: f64, spring: &SpringBuffer| format!("{:.2} N/mm, {} rpm", spring.stiffness / MILLIMETRES, shown(rpm));
+    let of_sets: Vec<&[SpringRow]> = rows.chunks(PLACES as usize + 1).collect();
+    let by_crank = rows.first().is_some_and(|row| row.crank.is_finite());
+    let points = |rows: &[SpringRow], value: fn(&SpringRow) -> f64| -> Vec<[f64; 2]> {
+        let place = |row: &SpringRow| if by_crank { row.crank.to_degrees() } else { MILLIMETRES * row.x };
+        rows.iter().map(|row| [place(row), value(row)]).collect()
+    };
+    let of = |value: fn(&SpringRow) -> f64| -> Vec<PlotCurve> {
+        let curve = |(colour, ((rpm, spring), rows)): (usize, (&(f64, SpringBuffer), &&[SpringRow]))| PlotCurve {
+            name: name(*rpm, spring),
+            colour,
+            bold: true,
+            points: points(rows, value),
+        };
+        sets.iter().zip(&of_sets).enumerate().map(curve).collect()
+    };
+    let mut speeds: Vec<&[SpringRow]> = of_sets.clone();
+    speeds.sort_by(|a, b| speed_of(a).total_cmp(&speed_of(b)));
+    speeds.dedup_by(|a, b| speed_of(a) == speed_of(b));
+    let inertia = |rows: &[SpringRow]| {
+        let all = points(rows, |row| row.inertia);
+        // Under a yoke it is a straight line.
+        let ends = [all.first(), all.last()].into_iter().flatten().copied().collect();
+        PlotCurve {
+            name: format!("inertia, {} rpm", shown(speed_of(rows))),
+            colour: plot::GREY,
+            bold: false,
+            points: if by_crank { all } else { ends },
+        }
+    };
+    let forces = [speeds.into_iter().map(inertia).collect(), of(|row| row.air)].concat();
+    let along = if by_crank { "crank angle from the start of the reversal, degrees" } else { CurveAxis::OVERRUN.words };
+    Plot {
+        title: format!("{machine}: buffers on springs"),
+        places: along.into(),
+        panels: vec![
+            PlotPanel {
+                name: "Force, N: inertia of the bed (thin), air of both cylinders (bold)".into(),
+                curves: forces,
+            },
+            PlotPanel { name: "Residual force, inertia less air, N".into(), curves: of(|row| row.residual) },
+        ],
+        ..Plot::default()
+    }
+}
+
+fn speed_of(rows: &[SpringRow]) -> f64 {
+    rows.first().map_or(f64::NAN, |row| row.rpm)
+}

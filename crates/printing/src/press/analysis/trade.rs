@@ -1,0 +1,279 @@
+//! Speed against accuracy of the cams of a press.
+
+use super::drive::{self, DriveSolver};
+use crate::press::MachineOfPress;
+use crate::press::SpecOfPress;
+use crate::press::cams;
+use crate::press::checks::closing;
+use crate::press::conoid::Conoid;
+use crate::press::machine::DriveMachine;
+use crate::press::machine::exact_on;
+use crate::press::motion::equation_18::{BedDirection, BottomMotion, Solver};
+use crate::press::scatter::{self, reset::ScrewRule};
+use crate::press::wedge::LAW_TOLERANCE;
+use crate::press::wedge::Wedge;
+use camgen_cams::analysis::Analysis;
+use camgen_cams::body::Kind;
+use camgen_cams::machine::Machine;
+use camgen_cams::pipeline::{Judged, Spec};
+use camgen_cams::report::{Speeds, failed, shown};
+use camgen_cams::trade::solver::{self, SolverRow, SolverTask};
+use camgen_cams::trade::{
+    self, ACCELERATION, COMMAND, LeftOver, SettingLadder, TradeLaw, TradeLimits, TradeProduct, TradeRun, TradeSetting,
+    TradeTask, flags, ladder, of_disc,
+};
+use camgen_cams::write::number::shortest;
+use camgen_kernel::profile::outline::SegmentKind;
+use camgen_kernel::refusal::Refusal;
+use std::time::Duration;
+
+/// The disc cam.
+pub const ROTARY: Kind = Kind { command: COMMAND, noun: "time and accuracy of a rotary cam", keys: cams::ROTARY };
+/// The plate.
+pub const TRANSLATING: Kind =
+    Kind { command: COMMAND, noun: "time and accuracy of a translating cam", keys: cams::TRANSLATING };
+
+/// The sections of a conoid.
+pub const CONOID: Kind =
+    Kind { command: COMMAND, noun: "time and accuracy of the sections of a conoid", keys: cams::CONOID };
+/// The steps of the drive.
+pub const DRIVE: Kind =
+    Kind { command: COMMAND, noun: "time and accuracy of the drive by sections", keys: drive::KIND.keys };
+
+/// Numbers of sections, and steps in degrees that divide a right angle.
+const SECTIONS: [u32; 8] = [2, 3, 4, 5, 6, 8, 10, 12];
+const STEPS: [f64; 7] = [10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1];
+/// A conoid whose checks are asked for is drawn to this, m.
+const TOLERANCE: f64 = 5e-6;
+/// Error of the speed that is kept, as a share.
+const DRIVE_SHARE: f64 = 1e-3;
+/// Largest residual force by default, as a share of the largest inertia.
+const SHARE: f64 = 1e-4;
+/// Tolerances of the differential equation, by name in mm and in m, and stations of the paper's method.
+const ODE: [(&str, f64); 4] = [("1e-3", 1e-6), ("1e-6", 1e-9), ("1e-9", 1e-12), ("1e-12", 1e-15)];
+const STATIONS: [u32; 4] = [18, 180, 1800, 18_000];
+/// Tolerance of the outline on the ladder of the law, m.
+const LAW_LADDER_TOLERANCE: f64 = 1e-6;
+/// Places at which two motions are compared.
+const PLACES: u32 = 360;
+
+/// Limits that the advice keeps; `None` is the default.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PressTradeLimits {
+    /// Largest residual force, N; by default a ten-thousandth of the largest inertia.
+    pub residual: Option<f64>,
+    /// Largest acceleration error / largest acceleration; by default as for `--accuracy standard`.
+    pub acceleration: Option<f64>,
+}
+
+/// The disc cam of a press for a speed (rpm) over all settings, with what other parts of the machine leave.
+///
+/// # Errors
+/// [`Refusal`] when the machine is no press, or a setting cannot be made.
+pub fn rotary(
+    machine: &Machine,
+    rpm: f64,
+    limits: PressTradeLimits,
+    others: Vec<LeftOver>,
+    run: TradeRun<'_>,
+) -> Result<Analysis, Refusal> {
+    let others = others.into_iter().chain(left_in_practice(machine, rpm)).collect();
+    let own = machine.clone();
+    let settings = of_disc(move || Ok(Spec::rotary(own.clone(), rpm)))?;
+    of_press(&ROTARY, cams::ROTARY, (machine, rpm), limits, (settings, others), run)
+}
+
+/// The plate of a press for a speed (rpm) over all settings, those of its differential equation among them.
+///
+/// # Errors
+/// [`Refusal`] when the machine is no press, or a setting cannot be made.
+pub fn translating(
+    machine: &Machine,
+    rpm: f64,
+    limits: PressTradeLimits,
+    run: TradeRun<'_>,
+) -> Result<Analysis, Refusal> {
+    let settings = of_plate(machine, rpm)?;
+    let plate =
+        Wedge::solve(machine, rpm, Solver::Ode { tolerance: LAW_TOLERANCE }, exact_on(machine)).map_err(Refusal::of)?;
+    let [braking, back] = [BedDirection::Braking, BedDirection::Return].map(|way| plate.residual_max(way).value);
+    let about = format!(
+        "equation (18), {} N while the bed is braked and {} N on its return (`camgen translating`)",
+        shown(braking),
+        shown(back)
+    );
+    let others = vec![LeftOver::of_force("law", braking.max(back), about)];
+    of_press(&TRANSLATING, cams::TRANSLATING, (machine, rpm), limits, (settings, others), run)
+}
+
+/// What 19 of 20 presses stay below that differ as the file says; `None` where no column balances them, or a linkage moves the bed.
+fn left_in_practice(machine: &Machine, rpm: f64) -> Option<LeftOver> {
+    let (force, rule) = scatter::analysis::left_in_practice(machine, rpm)?;
+    let screw = if rule == ScrewRule::None { "with the screw as it is" } else { "with the screw set for each" };
+    Some(LeftOver::of_force(
+        "scatter",
+        force,
+        format!("presses that differ, 19 of 20 of them, {screw} (`camgen scatter`)"),
+    ))
+}
+
+fn of_press(
+    kind: &'static Kind,
+    cam: &'static str,
+    (machine, rpm): (&Machine, f64),
+    limits: PressTradeLimits,
+    (settings, others): (SettingLadder, Vec<LeftOver>),
+    run: TradeRun<'_>,
+) -> Result<Analysis, Refusal> {
+    let inertia = machine.press()?.largest_inertia(rpm);
+    let limits = TradeLimits {
+        residual: Some(limits.residual.unwrap_or(SHARE * inertia)),
+        acceleration: Some(limits.acceleration.unwrap_or(ACCELERATION)),
+    };
+    trade::analysis(
+        &TradeTask { kind, cam, machine, rpm: Some(rpm), settings, limits, inputs: machine.inputs(cam), others },
+        run,
+    )
+}
+
+/// Evenly spaced speeds, those between the ends in thousandths.
+#[expect(clippy::cast_precision_loss, reason = "sections")]
+fn spaced((from, to): (f64, f64), count: usize) -> Vec<f64> {
+    let inner = |i: usize| (1e3 * (from + (to - from) * i as f64 / (count - 1) as f64)).round() / 1e3;
+    (0..count)
+        .map(|i| {
+            if i == 0 {
+                from
+            } else if i + 1 == count {
+                to
+            } else {
+                inner(i)
+            }
+        })
+        .collect()
+}
+
+/// The sections of a conoid for speeds from one to another (rpm): what they leave between them.
+///
+/// # Errors
+/// [`Refusal`] when the machine has no conoid, or not for these speeds.
+pub fn conoid(
+    machine: &Machine,
+    (from, to): (f64, f64),
+    limits: PressTradeLimits,
+    clock: &dyn Fn() -> Duration,
+) -> Result<Analysis, Refusal> {
+    let limit = limits.residual.unwrap_or(SHARE * machine.press()?.largest_inertia(to));
+    let row = |count: &u32| {
+        let rounded = |rpm: f64| (1e3 * rpm).round() / 1e3;
+        let inner = |i: u32| rounded(from + (to - from) * f64::from(i) / f64::from(count - 1));
+        let speeds: Vec<f64> = (0..*count)
+            .map(|i| {
+                if i == 0 {
+                    from
+                } else if i + 1 == *count {
+                    to
+                } else {
+                    inner(i)
+                }
+            })
+            .collect();
+        let typed: Vec<String> = speeds.iter().map(|rpm| shortest(*rpm)).collect();
+        let setting = (format!("{count} sections"), format!("--rpm {}", typed.join(",")), *count as usize);
+        SolverRow::measured(setting, clock, || Ok(Conoid::unsized_of(machine, &speeds)?.residual_between().force))
+    };
+    let rows: Vec<SolverRow> = SECTIONS.iter().map(row).collect::<Result<_, _>>()?;
+    let failing = |count: usize| -> Result<Vec<String>, Refusal> {
+        let made = Spec::conoid(machine.clone(), spaced((from, to), count), None).solve().map_err(Refusal::of)?;
+        let proven = made.draw(TOLERANCE).and_then(camgen_cams::pipeline::Drawing::prove).map_err(Refusal::of)?;
+        Ok(failed(proven.findings()).into_iter().map(str::to_owned).collect())
+    };
+    let task = SolverTask {
+        kind: &CONOID,
+        machine: machine.name(),
+        word: "conoid",
+        speeds: Speeds::Several(vec![from, to]),
+        inputs: machine.inputs(cams::CONOID),
+        error: ("residual_n", "N", "largest residual force between the sections of a conoid"),
+        limit,
+    };
+    solver::analysis(task, &rows, failing)
+}
+
+/// The steps of the paper's method for a bed that plain buffers brake: the error of the crank's speed.
+///
+/// # Errors
+/// [`Refusal`] when the column is used up within the stroke.
+pub fn drive(machine: &DriveMachine, clock: &dyn Fn() -> Duration) -> Result<Analysis, Refusal> {
+    let row = |degrees: &f64| {
+        let word = shortest(*degrees);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "steps of a quarter of a turn")]
+        let steps = (90.0 / degrees).round() as usize;
+        let setting = (format!("step {word}°"), format!("--solver paper --step {word}deg"), steps);
+        SolverRow::measured(setting, clock, || {
+            drive::error_of_sections(machine, degrees.to_radians()).map_err(Refusal::of)
+        })
+    };
+    let rows: Vec<SolverRow> = STEPS.iter().map(row).collect::<Result<_, _>>()?;
+    let task = SolverTask {
+        kind: &DRIVE,
+        machine: machine.name(),
+        word: "drive",
+        speeds: Speeds::Any(()),
+        inputs: machine.inputs().to_vec(),
+        error: ("error", "", "largest error of the crank's speed by the paper's sections"),
+        limit: DRIVE_SHARE,
+    };
+    // A machine that does not close fails at every step.
+    let failing = |_| {
+        let made = drive::analysis(machine, DriveSolver::Energy, STEPS[0].to_radians()).map_err(Refusal::of)?;
+        Ok(if Judged::new(made).passed() { Vec::new() } else { vec![closing::CHECK.name.to_owned()] })
+    };
+    solver::analysis(task, &rows, failing)
+}
+
+/// The plate: all outlines with the finest law, then every law at 1 µm. Every law is solved once a round.
+fn of_plate(machine: &Machine, rpm: f64) -> Result<SettingLadder, Refusal> {
+    let ([.., (_, finest)], balance) = (ODE, exact_on(machine));
+    let solve = |solver: Solver| Wedge::solve(machine, rpm, solver, balance).map_err(Refusal::of);
+    let truth = solve(Solver::Ode { tolerance: finest })?;
+    let law = |solver: Solver| -> Result<TradeLaw, Refusal> {
+        let (machine, plate) = (machine.clone(), solve(solver)?);
+        let spec = move || Spec::translating(machine.clone(), rpm, solver, balance);
+        let solve = move || spec().solve().map_err(Refusal::of);
+        let (error_mm, residual_n) = (1e3 * apart(&truth, &plate), plate.residual_max(BedDirection::Braking).value);
+        Ok(TradeLaw { cam: solve()?, solve: Box::new(solve), error_mm, residual_n })
+    };
+    let ode = |(name, tolerance): &(&str, f64)| (format!("ode {name} mm, 1 µm"), Solver::Ode { tolerance: *tolerance });
+    let paper = |stations: &u32| (format!("paper {stations}, 1 µm"), Solver::Paper { stations: *stations });
+    let of_law: Vec<(String, Solver)> = ODE.iter().map(ode).chain(STATIONS.iter().map(paper)).collect();
+    let mut laws = vec![law(Solver::Ode { tolerance: finest })?];
+    let mut settings = ladder();
+    for (name, solver) in of_law {
+        let is_finest = solver == Solver::Ode { tolerance: finest };
+        if !is_finest {
+            laws.push(law(solver)?);
+        }
+        let number = if is_finest { 0 } else { laws.len() - 1 };
+        let made = TradeProduct::Outline { laid: SegmentKind::Arcs, share: None };
+        // The command integrates to a tolerance of its own.
+        let flags = match solver {
+            Solver::Paper { stations } => {
+                Some(format!("{} --solver paper --stations {stations}", flags(LAW_LADDER_TOLERANCE, None)))
+            }
+            Solver::Ode { .. } => None,
+        };
+        settings.push(TradeSetting { name, flags, law: number, tolerance: LAW_LADDER_TOLERANCE, made });
+    }
+    Ok((laws, settings))
+}
+
+/// Largest distance of two motions over the stroke, m.
+fn apart(a: &Wedge, b: &Wedge) -> f64 {
+    let at = |motion: &BottomMotion, x: f64| motion.at(x, false)[0];
+    let off = |i: u32| {
+        let x = a.stroke() * f64::from(i) / f64::from(PLACES);
+        (at(a.motion().motion(), x) - at(b.motion().motion(), x)).abs()
+    };
+    (0..=PLACES).map(off).fold(0.0, f64::max)
+}

@@ -1,0 +1,38 @@
+//! The lift that a run-up adds: it grows with the square of the speed.
+
+use crate::press::load::RunUp;
+use camgen_cams::check::{Check, CheckExplanation, CheckScope, Measure};
+use camgen_cams::report::{Bound, Verdict};
+
+/// The check.
+pub const CHECK: Check = Check {
+    name: "run_up",
+    on: CheckScope::Cam,
+    unit: "mm",
+    about: "How far the run-up moves the bottom before the reversal begins. It grows with the square of the speed and of the \
+            width; beyond the stroke of the bed the cam is larger than the machine it is for.",
+    explained: CheckExplanation {
+        bound: Bound::AtMost,
+        formula: "the travel of the bottom in the transition, against the stroke 2r of the bed",
+        usual: "camgen's own rule: the stroke of the bed",
+        change: "a narrower `transition.width`, `buffer.column = \"matched\"`, or a smaller `buffer.lead`",
+    },
+};
+
+/// Widths are reported in tenths of a degree, or with two digits where they are smaller.
+fn in_degrees(width: f64) -> f64 {
+    let degrees = width.to_degrees();
+    let digits = if degrees >= 1.0 { 10.0 } else { libm::pow(10.0, 1.0 - libm::log10(degrees).floor()) };
+    (degrees * digits).floor() / digits
+}
+
+/// Measure of the lift that a run-up adds.
+#[must_use]
+pub fn measure(run_up: &RunUp) -> Measure {
+    let beyond = run_up.travel > run_up.stroke;
+    let note = beyond.then(|| {
+        format!("run-up lift exceeds the stroke; transition.width = \"{} deg\" would not", in_degrees(run_up.width))
+    });
+    let verdict = if beyond { Verdict::Warn } else { Verdict::Pass };
+    CHECK.measure(1e3 * run_up.travel, Some(1e3 * run_up.stroke)).judged(verdict).noted(note)
+}

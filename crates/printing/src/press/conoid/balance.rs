@@ -1,0 +1,72 @@
+//! What the verdicts on a conoid rest on: the force balance over all its speeds, air, run-up, and a roller for a stress.
+
+use super::between::{self, Residual};
+use super::{Conoid, bottom_law_at};
+use crate::press::load::{AirBuffer, Balance, RunUp};
+use crate::press::motion::Reversal;
+use camgen_cams::body::Figures;
+use camgen_kernel::follower::TranslatingRoller;
+use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::profile::Worst;
+use std::sync::Arc;
+
+/// Rollers so many times as large are tried to lower a stress.
+const LARGER_ROLLERS: [f64; 5] = [1.1, 1.25, 1.5, 2.0, 3.0];
+
+impl Conoid {
+    /// The inertia of the fastest section, and what is left without a cam at the speed at which most is left with it.
+    pub(super) fn forces_balanced(&self) -> Balance {
+        let law = bottom_law_at(&self.press, &self.data, self.largest_residual().rpm);
+        let fastest = self.speeds.last().copied().unwrap_or(0.0);
+        let without_cam = self.cylinder.residual_fixed_bottom(&law);
+        Balance { inertia: self.press.largest_inertia(fastest), without_cam, mean: false }
+    }
+
+    /// Least air: of the sections, and of the speed between them at which the forces balance worst.
+    pub(super) fn air(&self) -> Worst {
+        let speeds = self.speeds.iter().copied().chain([self.largest_residual().rpm]);
+        let of = |rpm: f64| {
+            let (air, at) = between::air_at(self, rpm);
+            Worst { value: -air, at, z: self.position(rpm) }
+        };
+        let least = speeds.map(of).fold(Worst::NONE, Worst::or_larger);
+        Worst { value: -least.value, ..least }
+    }
+
+    /// The longest run-up of the sections.
+    pub(super) fn ramp(&self) -> Option<RunUp> {
+        let of = |section: &Reversal| AirBuffer::new(self.cylinder, Arc::new(section.clone())).run_up();
+        let larger = |best: RunUp, next: RunUp| if next.travel > best.travel { next } else { best };
+        self.sections.iter().filter_map(of).reduce(larger)
+    }
+
+    /// The most that is left at any speed: between the sections, or of a single one.
+    pub(super) fn largest_residual(&self) -> Residual {
+        let between = self.residual_between();
+        if self.speeds.first() == self.speeds.last() { between::at_sections(self) } else { between }
+    }
+
+    /// A larger roller that lowers a contact stress to a limit, as a key of the machine file; the cam is solved for it.
+    pub(super) fn roller_for_stress(&self, stress: f64, limit: f64) -> Option<String> {
+        // By Hertz a pressure of spheres falls with the power 2/3 of their radii: smaller rollers are not tried.
+        let could = |factor: &f64| factor * factor * limit.powi(3) >= stress.powi(3);
+        let speeds: Vec<f64> = self.sections_cut().iter().map(|(rpm, ..)| *rpm).collect();
+        let keeps = |radius_mm: &f64| {
+            let mut machine = (*self.machine).clone();
+            let radius = radius_mm / MILLIMETRES;
+            if let Some(roller) = &mut machine.follower.roller {
+                roller.radius = radius;
+                machine.follower.shape =
+                    Arc::new(TranslatingRoller::new(1.0 + roller.offset.abs(), roller.offset, radius));
+            }
+            let stress = Conoid::solve(&machine, &speeds).ok().and_then(|conoid| conoid.contact_stress());
+            stress.is_some_and(|stress| stress.value <= limit)
+        };
+        LARGER_ROLLERS
+            .into_iter()
+            .filter(could)
+            .map(|factor| (factor * MILLIMETRES * self.roller.radius).ceil())
+            .find(|radius| keeps(radius))
+            .map(|radius| format!("follower.roller.radius = \"{radius} mm\""))
+    }
+}

@@ -1,0 +1,123 @@
+//! The figures of a conoid that checks judge.
+
+use super::{Conoid, bottom_law_at};
+use crate::press::load::{Balance, ForceBalanced, RunUp};
+use crate::press::machine::Press;
+use crate::press::motion::Reversal;
+use crate::press::smoother::smoother;
+use camgen_cams::body::{Figures, STRAIGHT, broken_limit, no_radius, passing, radius_of, stress};
+use camgen_cams::check::contact_stress::ContactKind;
+use camgen_cams::check::continuity::RunMotion;
+use camgen_kernel::profile::size::rounded_up;
+use camgen_kernel::profile::{Worst, extremes};
+
+impl Figures for Conoid {
+    /// The angle between the roller's path and the normal of the section, over every place of the roller.
+    fn pressure_angles(&self) -> [Worst; 2] {
+        let largest = self.worst(|conoid, place| {
+            let (height, slope) = conoid.height_and_slope(&place.partials);
+            libm::atan2(slope, height).abs()
+        });
+        [largest, Worst::NONE]
+    }
+
+    /// By the principal curvatures of the pitch surface.
+    fn least_radius(&self) -> Worst {
+        let corner = |z: &f64| {
+            let corners = extremes::corners(self.plane_of(&self.slice(*z)));
+            corners.iter().find(|c| c.turn > 0.0).map(|c| Worst { value: 0.0, at: c.at, z: *z })
+        };
+        self.positions.iter().find_map(corner).unwrap_or_else(|| radius_of(self.sharpest_smooth()))
+    }
+
+    /// The largest ball that fits into the concave parts of the cam's surface.
+    fn min_concave_radius(&self) -> Option<Worst> {
+        let min_concave_radius = self.worst_of_metal(|conoid, partials| -conoid.curvatures_of(partials).1);
+        (min_concave_radius.value > STRAIGHT)
+            .then(|| Worst { value: 1.0 / min_concave_radius.value + self.roller.radius, ..min_concave_radius })
+    }
+
+    fn roller_radius(&self) -> Option<f64> {
+        Some(self.roller.radius)
+    }
+
+    /// Of every section.
+    fn run_motions(&self) -> Vec<RunMotion<'_>> {
+        let speed = |rpm: f64| Some(self.press.bed.crank_speed(rpm) / f64::from(self.lobes.max(1)));
+        let all = self.sections.iter().zip(&self.positions).zip(&self.speeds);
+        all.map(|((section, z), rpm)| RunMotion { motion: section, z: *z, speed: speed(*rpm) }).collect()
+    }
+
+    /// Metal between the bore and the nearest place of the surface.
+    fn wall(&self) -> Option<(f64, Option<Worst>)> {
+        let bore = self.machine.cam.bore_reach()?;
+        let nearest = self.smallest_radius();
+        Some((nearest.value - bore, Some(nearest)))
+    }
+
+    /// Largest pressure of the sphere of the roller on the surface, at the speed of each section.
+    fn contact_stress(&self) -> Option<Worst> {
+        let material = self.machine.cam.material?.class;
+        let radius = self.roller.radius;
+        // The cube of the pressure is smooth where the force vanishes.
+        let cubed = self.worst_of_sections(|section, rpm, z, piece, angle| {
+            let contact = self.contact(piece, angle, z);
+            let path = contact.normal.x * libm::cos(angle) + contact.normal.y * libm::sin(angle);
+            let force = self.path_force(section, rpm, piece, angle).max(0.0) / path;
+            // The cam's own surface lies a roller's radius inside the pitch surface.
+            let (first, second) = self.principal_curvatures(piece, angle, z);
+            let inside = |curvature: f64| curvature / (1.0 - curvature * radius);
+            let stress = stress::of_sphere(force, radius, (inside(first), inside(second)), material);
+            stress * stress * stress
+        });
+        Some(Worst { value: libm::cbrt(cubed.value), ..cubed })
+    }
+
+    fn largest_lifting_force(&self) -> Worst {
+        self.worst_of_sections(|section, rpm, _, piece, angle| -self.path_force(section, rpm, piece, angle))
+    }
+
+    fn touching(&self) -> ContactKind {
+        ContactKind::Sphere
+    }
+
+    fn stress_remedies(&self, stress: f64, limit: f64) -> Vec<String> {
+        self.roller_for_stress(stress, limit).into_iter().collect()
+    }
+
+    fn smoother(&self) -> Option<String> {
+        let laws = |press: &Press| self.speeds.iter().map(|rpm| bottom_law_at(press, &self.data, *rpm)).collect();
+        smoother(&self.machine, laws)
+    }
+
+    fn remedy(&self) -> Option<String> {
+        let base = rounded_up(self.smallest_prime_radius? - self.roller.radius);
+        let mut other = self.clone();
+        other.resize(base + self.roller.radius);
+        Some(if broken_limit(&other).is_none() { passing(base) } else { no_radius(None, false) })
+    }
+}
+
+impl ForceBalanced for Conoid {
+    fn balance(&self) -> Balance {
+        self.forces_balanced()
+    }
+
+    fn residual_of_motion(&self) -> Worst {
+        let left = self.largest_residual();
+        Worst { value: left.force, at: left.angle, z: self.position(left.rpm) }
+    }
+
+    fn least_air(&self) -> Option<Worst> {
+        Some(self.air())
+    }
+
+    fn columns(&self) -> Vec<(f64, f64)> {
+        let of = |(section, rpm): (&Reversal, &f64)| (section.law().bottom_law.column(), *rpm);
+        self.sections.iter().zip(&self.speeds).map(of).collect()
+    }
+
+    fn run_up(&self) -> Option<RunUp> {
+        self.ramp()
+    }
+}

@@ -1,0 +1,117 @@
+//! How a conoid moves at each of its speeds, and its surface as rings about the axis.
+
+use super::Conoid;
+use crate::press::MachineOfPress;
+use crate::press::motion::Reversal;
+use crate::press::picture::{BufferPicture, PressPicture, press_poses, simplifications};
+use camgen_cams::body::picture::{Cover, FollowerPose, Scene};
+use camgen_cams::body::{Body, Drawn, Part};
+use camgen_cams::machine::Rotation;
+use camgen_cams::report::mechanism::{MechanismView, MovingMechanism, RigidPart, RingSolid, line, rectangle};
+use camgen_cams::report::sheet::rounded;
+use camgen_cams::table::turned;
+use camgen_kernel::follower::{Carrier, Element};
+use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::motion::Motion;
+use camgen_kernel::numeric::parallel;
+use nalgebra::Vector2;
+use std::f64::consts::TAU;
+
+/// What is not modelled of a conoid.
+pub(super) const NOT_MODELLED: &[&str] = &[
+    "Friction between roller and cam, in bearings and guides: forces and torque are without it.",
+    "The shift along the axis while the speed changes: each speed is shown in steady operation.",
+];
+
+/// Points of a ring of the surface, and rings between its ends.
+const RING: u32 = 120;
+const RINGS: u32 = 28;
+
+/// The mechanism of a conoid as it moves.
+pub(super) fn of(conoid: &Conoid, drawn: &Drawn, samples: u32) -> MovingMechanism {
+    let cuts = conoid.sections_cut();
+    let shown: Vec<(&(f64, f64, &Reversal), &Part)> = cuts.iter().zip(&drawn.parts).collect();
+    let views = parallel::map(&shown, |(cut, part)| view(conoid, **cut, part, samples));
+    let mut notes = simplifications(conoid.machine.end().is_some());
+    notes.push(
+        "The roller is a sphere; it is shown in the plane of its centre, which may be a little off the section.".into(),
+    );
+    MovingMechanism { views, notes, solid: Some(solid(conoid)) }
+}
+
+fn view(conoid: &Conoid, (rpm, z, section): (f64, f64, &Reversal), part: &Part, samples: u32) -> MechanismView {
+    let lobes = conoid.lobes.max(1);
+    let place = |index: u32| {
+        let (at, wrapped) = (turned(index, samples, lobes), index >= samples);
+        let cam_deg = if wrapped { 360.0 } else { at.cam_deg };
+        let (piece, angle) = section.locate(if wrapped { 0.0 } else { at.angle });
+        let contact = conoid.contact(piece, angle, z);
+        let (curve, outward) = (contact.centre.xy(), contact.normal.xy().normalize());
+        FollowerPose { angle, cam_deg, curve, outward }
+    };
+    let behind = PressPicture {
+        buffer: BufferPicture::new(&conoid.cylinder, &section.law().bottom_law),
+        poses: press_poses(section, &section.law().bottom_law, lobes, samples),
+        lever: conoid.lever,
+        under_a_linkage: conoid.machine.end().is_some(),
+    };
+    let scene = Scene {
+        second: None,
+        machine: &conoid.machine,
+        element: Element::Roller { radius: conoid.roller.radius },
+        carrier: Carrier::Straight,
+        part,
+        places: (0..=samples).map(place).collect(),
+        behind: Some(Box::new(behind)),
+        shaft_speed: Some(conoid.press.bed.crank_speed(rpm) / f64::from(lobes)),
+        rpm: Some(rpm),
+        spring: false,
+    };
+    scene.view(|parts, cover| parts.extend(axial(conoid, (rpm, z), cover)))
+}
+
+/// The cam from its side, with the places of the sections and of the roller along its axis.
+fn axial(conoid: &Conoid, (rpm, z): (f64, f64), cover: &mut Cover) -> Vec<RigidPart> {
+    let (low, high) = conoid.ends();
+    let middle = 0.5 * (low + high);
+    let along = |z: f64| MILLIMETRES * (z - middle);
+    let radius = MILLIMETRES * conoid.roller.radius;
+    let top = cover.0.least.y - 1.4 * radius;
+    let bottom = top - 1.2 * radius;
+    let ends = (along(low), along(high));
+    let mut shapes = vec![rectangle(ends, (bottom, top))];
+    shapes.extend(conoid.sections_cut().iter().map(|(_, z, _)| line((along(*z), bottom), (along(*z), top))));
+    let below = bottom - 1.6 * radius;
+    cover.add(ends, (below, top + radius));
+    let words = format!("along the axis: {} rpm at z = {} mm", rounded(rpm), rounded(MILLIMETRES * z));
+    vec![
+        RigidPart::new("ghost", shapes),
+        RigidPart::new(
+            "bottom",
+            vec![rectangle((along(z) - 0.08 * radius, along(z) + 0.08 * radius), (bottom, top + 0.5 * radius))],
+        )
+        .named(words, 0.0, bottom - 0.25 * radius),
+    ]
+}
+
+/// The surface as rings.
+fn solid(conoid: &Conoid) -> RingSolid {
+    let (low, high) = conoid.ends();
+    let mirror = if conoid.machine().cam.rotation == Rotation::CounterClockwise { -1.0 } else { 1.0 };
+    let places: Vec<f64> = (0..=RINGS).map(|i| low + (high - low) * f64::from(i) / f64::from(RINGS)).collect();
+    let ring = |z: &f64| {
+        let slice = conoid.slice(*z);
+        let point = |i: u32| {
+            let (piece, angle) = slice.locate(TAU * f64::from(i) / f64::from(RING));
+            let point = conoid.cut(piece, angle, *z).map_or_else(Vector2::zeros, |(frame, _)| frame.point);
+            Vector2::new(point.x, mirror * point.y) * MILLIMETRES
+        };
+        (MILLIMETRES * z, (0..RING).map(point).collect())
+    };
+    RingSolid {
+        rings: parallel::map(&places, ring),
+        bore: conoid.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius),
+        roller: MILLIMETRES * conoid.roller.radius,
+        sections: conoid.sections_cut().iter().map(|(rpm, z, _)| (*rpm, MILLIMETRES * z)).collect(),
+    }
+}

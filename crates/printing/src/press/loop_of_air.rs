@@ -1,0 +1,76 @@
+//! The section of the report on a rotary cam whose press loses: what both directions of the bed leave, and where the port shuts.
+
+use super::buffer::Cylinder;
+use super::buffer::crank_law::CrankLaw;
+use super::checks::losses;
+use super::machine::PressCams;
+use super::scatter::analysis::lost_in;
+use super::scatter::fault::{Fault, FrozenBuffer};
+use super::scatter::losses::LossyReversal;
+use super::scatter::report::LossReport;
+use camgen_cams::check::Measure;
+use camgen_cams::machine::Machine;
+use camgen_cams::report::{Section, shown};
+use camgen_kernel::geometry::MILLIMETRES;
+use serde::Serialize;
+
+/// The section's values.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct LoopOfAir {
+    /// `braking` or `level`.
+    balance: &'static str,
+    /// How early the port shuts before the reversal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lead_mm: Option<f64>,
+    /// What the air leaves on the way back outside the reversal, until the port opens.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    residual_at_port_n: Option<f64>,
+    /// Largest force with which the air pulls at the bottom on the way back: the follower needs at least this preload.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pull_n: Option<f64>,
+    #[serde(flatten)]
+    losses: LossReport,
+}
+
+/// The check of both directions; `None` where the machine file gives no losses.
+pub(super) fn measure(machine: &Machine, cylinder: &Cylinder, law: &CrankLaw) -> Option<Measure> {
+    let lost = lost_in(&reversal(machine, cylinder, law)?);
+    Some(losses::measure(lost.residual_n(), lost.residual_fixed_bottom_n()?))
+}
+
+/// The reversal with the losses of the machine file; `None` where it gives none.
+pub(super) fn reversal(machine: &Machine, cylinder: &Cylinder, law: &CrankLaw) -> Option<LossyReversal> {
+    let losses = PressCams::of(machine).losses;
+    let cam = losses.is_any().then(|| FrozenBuffer::of_law(law, cylinder))?;
+    LossyReversal::new(&cam, &Fault::none(law.exponent()), &losses).ok()
+}
+
+/// The section for a cam with this law; `None` where the machine file gives no losses.
+pub(super) fn section(machine: &Machine, cylinder: &Cylinder, law: &CrankLaw) -> Option<Section> {
+    let reversal = reversal(machine, cylinder, law)?;
+    let air = law.of_yoke().and_then(|law| law.level.as_ref());
+    let back = |length: f64| air.map(|air| cylinder.unit_force() * (1.0 - air.pressures(length)[1]));
+    let values = LoopOfAir {
+        balance: if air.is_some() { "level" } else { "braking" },
+        lead_mm: air.map(|_| MILLIMETRES * law.lead()),
+        residual_at_port_n: back(1.0),
+        pull_n: back(1.0).map(|pull| pull.max(0.0)),
+        losses: lost_in(&reversal),
+    };
+    let words = values.words();
+    Some(Section::new("losses", &values).with_words(words))
+}
+
+impl LoopOfAir {
+    fn words(&self) -> Vec<String> {
+        let port = self.lead_mm.zip(self.residual_at_port_n).map(|(lead, left)| {
+            format!(
+                "half of the loop is left in each direction (buffer.balance); the port shuts {} mm before the reversal, and until it opens again \
+                 the air pulls with up to {} N, which takes a preload or a valve that lets air in",
+                shown(lead),
+                shown(left)
+            )
+        });
+        self.losses.words().into_iter().chain(port).collect()
+    }
+}

@@ -1,0 +1,445 @@
+//! What the cams of a press report.
+
+use super::buffer::{CYLINDERS, bore_of, total_area};
+use camgen_cams::report::sheet::rounded;
+use camgen_cams::report::{Finding, OutlineMeasures, Rolled, Section, Verdict, Weight, shown};
+use camgen_kernel::geometry::MILLIMETRES;
+use serde::{Deserialize, Serialize};
+
+/// Measures of a plate on the bed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct PlateMeasures {
+    pub length_mm: f64,
+    pub height_mm: f64,
+    pub thinnest_mm: f64,
+    pub thinnest_at_x_mm: f64,
+    /// Distance of the roller's centre from the bed's axis where Δx = 0: the start of the pitch curve of (21).
+    pub axis_distance_mm: f64,
+}
+
+/// The section `cam` of a wedge.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct WedgeMeasures {
+    pub roller_radius_mm: f64,
+    pub max_lift_mm: f64,
+    pub plate: PlateMeasures,
+    #[serde(flatten)]
+    pub weight: Weight,
+}
+
+impl WedgeMeasures {
+    /// The section.
+    #[must_use]
+    pub fn section(&self) -> Section {
+        let (plate, lift) = (&self.plate, format!("lift {:.3} mm", self.max_lift_mm));
+        let mut words = vec![format!(
+            "plate {:.2} × {} mm, {:.3} mm at its thinnest (x = {:.2} mm), roller Ø{} mm, {lift}",
+            plate.length_mm,
+            shown(plate.height_mm),
+            plate.thinnest_mm,
+            plate.thinnest_at_x_mm,
+            shown(2.0 * self.roller_radius_mm)
+        )];
+        words.extend(self.weight.words());
+        let size = format!(
+            "plate {} × {} mm, {:.2} mm at its thinnest, roller Ø{} mm",
+            rounded(plate.length_mm),
+            rounded(plate.height_mm),
+            plate.thinnest_mm,
+            rounded(2.0 * self.roller_radius_mm)
+        );
+        let figures = [size, lift].into_iter().chain(self.weight.figure()).collect();
+        Section::new("cam", self).with_words(words).with_figures(figures)
+    }
+}
+
+/// The cylinders at one end of the bed: count, size of one, total area.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct CylinderMeasures {
+    pub cylinders: u32,
+    /// Of one cylinder, like the bore.
+    pub piston_area_mm2: f64,
+    pub bore_mm: f64,
+    pub piston_area_total_mm2: f64,
+}
+
+impl CylinderMeasures {
+    /// From the area of one piston, m².
+    #[must_use]
+    pub fn new(piston_area: f64) -> Self {
+        const SQUARE: f64 = MILLIMETRES * MILLIMETRES;
+        Self {
+            cylinders: CYLINDERS,
+            piston_area_mm2: SQUARE * piston_area,
+            bore_mm: MILLIMETRES * bore_of(piston_area),
+            piston_area_total_mm2: SQUARE * total_area(piston_area),
+        }
+    }
+
+    /// Count and bore.
+    #[must_use]
+    pub fn bore_words(&self) -> String {
+        format!("{} cylinders, bore {} mm each", self.cylinders, shown(self.bore_mm))
+    }
+
+    /// Count, bore, and piston areas of one and of all.
+    #[must_use]
+    pub fn words(&self) -> String {
+        format!(
+            "{}, piston area {} mm² each, {} mm² in all",
+            self.bore_words(),
+            shown(self.piston_area_mm2),
+            shown(self.piston_area_total_mm2)
+        )
+    }
+}
+
+/// The law of the press: the air and the motion of the bottom of the cylinders.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct AirLaw {
+    /// The Δx of largest size, signed.
+    pub dx_max_mm: f64,
+    pub dx_max_at_x_mm: f64,
+    pub column_length_mm: f64,
+    #[serde(flatten)]
+    pub cylinders: CylinderMeasures,
+    /// The slope dΔx/dx at the start of the reversal; c − 1 for a disc cam.
+    pub start_slope: f64,
+    /// Jump of the bottom's velocity at the start of the reversal.
+    pub velocity_jump_mm_per_rad: f64,
+    /// The larger jump is that at the end of the reversal.
+    #[serde(skip)]
+    pub jumps_at_end: bool,
+    /// Where a blend closes the air column at ambient pressure: the crank angle at which the bottom starts to move.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column_closed_at_crank_deg: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub equation_18: Option<Equation18>,
+}
+
+/// The reversal of a bed at one end of its stroke; angles of the crank from its start.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct ReversalOfBed {
+    /// "outer" or "inner".
+    pub end: String,
+    /// The driving crank where it starts, from the line of the slider.
+    pub start_deg: f64,
+    /// The crank angle it takes.
+    pub angle_deg: f64,
+    /// The dead point.
+    pub dead_point_deg: f64,
+    /// Where the bed is decelerated most.
+    pub largest_deceleration_deg: f64,
+    /// Overrun at the dead point, and what is left of it at the end of the reversal.
+    pub overrun_mm: f64,
+    pub overrun_left_mm: f64,
+}
+
+impl ReversalOfBed {
+    /// The section `reversal`.
+    #[must_use]
+    pub fn section(&self) -> Section {
+        let words = self.words();
+        Section::new("reversal", self).with_figures(vec![words.clone()]).with_words(vec![words])
+    }
+
+    fn words(&self) -> String {
+        let left = if self.overrun_left_mm.abs() < 1e-9 {
+            String::new()
+        } else {
+            format!("; it ends {:.3} mm from where it starts", self.overrun_left_mm)
+        };
+        format!(
+            "{} end: reversal from {:.3}° of the crank over {:.3}°, dead point {:.3}° after its start, overrun {:.3} mm{left}",
+            self.end, self.start_deg, self.angle_deg, self.dead_point_deg, self.overrun_mm
+        )
+    }
+}
+
+/// How equation (18) was solved.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct Equation18 {
+    pub solver: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance_mm: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stations: Option<u32>,
+    /// Steps of the integrator.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steps: Option<usize>,
+    pub efficiency_model: String,
+    #[serde(default)]
+    pub friction_angle_deg: f64,
+    #[serde(default)]
+    pub efficiency: f64,
+    /// The direction of the bed in which the forces balance.
+    pub balance: String,
+    /// Where the law of the slope changes.
+    pub breaks: Vec<SlopeBreak>,
+}
+
+/// A place where the law of the slope changes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct SlopeBreak {
+    pub x_mm: f64,
+    /// The state of the bottom from there on while x grows: "rising", "falling", or "stuck" where the lever sticks.
+    pub then: String,
+}
+
+impl AirLaw {
+    /// The section `law`.
+    #[must_use]
+    pub fn section(&self) -> Section {
+        let mut words = vec![
+            format!(
+                "Δx {} mm at x = {} mm, air column {} mm",
+                shown(self.dx_max_mm),
+                shown(self.dx_max_at_x_mm),
+                shown(self.column_length_mm)
+            ),
+            self.cylinders.words(),
+        ];
+        if self.velocity_jump_mm_per_rad != 0.0 {
+            words.push(format!(
+                "its velocity jumps by {:.2} mm/rad of crank at the {} of the reversal",
+                self.velocity_jump_mm_per_rad,
+                if self.jumps_at_end { "end" } else { "start" }
+            ));
+        }
+        if let Some(degrees) = self.column_closed_at_crank_deg {
+            words.push(format!(
+                "the air column is taken as closed at ambient pressure where the blend starts, {}° of the crank",
+                shown(degrees)
+            ));
+        }
+        if let Some(solved) = &self.equation_18 {
+            words.push(solved.words(self.start_slope));
+            words.extend(solved.omitted_friction());
+            let then = |at: &SlopeBreak| format!("{} from x = {:.3} mm", at.then, at.x_mm);
+            if !solved.breaks.is_empty() {
+                let breaks: Vec<String> = solved.breaks.iter().map(then).collect();
+                words.push(format!("the bottom is {}", breaks.join(", ")));
+            }
+        }
+        let figures = vec![
+            format!("air column {:.3} mm", self.column_length_mm),
+            format!("Δx {:.3} mm at x = {:.2} mm", self.dx_max_mm, self.dx_max_at_x_mm),
+            self.cylinders.bore_words(),
+        ];
+        Section::new("law", self).with_words(words).with_figures(figures)
+    }
+}
+
+/// A tolerance below this, mm, is that of the arithmetic.
+const ROUNDING_MM: f64 = 1e-9;
+
+impl Equation18 {
+    /// Names the friction that the machine file omits.
+    fn omitted_friction(&self) -> Option<String> {
+        let roller = (self.friction_angle_deg == 0.0).then_some("at the roller (translating.friction_angle is 0)");
+        let crank = (self.efficiency == 1.0).then_some("in the bell crank (translating.efficiency is 1)");
+        let omitted: Vec<&str> = roller.into_iter().chain(crank).collect();
+        (!omitted.is_empty()).then(|| format!("friction is omitted {}", omitted.join(" and ")))
+    }
+
+    fn words(&self, start_slope: f64) -> String {
+        let how = match (self.stations, self.tolerance_mm) {
+            (Some(stations), _) => format!("{stations} stations"),
+            (None, tolerance) => {
+                let steps = self.steps.unwrap_or(0);
+                match tolerance.filter(|tolerance| *tolerance > ROUNDING_MM) {
+                    Some(tolerance) => format!("{steps} steps to {} mm", shown(tolerance)),
+                    None => format!("{steps} steps to the last digits"),
+                }
+            }
+        };
+        format!(
+            "equation (18) by {} in {how}, efficiency {}, forces balanced: {}, slope at the start {}",
+            self.solver,
+            self.efficiency_model,
+            self.balance,
+            shown(start_slope)
+        )
+    }
+}
+
+/// Forces of a plane cam.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct ForceMeasures {
+    pub inertia_max_n: f64,
+    /// Largest |inertia − air| over the reversal with the lift as rolled on the written outline, or, where nothing was
+    /// rolled, of the law.
+    pub residual_max_n: f64,
+    pub residual_share: f64,
+    pub residual_fixed_bottom_max_n: f64,
+    #[serde(default, flatten)]
+    pub by_direction: Option<ResidualByDirection>,
+    /// Along the roller's path; with preload and inertia of the follower where they are given.
+    pub roller_force_max_n: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub torque_max_nm: Option<f64>,
+}
+
+/// Residual force of a plate's motion while the bed is braked and while it is accelerated back, also as shares of the
+/// largest inertia.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct ResidualByDirection {
+    pub residual_braking_max_n: f64,
+    pub residual_braking_share: f64,
+    pub residual_return_max_n: f64,
+    pub residual_return_share: f64,
+    pub residual_return_at_x_mm: f64,
+}
+
+/// Text for a residual force that is not finite.
+const UNBOUNDED: &str = "without bound (the bottom hits the piston)";
+
+impl ForceMeasures {
+    fn residual_words(&self) -> String {
+        if self.residual_max_n.is_finite() {
+            format!("{} N ({} %)", shown(self.residual_max_n), shown(100.0 * self.residual_share))
+        } else {
+            UNBOUNDED.into()
+        }
+    }
+
+    /// The section `force`.
+    #[must_use]
+    pub fn section(&self) -> Section {
+        let mut words = vec![format!(
+            "inertia {} N; inertia less air {} with this cam, {} N with a fixed bottom",
+            shown(self.inertia_max_n),
+            self.residual_words(),
+            shown(self.residual_fixed_bottom_max_n)
+        )];
+        words.push(match self.torque_max_nm {
+            Some(torque) => {
+                format!(
+                    "roller at most {:.1} N along its path, camshaft at most {torque:.1} N·m",
+                    self.roller_force_max_n
+                )
+            }
+            None => format!("each roller at most {:.1} N along the normal", self.roller_force_max_n),
+        });
+        let mut figures = vec![
+            if self.residual_max_n.is_finite() {
+                format!("inertia {:.0} N, residual {:.2} N", self.inertia_max_n, self.residual_max_n)
+            } else {
+                format!("inertia {:.0} N, {UNBOUNDED}", self.inertia_max_n)
+            },
+            format!("a fixed bottom would leave {:.0} N", self.residual_fixed_bottom_max_n),
+        ];
+        if let Some(both) = &self.by_direction {
+            words.push(format!(
+                "the law leaves {} N ({} %) while braking, and {} N ({} %) on the return, at x = {} mm",
+                shown(both.residual_braking_max_n),
+                shown(100.0 * both.residual_braking_max_n / self.inertia_max_n),
+                shown(both.residual_return_max_n),
+                shown(100.0 * both.residual_return_max_n / self.inertia_max_n),
+                shown(both.residual_return_at_x_mm)
+            ));
+            figures.push(format!(
+                "residual {:.0} N braking, {:.0} N on the return",
+                both.residual_braking_max_n, both.residual_return_max_n
+            ));
+        }
+        Section::new("force", self).with_words(words).with_figures(figures)
+    }
+}
+
+/// The preload for another speed, and the torques there.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct PreloadAtSpeed {
+    pub rpm: f64,
+    pub preload_n: f64,
+    pub torque_before_max_nm: f64,
+    /// With the preload unchanged.
+    pub torque_unchanged_max_nm: f64,
+    pub torque_after_max_nm: f64,
+}
+
+/// The section `compensator`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct Compensation {
+    pub lift_max_mm: f64,
+    pub prime_radius_mm: f64,
+    pub base_radius_mm: f64,
+    pub roller_radius_mm: f64,
+    /// Position of its follower, from the first one in the direction of the cam angle.
+    pub angle_deg: f64,
+    /// The work that its spring stores and returns.
+    pub work_j: f64,
+    pub spring_force_max_n: f64,
+    pub torque_before_max_nm: f64,
+    /// By the law: rounding, or the inertia of its follower.
+    pub torque_after_max_nm: f64,
+    /// The torque that the losses of the machine file leave, by the law.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub torque_in_losses_max_nm: Option<f64>,
+    /// Largest torque of both discs together, by the normals where the followers touch the written outlines.
+    pub torque_as_cut_max_nm: Option<f64>,
+    pub preload_by_rpm: Vec<PreloadAtSpeed>,
+    pub outline: Option<OutlineMeasures>,
+    pub rolling: Option<Rolled>,
+    /// Every check of the second disc.
+    pub checks: Vec<Finding>,
+}
+
+impl Compensation {
+    /// The section.
+    #[must_use]
+    pub fn section(&self) -> Section {
+        let as_cut = self.torque_as_cut_max_nm.map_or(String::new(), |torque| {
+            let share = 100.0 * torque / self.torque_before_max_nm;
+            format!(", as cut {} N·m ({} %)", shown(torque), shown(share))
+        });
+        let in_losses = self.torque_in_losses_max_nm.map(|torque| {
+            format!("the losses of the buffer leave up to {} N·m of it, which no spring takes", shown(torque))
+        });
+        let mut words = vec![
+            format!(
+                "second disc: prime radius {} mm, lift {:.3} mm, roller Ø{} mm, follower at {}°",
+                shown(self.prime_radius_mm),
+                self.lift_max_mm,
+                shown(2.0 * self.roller_radius_mm),
+                shown(self.angle_deg)
+            ),
+            format!(
+                "torque on the camshaft {} N·m without, {} N·m with it by the law{as_cut}",
+                shown(self.torque_before_max_nm),
+                shown(self.torque_after_max_nm)
+            ),
+            format!("its spring stores {:.2} J, at most {:.0} N", self.work_j, self.spring_force_max_n),
+        ];
+        words.extend(in_losses);
+        words.extend(self.preload_by_rpm.iter().map(|at| {
+            format!(
+                "{} rpm, column reset: {:.1} N·m without, {:.1} N·m with it, {:.1} N·m with a preload of {:.0} N",
+                shown(at.rpm),
+                at.torque_before_max_nm,
+                at.torque_unchanged_max_nm,
+                at.torque_after_max_nm,
+                at.preload_n
+            )
+        }));
+        let broken = self.checks.iter().filter(|finding| matches!(finding.verdict, Verdict::Fail | Verdict::Warn));
+        words.extend(broken.map(|finding| {
+            let limit = finding.limit_words().map_or(String::new(), |limit| format!(", {limit}"));
+            let note = finding.note.as_ref().map_or(String::new(), |note| format!("; {note}"));
+            format!("{} {} {}{limit}{note}", finding.verdict.word(), finding.check, finding.value_words())
+        }));
+        let figures = vec![format!("compensating cam: torque {:.1} N·m without", self.torque_before_max_nm)];
+        Section::new("compensator", self).with_words(words).with_figures(figures)
+    }
+}

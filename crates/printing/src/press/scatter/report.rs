@@ -1,0 +1,309 @@
+//! The section `scatter` of a report.
+
+use super::propagation::ParameterBand;
+use super::reset::ScrewRule;
+use super::tables::{ParameterRow, PercentileRow, SettingRow};
+use crate::press::report::CylinderMeasures;
+use camgen_cams::report::{Section, shown};
+use camgen_kernel::document::NamedChoice;
+use serde::Serialize;
+
+/// One machine that differs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct FaultReport {
+    /// v = M/π.
+    pub v: f64,
+    /// Of largest size, signed.
+    pub residual_n: f64,
+    pub residual_at_mm: f64,
+    pub residual_at_end_n: f64,
+    pub end_pressure_pa: f64,
+    /// ΔL of the rules, from the column of the cam; the screw is turned by `screw_end_mm`, from where it is.
+    pub column_end_mm: f64,
+    pub screw_end_mm: f64,
+    /// For all cylinders.
+    pub added_volume_end_mm3: f64,
+    pub added_volume_end_each_mm3: f64,
+    pub residual_end_n: f64,
+    pub residual_end_at_mm: f64,
+    pub column_level_mm: f64,
+    pub screw_level_mm: f64,
+    pub residual_level_n: f64,
+    /// ΔL and Δe of screw and port together, what they are changed by, and what they leave.
+    pub column_with_port_mm: f64,
+    pub lead_with_port_mm: f64,
+    pub screw_with_port_mm: f64,
+    pub port_mm: f64,
+    pub residual_with_port_n: f64,
+}
+
+/// What a reversal with losses leaves.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct LossReport {
+    pub residual_in_n: f64,
+    pub residual_in_at_mm: f64,
+    pub residual_back_n: f64,
+    pub residual_back_at_mm: f64,
+    /// What fixed bottoms leave in the same losses, their column by (7).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual_in_fixed_bottom_n: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual_back_fixed_bottom_n: Option<f64>,
+    /// Half of what the way back leaves more.
+    pub half_loop_n: f64,
+    pub half_loop_at_mm: f64,
+    /// In a reversal.
+    pub work_lost_j: f64,
+    /// Share of the air at its end.
+    pub air_left: f64,
+}
+
+impl LossReport {
+    /// What fixed bottoms leave in the same losses in the worse direction, N, at least 0.
+    #[must_use]
+    pub fn residual_fixed_bottom_n(&self) -> Option<f64> {
+        let both = self.residual_in_fixed_bottom_n.zip(self.residual_back_fixed_bottom_n);
+        both.map(|(on_way_in, back)| on_way_in.abs().max(back.abs()))
+    }
+
+    /// What is left in the worse direction, N, at least 0.
+    #[must_use]
+    pub fn residual_n(&self) -> f64 {
+        self.residual_in_n.abs().max(self.residual_back_n.abs())
+    }
+
+    /// The values in words.
+    #[must_use]
+    pub fn words(&self) -> Vec<String> {
+        let fixed = self.residual_in_fixed_bottom_n.zip(self.residual_back_fixed_bottom_n).map(|(on_way_in, back)| {
+            format!("a fixed bottom with these losses: {} N on the way in, {} N back", shown(on_way_in), shown(back))
+        });
+        let cam = [
+            format!(
+                "with its losses {} N at x = {} mm on the way in, {} N at x = {} mm back",
+                shown(self.residual_in_n),
+                shown(self.residual_in_at_mm),
+                shown(self.residual_back_n),
+                shown(self.residual_back_at_mm)
+            ),
+            format!(
+                "half of the loop {} N at x = {} mm, which neither cam nor screw takes out; the air loses {} J in a reversal, which bed and camshaft give; {} % of the air is still in the cylinder at its end",
+                shown(self.half_loop_n),
+                shown(self.half_loop_at_mm),
+                shown(self.work_lost_j),
+                shown(100.0 * self.air_left)
+            ),
+        ];
+        cam.into_iter().chain(fixed).collect()
+    }
+}
+
+/// The range in which the cam has less residual force than a fixed bottom, each reset by the same rule.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct UsefulRange {
+    pub reset: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub v_min: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rpm_min: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub v_max: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rpm_max: Option<f64>,
+}
+
+impl UsefulRange {
+    /// For the bounds of v of a cam that is cut for a speed, rpm.
+    #[must_use]
+    pub fn new([least, most]: [Option<f64>; 2], rpm: f64, rule: ScrewRule) -> Self {
+        let speed = |variable: f64| rpm * libm::sqrt(variable);
+        Self { reset: rule.word(), v_min: least, rpm_min: least.map(speed), v_max: most, rpm_max: most.map(speed) }
+    }
+
+    /// A sentence.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let at = |v: Option<f64>, rpm: Option<f64>| v.zip(rpm).map(|(v, rpm)| format!("v = {v:.2} ({rpm:.1} rpm)"));
+        let rule = format!("than the cam, the screws of both reset by the rule {}", self.reset);
+        match (at(self.v_min, self.rpm_min), at(self.v_max, self.rpm_max)) {
+            (Some(least), Some(most)) => {
+                format!("below {least} and above {most} a fixed bottom has less residual force {rule}")
+            }
+            (Some(least), None) => format!("below {least} a fixed bottom has less residual force {rule}"),
+            (None, Some(most)) => format!("above {most} a fixed bottom has less residual force {rule}"),
+            (None, None) => format!("at no speed a fixed bottom has less residual force {rule}"),
+        }
+    }
+}
+
+/// What the bands of all parameters leave together.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct BandsReport {
+    pub parameters: Vec<ParameterRow>,
+    pub worst_weak_n: f64,
+    pub worst_weak_at_mm: f64,
+    pub worst_strong_n: f64,
+    pub worst_strong_at_mm: f64,
+    pub linear_bound_n: f64,
+    /// Standard deviation at the end of the stroke as built, to first order.
+    pub sigma_n: f64,
+}
+
+impl BandsReport {
+    /// The rows of the parameters, that which leaves most as built first.
+    #[must_use]
+    pub fn ranked(&self) -> Vec<&ParameterRow> {
+        let mut ranked: Vec<&ParameterRow> = self.parameters.iter().collect();
+        let size = |row: &ParameterRow| row.residual_n.abs().max(row.residual_end_n.abs() * 1e-9);
+        ranked.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        ranked
+    }
+
+    /// The parameters in words, that which leaves most as built first.
+    #[must_use]
+    pub fn words(&self) -> Vec<String> {
+        let mut lines = vec![format!(
+            "{:<20} {:>10} {:>11} {:>10} {:>10} {:>10} {:>10}",
+            "band of", "half width", "as built/N", "screw/mm", "then/N", "level/N", "variance/%"
+        )];
+        lines.extend(self.ranked().into_iter().map(|row| {
+            format!(
+                "{:<20} {:>10} {:>11.2} {:>10.3} {:>10.2} {:>10.2} {:>10.2}",
+                row.parameter,
+                row.half_width_words(),
+                row.residual_n,
+                row.column_end_mm,
+                row.residual_end_n.abs(),
+                row.residual_level_n.unwrap_or(f64::NAN),
+                100.0 * row.share_of_variance
+            )
+        }));
+        lines.push(format!(
+            "all at once as built: {} to {} N, standard deviation {} N",
+            shown(self.worst_strong_n),
+            shown(self.worst_weak_n),
+            shown(self.sigma_n)
+        ));
+        lines
+    }
+}
+
+/// The rows of bands.
+#[must_use]
+pub fn rows(bands: &[ParameterBand]) -> Vec<ParameterRow> {
+    bands.iter().map(ParameterRow::from).collect()
+}
+
+/// The section of the analysis.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct ScatterReport<'a> {
+    pub cam_rpm: f64,
+    pub column_length_mm: f64,
+    #[serde(flatten)]
+    pub cylinders: CylinderMeasures,
+    pub reset: &'static str,
+    pub distribution: &'static str,
+    pub samples: u32,
+    pub seed: u64,
+    pub residual_fixed_bottom_max_n: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fault: Option<FaultReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub losses: Option<LossReport>,
+    #[serde(flatten)]
+    pub bands: BandsReport,
+    pub percentiles: &'a [PercentileRow],
+    pub useful: UsefulRange,
+    pub settings: &'a [SettingRow],
+}
+
+impl ScatterReport<'_> {
+    /// The section.
+    #[must_use]
+    pub fn section(&self) -> Section {
+        let mut words = vec![format!(
+            "cam for {} rpm, column {} mm, {}; a fixed bottom leaves {} N",
+            shown(self.cam_rpm),
+            shown(self.column_length_mm),
+            self.cylinders.bore_words(),
+            shown(self.residual_fixed_bottom_max_n)
+        )];
+        words.extend(self.fault.iter().flat_map(FaultReport::words));
+        words.extend(self.losses.iter().flat_map(LossReport::words));
+        words.extend(self.bands.words());
+        words.extend(self.drawn());
+        words.push(self.useful.words());
+        words.push(format!("settings by the rule {}:", self.reset));
+        words.push(format!(
+            "{:>6} {:>9} {:>10} {:>12} {:>12} {:>9} {:>11} {:>9}",
+            "v", "rpm", "column/mm", "V each/cm³", "V all/cm³", "left/N", "fixed/mm", "left/N"
+        ));
+        words.extend(self.settings.iter().filter(|row| (20.0 * row.v).round() % 2.0 == 0.0).map(|row| {
+            format!(
+                "{:>6} {:>9.3} {:>10.2} {:>12.0} {:>12.0} {:>9.1} {:>11.2} {:>9.1}",
+                shown(row.v),
+                row.rpm,
+                row.column_mm,
+                1e-3 * row.added_volume_each_mm3,
+                1e-3 * row.added_volume_mm3,
+                row.residual_n,
+                row.fixed_column_mm,
+                row.fixed_residual_n
+            )
+        }));
+        Section::new("scatter", self).with_words(words)
+    }
+
+    /// The percentiles in words.
+    fn drawn(&self) -> Vec<String> {
+        let of = |row: &PercentileRow| {
+            let body = row.body.replace('-', " ");
+            let state = match row.reset {
+                "none" => "as built".to_owned(),
+                rule => format!("reset to {rule}"),
+            };
+            format!(
+                "P{:.0} of a {body}, {state}: {} N ({} to {})",
+                row.percentile,
+                shown(row.residual_n),
+                shown(row.low_n),
+                shown(row.high_n)
+            )
+        };
+        let head = format!("{} presses drawn, {}, seed {}", self.samples, self.distribution, self.seed);
+        if self.percentiles.is_empty() {
+            Vec::new()
+        } else {
+            std::iter::once(head).chain(self.percentiles.iter().map(of)).collect()
+        }
+    }
+}
+
+impl FaultReport {
+    fn words(&self) -> Vec<String> {
+        vec![
+            format!(
+                "this machine leaves {} N at x = {} mm, {} N at the end of the stroke; v = {}",
+                shown(self.residual_n),
+                shown(self.residual_at_mm),
+                shown(self.residual_at_end_n),
+                shown(self.v)
+            ),
+            format!(
+                "turn the screw by {:+.3} mm and {} N are left, by {:+.3} mm (level) {} N; the screw by {:+.3} mm and the port by {:+.3} mm: {} N",
+                self.screw_end_mm,
+                shown(self.residual_end_n.abs()),
+                self.screw_level_mm,
+                shown(self.residual_level_n.abs()),
+                self.screw_with_port_mm,
+                self.port_mm,
+                shown(self.residual_with_port_n.abs())
+            ),
+        ]
+    }
+}

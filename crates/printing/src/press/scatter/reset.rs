@@ -1,0 +1,136 @@
+//! What the screw of the bottom takes back: the column that balances the end of the stroke, or that leaves least.
+
+use super::error::ScatterError;
+use super::fault::{Fault, FrozenBuffer};
+use camgen_kernel::document::NamedChoice;
+use camgen_kernel::numeric::root;
+
+/// The rule by which the screw is set in a machine that differs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ScrewRule {
+    /// It stays where it is.
+    None,
+    /// No residual force at the end of the stroke.
+    #[default]
+    End,
+    /// The least largest residual force.
+    Level,
+}
+
+impl NamedChoice for ScrewRule {
+    const ALL: &'static [(&'static str, Self)] = &[("none", Self::None), ("end", Self::End), ("level", Self::Level)];
+}
+
+/// Share of the column by which the port of a levelled cam is moved at most.
+const PORT: f64 = 0.25;
+/// Doublings of the air at the end of the stroke in which the level setting is bracketed.
+const DOUBLINGS: u32 = 60;
+
+impl FrozenBuffer {
+    /// ΔL with which the air holds the bed at the end of the stroke, m: L (f − Y (w_r − ε))/(Y − f),
+    /// Y = ((1 + M u_r/π)/τ)^(1/κ). The change of the column that the fault has is replaced by it.
+    ///
+    /// # Errors
+    /// When no column balances the end.
+    pub fn end_reset(&self, fault: &Fault) -> Result<f64, ScatterError> {
+        let pressure = (1.0 + fault.variable() * self.end_load()) / fault.closing;
+        let needed = libm::exp(libm::log(pressure) / fault.exponent);
+        let none = ScatterError::NoColumn { share: fault.air, needed };
+        if !(needed > fault.air) {
+            return Err(none);
+        }
+        let closed = self.end_length() - fault.lead / self.column;
+        let longer = self.column * (fault.air - needed * closed) / (needed - fault.air);
+        if self.column + longer > 0.0 { Ok(longer) } else { Err(none) }
+    }
+
+    /// ΔL with the least largest residual force, m.
+    ///
+    /// At every place r grows with ΔL, so that the largest and the least force are equal and opposite at one ΔL. The force at the start
+    /// does not depend on ΔL where the port shuts in time: where it is the largest after [`FrozenBuffer::end_reset`], that one is kept.
+    ///
+    /// # Errors
+    /// When no column balances the end.
+    pub fn level_reset(&self, fault: &Fault) -> Result<f64, ScatterError> {
+        let end = self.end_reset(fault)?;
+        let both = |column: f64| {
+            let both = self.extremes_by_load(&fault.with_column(column));
+            both.map_or(f64::NAN, |[least, largest]| least.value + largest.value)
+        };
+        // Under a linkage the air may be shorter elsewhere than at the dead point, and used up there: then a longer column is the first to be tried.
+        let longer = |doublings: u32| end + (self.column + end) * (libm::exp2(f64::from(doublings) / 16.0) - 1.0);
+        let all = (0..=16 * DOUBLINGS).map(longer);
+        let start = all.into_iter().find(|column| self.fits(&fault.with_column(*column)).is_ok()).unwrap_or(end);
+        let (end, ends) = (start, start == end);
+        let [least, largest] = self.extremes_by_load(&fault.with_column(end))?;
+        let start = if least.value.abs() > largest.value.abs() { least.at } else { largest.at };
+        let sum = least.value + largest.value;
+        if sum == 0.0 || (ends && start == 0.0 && fault.lead == 0.0 && self.level.is_none()) {
+            return Ok(end);
+        }
+        // The air at the end of the stroke is multiplied, so that it never is used up.
+        let left = self.shortest_length() + (end - fault.lead) / self.column;
+        let column = |doublings: u32| {
+            let share = libm::exp2(f64::from(doublings) / 16.0 * if sum > 0.0 { -1.0 } else { 1.0 });
+            end + self.column * left * (share - 1.0)
+        };
+        let beyond = (1..=16 * DOUBLINGS).map(column).find(|column| {
+            let value = both(*column);
+            value.is_nan() || (value > 0.0) != (sum > 0.0)
+        });
+        let level = beyond.and_then(|beyond| root::bracketed(both, end, beyond, 0.0).ok()).unwrap_or(end);
+        // A port that shuts late leaves a force at the start that the screw hardly moves: then the end setting may leave less.
+        let left = |column: f64| {
+            let set = fault.with_column(column);
+            let worst = match fault.phase {
+                0.0 => self.extremes_by_load(&set).map(|[least, largest]| largest.value.max(-least.value)),
+                _ => self.worst(&set).map(|worst| worst.value.abs()),
+            };
+            worst.unwrap_or(f64::INFINITY)
+        };
+        Ok(if left(end) <= left(level) { end } else { level })
+    }
+
+    /// The setting of the screw by a rule, m; that of the fault where it stays.
+    ///
+    /// # Errors
+    /// When no column balances the end.
+    pub fn setting(&self, fault: &Fault, rule: ScrewRule) -> Result<f64, ScatterError> {
+        match rule {
+            ScrewRule::None => Ok(fault.column),
+            ScrewRule::End => self.end_reset(fault),
+            ScrewRule::Level => self.level_reset(fault),
+        }
+    }
+
+    /// ΔL and Δe, m, that leave nothing at both ends of the braking half: the screw, and the place of the port.
+    ///
+    /// # Errors
+    /// When no column balances the end.
+    pub fn reset_of_column_and_port(&self, fault: &Fault) -> Result<[f64; 2], ScatterError> {
+        if self.level.is_some() {
+            return self.reset_of_levelled(fault);
+        }
+        let power = |ratio: f64| libm::exp(libm::log(ratio) / fault.exponent);
+        let rise = power(1.0 + fault.variable() * self.end_load());
+        if !(rise > 1.0) {
+            return Err(ScatterError::NoColumn { share: 1.0, needed: rise });
+        }
+        let share = rise * (1.0 - self.end_length()) / (rise - 1.0);
+        let longer = self.column * (share / (fault.air * power(fault.closing)) - 1.0);
+        Ok([longer, longer - self.column * (share - 1.0)])
+    }
+
+    /// Those of a cam that levels both ways, whose port shuts before the reversal: the end setting for each place of the port, and that place
+    /// by the force at the start.
+    fn reset_of_levelled(&self, fault: &Fault) -> Result<[f64; 2], ScatterError> {
+        let column = |lead: f64| self.end_reset(&Fault { lead, ..*fault });
+        let start = |lead: f64| {
+            let set = column(lead).map(|column| Fault { column, lead, ..*fault });
+            set.map_or(f64::NAN, |set| self.residual(&set, 0.0, self.length(0.0)))
+        };
+        let reach = PORT * self.column;
+        let lead = root::bracketed(start, -reach, reach, 0.0).unwrap_or(fault.lead);
+        Ok([column(lead)?, lead])
+    }
+}

@@ -1,0 +1,33 @@
+//! What makes the motion of a press cam smooth where its velocity jumps.
+
+use super::buffer::crank_law::CrankLaw;
+use super::machine::{Press, PressCams};
+use super::motion::{Reversal, ReversalLaw, Transition};
+use crate::press::MachineOfPress;
+use camgen_cams::machine::Machine;
+use camgen_kernel::motion::jump;
+
+/// Width of a run-up where the file gives none, rad of crank angle: that of the embedded machines.
+const RUN_UP: f64 = std::f64::consts::PI / 9.0;
+
+/// The first change with which the motions of these laws of a press keep `limits.continuity`: each is tried.
+pub(super) fn smoother(machine: &Machine, laws: impl Fn(&Press) -> Vec<CrankLaw>) -> Option<String> {
+    let (press, cams) = (machine.press().ok()?, PressCams::of(machine));
+    let direct = Press { lead: 0.0, ..*press };
+    let ramp = if cams.transition == Transition::None { Transition::RunUp { width: RUN_UP } } else { cams.transition };
+    let (no_lead, with_ramp) = ("buffer.lead = \"0 mm\"", "transition.kind = \"run-up\"");
+    let changes = [
+        (no_lead.to_owned(), direct, cams.transition, press.lead > 0.0),
+        (with_ramp.to_owned(), *press, ramp, cams.transition == Transition::None),
+        (format!("{no_lead} with {with_ramp}"), direct, ramp, press.lead > 0.0 && cams.transition == Transition::None),
+    ];
+    let keeps = |bottom_law: CrankLaw, transition: Transition| {
+        let law = ReversalLaw { bottom_law, lever: cams.lever, lobes: cams.lobes, transition };
+        let jump = Reversal::new(law).map(|motion| jump::largest(&motion));
+        jump.is_ok_and(|jump| jump.is_none_or(|jump| f64::from(jump.order) - 1.0 >= machine.limits.continuity))
+    };
+    let applies = changes.into_iter().filter(|(.., applies)| *applies);
+    let mut kept =
+        applies.filter(|(_, press, transition, _)| laws(press).into_iter().all(|law| keeps(law, *transition)));
+    kept.next().map(|(words, ..)| format!("{words} would pass"))
+}
