@@ -143,10 +143,7 @@
 //!
 //! | Feature | Brings |
 //! |---|---|
-//! | `press` | the flat-bed press: disc, wedge, conoid and compensating cam, and the analyses of its buffers |
-//! | `linkage` | the linkage that moves a bed; includes `press` |
-//! | `shaft` | the shaft under a cam; includes `press` |
-//! | `brake` | the belt brake of a paper roll and the disc that holds its tension |
+//! | `press`, `linkage`, `shaft`, `brake` | each the domains of printing machines, the module [`domains`]: the flat-bed press, the linkage that moves its bed, the shaft under a cam, the belt brake of a paper roll |
 //! | `html` | the format `html`, a moving report, and the module `engine` |
 //! | `live` | `Writing::live`: the moving report with the library in it |
 //! | `pdf` | the format `pdf`, the review sheet and the motion diagram |
@@ -155,14 +152,15 @@
 //!
 //! # Modules
 //!
-//! What most programs need is on this page. The modules contain the rest, and may change with any version. Each uses only those before it:
+//! What most programs need is on this page. The modules contain the rest, and may change with any version. They are in three crates that
+//! this one puts together, `camgen-kernel`, `camgen-cams` and `camgen-printing`. Each module uses only those before it:
 //!
-//! - numbers, units, files: [`units`], [`numeric`], [`document`]
+//! - numbers, units, files: [`refusal`], [`units`], [`numeric`], [`document`]
 //! - curves: [`geometry`], [`motion`], [`follower`], [`profile`]
 //! - what is cut: [`machine`], [`load`], [`body`], [`analysis`]
 //! - what is found: [`report`], [`table`], [`check`], [`verify`]
 //! - files: [`reading`], [`mod@write`]
-//! - all of it together: [`pipeline`], [`mod@trade`], [`domain`], [`domains`], [`catalogue`], [`study`], `engine` (with the feature `html`)
+//! - all of it together: [`pipeline`], [`mod@trade`], [`domain`], [`catalogue`], [`study`], `engine` (with the feature `html`), [`domains`]
 //!
 //! ARCHITECTURE.md describes them.
 #![forbid(unsafe_code)]

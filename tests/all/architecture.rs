@@ -1,18 +1,13 @@
 //! The house stands as ARCHITECTURE.md draws it: a room knows only the rooms before it.
 
-use crate::common::source::{Token, closing, code, sources, src, tokens, used};
+use crate::common::source::{CRATES, Token, all_sources, closing, code, root, sources, src, tokens, used};
+use std::fs;
 use std::path::{Path, PathBuf};
 
-const ROOMS: [&str; 25] = [
-    "refusal",
-    "units",
-    "numeric",
-    "document",
-    "geometry",
-    "motion",
-    "follower",
+/// The rooms of the kernel and of the cams, in their order, and the domains.
+const KERNEL: [&str; 8] = ["refusal", "units", "numeric", "document", "geometry", "motion", "follower", "profile"];
+const CAMS: [&str; 16] = [
     "machine",
-    "profile",
     "report",
     "table",
     "load",
@@ -25,23 +20,37 @@ const ROOMS: [&str; 25] = [
     "pipeline",
     "trade",
     "domain",
-    "domains",
     "catalogue",
     "study",
     "engine",
 ];
+const DOMAINS: [&str; 4] = ["press", "linkage", "shaft", "brake"];
+
+/// All of them: a room knows only those before it.
+fn rooms() -> impl Iterator<Item = &'static str> {
+    KERNEL.iter().chain(&CAMS).chain(&DOMAINS).copied()
+}
+
+/// The place of a room among them.
+fn place(room: &str) -> Option<usize> {
+    rooms().position(|other| other == room)
+}
 
 /// Longest function, in lines from its name to its closing brace.
 const LONGEST_FUNCTION: usize = 60;
 
 fn files_of(room: &str) -> Vec<PathBuf> {
-    let file = src().join(format!("{room}.rs"));
-    sources(&if file.exists() { file } else { src().join(room) })
+    let of_crate = |name: &str| {
+        let both = [src(name).join(format!("{room}.rs")), src(name).join(room)];
+        both.into_iter().filter(|path| path.exists()).flat_map(|path| sources(&path)).collect::<Vec<_>>()
+    };
+    CRATES.iter().flat_map(|name| of_crate(name)).collect()
 }
 
-/// Its path below src, for a message.
+/// Its path below the src of its crate, for a message.
 fn name(path: &Path) -> String {
-    path.strip_prefix(src()).expect("below src").display().to_string()
+    let below = CRATES.iter().find_map(|name| path.strip_prefix(src(name)).ok());
+    below.unwrap_or_else(|| path.strip_prefix(root()).expect("a file of the program")).display().to_string()
 }
 
 /// The modules a file is in: `body/disc/sheet.rs` is body, disc, sheet.
@@ -57,7 +66,7 @@ fn paths(all: &[Token], module: &[String]) -> Vec<(Vec<String>, usize)> {
         let follows = |text: &str| all.get(at + 1).is_some_and(|next| next.text == text);
         if token.text == "use" {
             found.extend(used(all, at + 1).into_iter().map(|used| (used.path, token.line)));
-        } else if matches!(token.text.as_str(), "crate" | "super" | "self") && follows(":") {
+        } else if (matches!(token.text.as_str(), "super" | "self") || is_root(&token.text)) && follows(":") {
             // The head of a path in place; a path inside one that has begun is not a head.
             if at > 1 && all[at - 1].text == ":" && all[at - 2].text == ":" {
                 continue;
@@ -74,10 +83,15 @@ fn paths(all: &[Token], module: &[String]) -> Vec<(Vec<String>, usize)> {
     found.into_iter().filter_map(|(path, line)| Some((from_root(&path, module)?, line))).collect()
 }
 
-/// A path from the root of the library; `None` for one into another library or to something in scope.
+/// The root of a crate: its own, or that of one before it.
+fn is_root(head: &str) -> bool {
+    ["crate", "camgen_kernel", "camgen_cams", "camgen_printing", "camgen"].contains(&head)
+}
+
+/// A path from the root of its crate; `None` for one into another library or to something in scope.
 fn from_root(path: &[String], module: &[String]) -> Option<Vec<String>> {
     let mut base = match path.first()?.as_str() {
-        "crate" => Vec::new(),
+        head if is_root(head) => Vec::new(),
         "self" | "super" => module.to_vec(),
         _ => return None,
     };
@@ -85,7 +99,8 @@ fn from_root(path: &[String], module: &[String]) -> Option<Vec<String>> {
     while let [head, tail @ ..] = rest {
         match head.as_str() {
             "super" => drop(base.pop()),
-            "self" | "crate" => {}
+            "self" => {}
+            head if is_root(head) => {}
             _ => break,
         }
         rest = tail;
@@ -97,12 +112,12 @@ fn from_root(path: &[String], module: &[String]) -> Option<Vec<String>> {
 /// What a file of a room knows of later rooms, a line each.
 fn knows_later(path: &str, text: &str) -> Vec<String> {
     let (all, module) = (tokens(text), module_of(path));
-    let own = ROOMS.iter().position(|room| *room == module[0]).expect("a file of a room");
+    let own = place(&module[0]).expect("a file of a room");
     let mut told = Vec::new();
     for (found, line) in paths(&all, &module) {
         match found.first().map(String::as_str) {
             None | Some("*") => told.push(format!("{path}:{line} names the whole library")),
-            Some(room) if ROOMS.iter().position(|other| *other == room).is_some_and(|index| index > own) => {
+            Some(room) if place(room).is_some_and(|index| index > own) => {
                 told.push(format!("{path}:{line} knows {}", found.join("::")));
             }
             Some(_) => {}
@@ -147,12 +162,19 @@ fn long_functions(text: &str) -> Vec<(String, usize, usize)> {
 }
 
 #[test]
-fn the_rooms_are_those_of_the_library_in_its_order() {
-    let lib = tokens(&code(&src().join("lib.rs")));
-    let declared: Vec<&str> =
-        lib.windows(2).filter(|pair| pair[0].text == "mod").map(|pair| pair[1].text.as_str()).collect();
-    assert_eq!(declared, ROOMS);
-    for room in ROOMS {
+fn the_rooms_are_those_of_the_crates_in_their_order() {
+    let declared = |name: &str| {
+        let lib = tokens(&code(&src(name).join("lib.rs")));
+        let pairs = lib.windows(2).filter(|pair| pair[0].text == "mod");
+        pairs.map(|pair| pair[1].text.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(declared("kernel"), KERNEL);
+    assert_eq!(declared("cams"), CAMS);
+    // Modules side by side are sorted; the list has the order.
+    let listed = tokens(&code(&src("printing").join("lib.rs")));
+    let listed = listed.windows(4).filter(|four| four[1].text == ":" && four[3].text == "DOMAIN");
+    assert_eq!(listed.map(|four| four[0].text.clone()).collect::<Vec<_>>(), DOMAINS);
+    for room in rooms() {
         assert!(!files_of(room).is_empty(), "{room} has no files");
     }
 }
@@ -160,53 +182,27 @@ fn the_rooms_are_those_of_the_library_in_its_order() {
 #[test]
 fn a_room_knows_only_the_rooms_before_it() {
     let told: Vec<String> =
-        ROOMS.iter().flat_map(|room| files_of(room)).flat_map(|path| knows_later(&name(&path), &code(&path))).collect();
+        rooms().flat_map(files_of).flat_map(|path| knows_later(&name(&path), &code(&path))).collect();
     assert!(told.is_empty(), "\n{}\n", told.join("\n"));
+    let later = |path: &str| !knows_later(path, "use crate::brake::machine;").is_empty();
+    assert!(later("press/keys.rs") && !later("brake/keys.rs"));
 }
 
-/// The domains in the order of their list.
-fn domains() -> Vec<String> {
-    let all = tokens(&code(&src().join("domains/mod.rs")));
-    let listed = all.windows(4).filter(|four| four[1].text == ":" && four[3].text == "DOMAIN");
-    listed.map(|four| four[0].text.clone()).collect()
-}
-
-/// What a file of a domain knows of domains after its own, a line each.
-fn knows_later_domains(path: &str, text: &str, domains: &[String]) -> Vec<String> {
-    let module = module_of(path);
-    let rank = |name: &str| domains.iter().position(|domain| domain == name);
-    let own = module.get(1).and_then(|name| rank(name));
-    let later = |found: &[String]| match found {
-        [room, domain, ..] if room == "domains" => rank(domain) > own,
-        _ => false,
-    };
-    let found = paths(&tokens(text), &module).into_iter().filter(|(found, _)| own.is_some() && later(found));
-    found.map(|(found, line)| format!("{path}:{line} knows {}", found.join("::"))).collect()
-}
-
+/// The core is the same whatever domains there are, and no crate needs a later one to be built.
 #[test]
-fn a_domain_knows_only_the_domains_before_it() {
-    let domains = domains();
-    let told: Vec<String> =
-        files_of("domains").iter().flat_map(|path| knows_later_domains(&name(path), &code(path), &domains)).collect();
-    assert!(told.is_empty(), "\n{}\n", told.join("\n"));
-    let two = ["press".to_owned(), "brake".to_owned()];
-    let later = |path: &str| !knows_later_domains(path, "use crate::domains::brake::machine;", &two).is_empty();
-    assert!(later("domains/press/keys.rs") && !later("domains/brake/keys.rs"));
-}
-
-/// The core is the same whatever domains there are; only its tests may take an embedded machine of one.
-#[test]
-fn no_room_of_the_core_names_a_domain() {
-    let domains = domains();
-    assert_eq!(domains, ["press", "linkage", "shaft", "brake"]);
-    let core = ROOMS.iter().take_while(|room| **room != "domains");
-    for path in core.flat_map(|room| files_of(room)) {
+fn no_crate_of_the_core_names_a_domain() {
+    for (at, name) in CRATES.iter().enumerate() {
+        let text = fs::read_to_string(root().join("crates").join(name).join("Cargo.toml")).expect("a manifest");
+        let (built, _) = text.split_once("[dev-dependencies]").expect("what tests need");
+        for later in &CRATES[at + 1..] {
+            assert!(!built.contains(&format!("camgen-{later}")), "{name} needs {later}");
+        }
+    }
+    for path in KERNEL.iter().chain(&CAMS).flat_map(|room| files_of(room)) {
         let code = code(&path);
-        assert!(tokens(&code).iter().all(|token| token.text != "domains"), "{} names a domain", name(&path));
-        for line in code.lines().filter(|line| domains.iter().any(|domain| line.contains(&format!("\"{domain}\"")))) {
-            let for_tests = line.contains("cfg(all(test,") && line.contains("feature = ");
-            assert!(for_tests || !line.contains("feature = "), "{} asks for a domain: {line}", name(&path));
+        assert!(!code.contains("camgen_printing"), "{} names a domain", path.display());
+        for line in code.lines().filter(|line| DOMAINS.iter().any(|domain| line.contains(&format!("\"{domain}\"")))) {
+            assert!(!line.contains("feature = "), "{} asks for a domain: {line}", path.display());
         }
     }
 }
@@ -227,11 +223,14 @@ fn planted_imports_are_seen() {
         "fn f(found: super::super::verify::Check) {}",
         "use crate as camgen;",
         "use crate::*;",
+        "use camgen_kernel::*;",
+        "use camgen_cams::verify::rolling;",
     ] {
         assert!(!knows_later("body/disc/mod.rs", planted).is_empty(), "{planted}");
     }
     for harmless in [
         "use crate::profile::Curves;",
+        "use camgen_kernel::profile::{self, Curves};",
         "use super::super::part::Part;",
         "use super::{verify, write};",
         "use std::fmt::{self, Write as _};",
@@ -247,7 +246,7 @@ fn planted_imports_are_seen() {
 #[test]
 fn what_is_in_a_list_is_made_in_its_room() {
     let mut told = Vec::new();
-    for path in sources(&src()) {
+    for path in all_sources() {
         let (file, all) = (name(&path), tokens(&code(&path)));
         for (room, what) in [("verify", "FileCheck"), ("write", "Format")] {
             // One of the same name that a file keeps for itself is another.
@@ -292,7 +291,7 @@ fn what_is_absent_stays_absent() {
             assert!(!code(&path).contains(word), "{} has {word}", name(&path));
         }
     }
-    for room in ROOMS {
+    for room in rooms() {
         for path in files_of(room) {
             let program = without_comments(&code(&path));
             for word in
@@ -311,7 +310,7 @@ fn without_comments(text: &str) -> String {
 
 #[test]
 fn no_function_is_longer_than_a_page() {
-    let told: Vec<String> = sources(&src())
+    let told: Vec<String> = all_sources()
         .iter()
         .flat_map(|path| {
             let file = name(path);
@@ -335,7 +334,7 @@ fn lines_of_a_function_are_counted_to_its_brace() {
 /// A file that no `mod` names, or that stands beside the one program of tests, would never run.
 #[test]
 fn every_file_of_tests_is_a_module() {
-    let folder = src().with_file_name("tests");
+    let folder = root().join("tests");
     for path in sources(&folder).iter().filter(|path| path.extension().is_some_and(|end| end == "rs")) {
         let root = path.with_file_name("main.rs");
         let root = if root.exists() { root } else { path.with_file_name("mod.rs") };

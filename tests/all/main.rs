@@ -17,7 +17,7 @@ mod arcs;
 mod as_made;
 mod barrels;
 mod bounds;
-#[cfg(feature = "brake")]
+#[cfg(feature = "printing")]
 mod brake;
 mod check_kinds;
 mod circles;

@@ -43,26 +43,44 @@ fn locked(path: &str) -> BTreeMap<String, (String, BTreeSet<String>)> {
 #[test]
 fn the_fuzzed_program_has_the_same_crates() {
     let (own, fuzzed) = (locked("Cargo.lock"), locked("fuzz/Cargo.lock"));
-    let camgen = packages().into_iter().find(|package| package["name"] == "camgen").expect("camgen");
     // The features without which the targets would miss code of the library; the program, its pages and its PDF files are not fuzzed.
     let features = ["second-reader", "press", "linkage", "shaft", "brake"];
-    let asked = |name: &str| {
-        let of = |feature: &str| camgen["features"][feature].as_array().cloned().unwrap_or_default();
-        features.iter().any(|feature| of(feature).iter().any(|need| word(need) == format!("dep:{name}")))
-    };
     let manifest = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/Cargo.toml")).expect("a file");
     let wanted = format!("default-features = false, features = {features:?}");
     assert!(manifest.contains(&wanted), "{manifest}");
-    let direct = camgen["dependencies"].as_array().expect("a list").iter();
-    let direct = direct.filter(|of| of["kind"].is_null() && (of["optional"] != true || asked(word(&of["name"]))));
-    let direct: BTreeSet<String> = direct.map(|of| word(&of["name"]).to_owned()).collect();
-    let (_, needed) = fuzzed.get("camgen").expect("camgen in fuzz/Cargo.lock");
-    assert_eq!(*needed, direct, "run cargo metadata --manifest-path fuzz/Cargo.toml");
-    for name in direct {
-        let version =
-            |of: &BTreeMap<String, (String, BTreeSet<String>)>| of.get(&name).map(|package| package.0.clone());
-        assert_eq!(version(&own), version(&fuzzed), "{name}");
+    let all = packages();
+    for name in OWN {
+        let package = all.iter().find(|package| package["name"] == name).expect("a package of the workspace");
+        let direct = needed_with(package, &features);
+        let (_, needed) = fuzzed.get(name).unwrap_or_else(|| panic!("no {name} in fuzz/Cargo.lock"));
+        assert_eq!(*needed, direct, "{name}: run cargo metadata --manifest-path fuzz/Cargo.toml");
+        for name in direct {
+            let version =
+                |of: &BTreeMap<String, (String, BTreeSet<String>)>| of.get(&name).map(|package| package.0.clone());
+            assert_eq!(version(&own), version(&fuzzed), "{name}");
+        }
     }
+}
+
+/// The packages of the workspace.
+const OWN: [&str; 4] = ["camgen", "camgen-kernel", "camgen-cams", "camgen-printing"];
+
+/// What a package needs with some features.
+fn needed_with(package: &Value, features: &[&str]) -> BTreeSet<String> {
+    let mut open: Vec<String> = features.iter().map(|feature| (*feature).to_owned()).collect();
+    let mut asked = BTreeSet::new();
+    while let Some(feature) = open.pop() {
+        for need in package["features"][&*feature].as_array().into_iter().flatten().map(word) {
+            match need.strip_prefix("dep:") {
+                Some(name) => drop(asked.insert(name.to_owned())),
+                None => open.push(need.to_owned()),
+            }
+        }
+    }
+    let direct = package["dependencies"].as_array().expect("a list").iter();
+    let direct =
+        direct.filter(|of| of["kind"].is_null() && (of["optional"] != true || asked.contains(word(&of["name"]))));
+    direct.map(|of| word(&of["name"]).to_owned()).collect()
 }
 
 /// The words in quotes of a list of `deny.toml`.
@@ -85,7 +103,7 @@ fn licences_and_sources_are_those_of_deny_toml() {
     for package in packages() {
         let (name, source) = (word(&package["name"]), word(&package["source"]));
         assert!(
-            name == "camgen" || source == "registry+https://github.com/rust-lang/crates.io-index",
+            OWN.contains(&name) || source == "registry+https://github.com/rust-lang/crates.io-index",
             "{name}: {source}"
         );
         assert!(allowed(word(&package["license"]), &licences), "{name}: {}", package["license"]);
@@ -118,11 +136,14 @@ fn no_other_crate_is_there_twice() {
 #[test]
 fn each_direct_crate_has_a_reason() {
     let all = packages();
-    let own = all.iter().find(|package| package["name"] == "camgen").expect("camgen");
+    let own = all.iter().filter(|package| OWN.contains(&word(&package["name"])));
     let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/dependencies.md")).expect("a file");
-    for dependency in own["dependencies"].as_array().expect("dependencies") {
+    for dependency in own.flat_map(|package| package["dependencies"].as_array().expect("dependencies")) {
         let name = word(&dependency["name"]);
-        assert!(text.contains(&format!("| {name} |")), "{name} has no row in docs/dependencies.md");
+        assert!(
+            OWN.contains(&name) || text.contains(&format!("| {name} |")),
+            "{name} has no row in docs/dependencies.md"
+        );
     }
 }
 
@@ -130,6 +151,10 @@ fn each_direct_crate_has_a_reason() {
 fn included(directory: &Path, found: &mut BTreeSet<PathBuf>) {
     for entry in fs::read_dir(directory).expect("a directory") {
         let path = entry.expect("an entry").path();
+        // What tests alone include may be in another package.
+        if path.file_stem().is_some_and(|stem| stem == "tests") {
+            continue;
+        }
         if path.is_dir() {
             included(&path, found);
         } else if path.extension().is_some_and(|end| end == "rs") {
@@ -151,17 +176,30 @@ fn included(directory: &Path, found: &mut BTreeSet<PathBuf>) {
 }
 
 #[test]
-fn the_package_holds_what_the_build_needs() {
+fn each_package_holds_what_its_build_needs() {
+    for (package, folder, least) in [
+        ("camgen-kernel", "crates/kernel", 1),
+        ("camgen-cams", "crates/cams", 40),
+        ("camgen-printing", "crates/printing", 8),
+        ("camgen", ".", 2),
+    ] {
+        let told = cargo(&["package", "--list", "--allow-dirty", "--locked", "--offline", "--package", package]);
+        let packed: BTreeSet<&str> = told.lines().collect();
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).canonicalize().expect("a path");
+        let mut needed = BTreeSet::new();
+        included(&root.join("src"), &mut needed);
+        assert!(needed.len() >= least, "{package}: {needed:?}");
+        for path in needed {
+            let name = path.strip_prefix(&root).expect("in the package");
+            assert!(packed.contains(name.to_str().expect("text")), "{} is not in {package}", name.display());
+        }
+    }
+}
+
+#[test]
+fn the_package_of_the_program_holds_the_book() {
     let told = cargo(&["package", "--list", "--allow-dirty", "--locked", "--offline"]);
     let packed: BTreeSet<&str> = told.lines().collect();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).canonicalize().expect("a path");
-    let mut needed = BTreeSet::new();
-    included(&root.join("src"), &mut needed);
-    assert!(needed.len() > 5, "{needed:?}");
-    for path in needed {
-        let name = path.strip_prefix(&root).expect("in the package").to_str().expect("text").to_owned();
-        assert!(packed.contains(&*name), "{name} is not in the package");
-    }
     for name in
         ["README.md", "LICENSE-MIT", "LICENSE-APACHE", "SECURITY.md", "docs/trust.md", "Cargo.lock", "tests/run"]
     {

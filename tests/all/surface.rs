@@ -1,6 +1,6 @@
 //! The library's public surface: every type has a page, and everything that a machine file describes can be put together in code.
 
-use crate::common::source::{code, sources, src, tokens};
+use crate::common::source::{CRATES, all_sources, code, root, src, tokens};
 use camgen::domains::press::BufferData;
 use camgen::domains::press::BuilderOfPress;
 use camgen::domains::press::buffer::{Bed, bottom_law::ColumnRule};
@@ -18,6 +18,7 @@ use camgen::{
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use std::fs;
+use std::path::Path;
 
 /// As a machine file turns degrees into radians.
 fn degrees(angle: f64) -> f64 {
@@ -25,8 +26,8 @@ fn degrees(angle: f64) -> f64 {
 }
 
 /// Every pub item of the names that a file exports with `pub use`, from modules whose path begins with `room`.
-fn exported(file: &str, room: Option<&str>) -> BTreeSet<String> {
-    let all = tokens(&code(&src().join(file)));
+fn exported(file: &Path, room: Option<&str>) -> BTreeSet<String> {
+    let all = tokens(&code(file));
     let mut names = BTreeSet::new();
     let mut at = 0;
     while at + 1 < all.len() {
@@ -49,26 +50,33 @@ fn exported(file: &str, room: Option<&str>) -> BTreeSet<String> {
 /// and that it is described `missing_docs`; the workspace compiles without warnings.
 #[test]
 fn every_public_type_has_a_page() {
-    for path in sources(&src()) {
+    for path in all_sources() {
         let text: String = code(&path).split_whitespace().collect();
         assert!(!text.contains("doc(hidden)"), "{} hides something from the documentation", path.display());
     }
-    let manifest = fs::read_to_string(src().with_file_name("Cargo.toml")).expect("a manifest");
+    let manifest = fs::read_to_string(root().join("Cargo.toml")).expect("a manifest");
     for lint in ["missing_docs", "unnameable_types", "broken_intra_doc_links"] {
         assert!(manifest.contains(&format!("{lint} = \"warn\"")), "{lint}");
     }
-    let lib = tokens(&code(&src().join("lib.rs")));
-    let private = lib.windows(2).filter(|pair| pair[1].text == "mod" && pair[0].text != "pub");
-    assert_eq!(private.map(|pair| pair[0].line).collect::<Vec<_>>(), Vec::<usize>::new(), "rooms without a page");
+    for name in CRATES {
+        let lib = tokens(&code(&src(name).join("lib.rs")));
+        let private = lib.windows(2).filter(|pair| pair[1].text == "mod" && pair[0].text != "pub");
+        assert_eq!(private.map(|pair| pair[0].line).collect::<Vec<_>>(), Vec::<usize>::new(), "rooms without a page");
+        let own = fs::read_to_string(src(name).with_file_name("Cargo.toml")).expect("a manifest");
+        assert!(own.ends_with("[lints]\nworkspace = true\n"), "{name} has lints of its own");
+    }
 }
 
 /// What the pipeline is made of is on the first page.
 #[test]
 fn the_first_page_has_the_whole_pipeline() {
-    let (all, first) = (exported("pipeline/mod.rs", None), exported("lib.rs", Some("pipeline")));
+    let all = exported(&src("cams").join("pipeline/mod.rs"), None);
     assert!(all.len() > 15 && all.contains("Proven"), "{all:?}");
-    let missing: Vec<&String> = all.difference(&first).collect();
-    assert!(missing.is_empty(), "not on the first page: {missing:?}");
+    for (page, from) in [(root().join("src/lib.rs"), "camgen_cams"), (src("cams").join("lib.rs"), "pipeline")] {
+        let first = exported(&page, Some(from));
+        let missing: Vec<&String> = all.difference(&first).collect();
+        assert!(missing.is_empty(), "not on the first page {}: {missing:?}", page.display());
+    }
 }
 
 /// Up and down with rests.

@@ -52,7 +52,7 @@ pub use camgen_kernel::{document, follower, geometry, motion, numeric, profile, 
 pub use analysis::Analysis;
 #[doc(inline)]
 pub use body::{Accuracy, Drawn, Part, Request};
-#[doc(hidden)]
+#[doc(no_inline)]
 pub use inventory;
 #[doc(inline)]
 pub use machine::{GuideData, Keyway, Machine, MachineError, Material, SpringData, Title, VibrationData};

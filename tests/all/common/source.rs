@@ -10,9 +10,22 @@ pub(crate) struct Token {
     pub(crate) line: usize,
 }
 
-/// Where the library stands.
-pub(crate) fn src() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+/// The crates below the program, each knowing those before it.
+pub(crate) const CRATES: [&str; 3] = ["kernel", "cams", "printing"];
+
+/// The folder of the package of the program.
+pub(crate) fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Where the sources of a crate stand.
+pub(crate) fn src(name: &str) -> PathBuf {
+    root().join("crates").join(name).join("src")
+}
+
+/// Every source file of every crate, those of the program last, without files of tests.
+pub(crate) fn all_sources() -> Vec<PathBuf> {
+    CRATES.iter().map(|name| src(name)).chain([root().join("src")]).flat_map(|path| sources(&path)).collect()
 }
 
 /// Every source file below a path, without files of tests, which may look anywhere.
@@ -33,8 +46,7 @@ pub(crate) fn sources(path: &Path) -> Vec<PathBuf> {
 /// The text of a file without its tests.
 pub(crate) fn code(path: &Path) -> String {
     let text = fs::read_to_string(path).expect("a source file");
-    let heads = ["#[cfg(test)]\nmod tests", "#[cfg(test)]\n#[cfg(feature = \"press\")]\nmod tests"];
-    heads.iter().fold(text.as_str(), |text, head| text.split(head).next().unwrap_or_default()).to_owned()
+    text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default().to_owned()
 }
 
 /// How many characters a text or character literal or a comment takes at the start of `rest`; 0 when there is none.

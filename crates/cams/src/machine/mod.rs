@@ -300,7 +300,6 @@ impl Machine {
     }
 
     /// Without the keys and values of its file: what is left is compared by tests.
-    #[doc(hidden)]
     #[must_use]
     pub fn without_given(self) -> Self {
         Self { key_values: Arc::default(), ..self }

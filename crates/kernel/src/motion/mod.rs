@@ -236,5 +236,4 @@ pub fn own_pieces(motion: &dyn Motion) -> impl Iterator<Item = (usize, &Piece)> 
 }
 
 #[cfg(any(test, feature = "contract"))]
-#[doc(hidden)]
 pub mod contract;
