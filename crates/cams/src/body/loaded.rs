@@ -69,6 +69,7 @@ impl PressedFollower<'_> {
     }
 
     /// The follower at a place where the law has this force along its path, N.
+    #[must_use]
     pub fn loaded_follower(
         &self,
         (piece, angle): (usize, f64),

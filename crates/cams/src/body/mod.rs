@@ -390,6 +390,7 @@ impl DrawingEvidence<'_> {
 }
 
 /// The flank that was drawn, if one was.
+#[must_use]
 pub fn flank_of<'a>(found: &DrawingEvidence<'a>) -> Option<&'a Flank> {
     found.drawn?.flank.as_ref()
 }
@@ -573,6 +574,7 @@ pub(crate) fn curves_of<B: Body + ?Sized>(body: &B) -> Option<Curves<'_>> {
 }
 
 /// The loop of these stretches of a plane cam, mm.
+#[must_use]
 pub fn exact<'a>(curves: Curves<'a>, stretches: &[BoundaryStretch]) -> Boundary<'a> {
     let frame = move |piece: usize, parameter: f64| curves.profile(piece, parameter).scaled(MILLIMETRES);
     Boundary::new(Box::new(frame), stretches)
@@ -584,6 +586,7 @@ pub fn mirrored(stretches: &[BoundaryStretch]) -> Vec<BoundaryStretch> {
 }
 
 /// A worst place of a plane cam.
+#[must_use]
 pub fn plane(found: extremum::Extremum) -> Worst {
     Worst { value: found.value, at: found.at, z: 0.0 }
 }

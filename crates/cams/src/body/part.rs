@@ -155,11 +155,13 @@ pub struct Inertia {
 
 impl Part {
     /// An outline and nothing else.
+    #[must_use]
     pub fn solid_plate(outline: Outline) -> Self {
         Self { name: "", rpm: None, z: 0.0, outline, bore: None, balancing: None, track: None }
     }
 
     /// A section of a machine's turning cam: the outline of a clockwise one turned as the machine's, with its bore.
+    #[must_use]
     pub fn turning(machine: &Machine, outline: Outline) -> Self {
         let outline = Outline { contour: as_turned(machine, outline.contour), ..outline };
         Self { bore: bore(machine), ..Self::solid_plate(outline) }
@@ -391,6 +393,7 @@ impl Part {
 }
 
 /// The bore of a clockwise cam, with its keyway merged into one contour.
+#[must_use]
 pub fn bore(machine: &Machine) -> Option<Entity> {
     let radius = MILLIMETRES * machine.cam.bore_radius?;
     let Some(keyway) = machine.cam.keyway else {
@@ -421,6 +424,7 @@ pub(crate) fn as_turned(machine: &Machine, contour: Contour) -> Contour {
 }
 
 /// A point or direction of a clockwise cam as it lies in the drawing of this one.
+#[must_use]
 pub fn point_as_turned(machine: &Machine, point: Vector2<f64>) -> Vector2<f64> {
     match machine.cam.rotation {
         Rotation::Clockwise => point,

@@ -28,6 +28,7 @@ const TRACE_SHARE: f64 = 1.0 / 180.0;
 const SENSE_DEG: f64 = 24.0;
 
 /// A roller with its path and the normal of the cam, mm.
+#[must_use]
 pub fn roller(centre: Vector2<f64>, drive: Vector2<f64>, outward: Vector2<f64>, radius: f64) -> Vec<SheetShape> {
     let path = radius * (1.0 + PATH_OVER_RADIUS);
     vec![
@@ -38,6 +39,7 @@ pub fn roller(centre: Vector2<f64>, drive: Vector2<f64>, outward: Vector2<f64>, 
 }
 
 /// The pressure angle between path and normal, with the names of both.
+#[must_use]
 pub fn pressure_angle(
     centre: Vector2<f64>,
     drive: Vector2<f64>,
@@ -63,6 +65,7 @@ pub fn pressure_angle(
 }
 
 /// Horizontal and vertical axis through the origin, somewhat longer than what they cross.
+#[must_use]
 pub fn axes(crossed: &Extents) -> Vec<SheetShape> {
     let beyond = AXIS_BEYOND * crossed.size().max();
     vec![
@@ -72,6 +75,7 @@ pub fn axes(crossed: &Extents) -> Vec<SheetShape> {
 }
 
 /// A travel, m, for a text: "x = 12.34 mm".
+#[must_use]
 pub fn travelled(machine: &Machine, travel: f64) -> String {
     match machine.units() {
         LengthUnit::Millimetre => format!("x = {:.2} mm", MILLIMETRES * travel),
@@ -80,6 +84,7 @@ pub fn travelled(machine: &Machine, travel: f64) -> String {
 }
 
 /// Length and height of an outline, as dimensions to its left and below.
+#[must_use]
 pub fn overall(outline: &Extents, units: LengthUnit) -> Vec<Mark> {
     let (least, largest) = (outline.least, outline.largest);
     let text = |length: f64| units.dimension((length * 1e3).round() / 1e3);
@@ -146,6 +151,7 @@ fn zone_standard(units: LengthUnit) -> &'static str {
 }
 
 /// A given zone of the profile as a note, for a body whose drawing has no place for the frame.
+#[must_use]
 pub fn tolerance_note(machine: &Machine) -> Vec<String> {
     let units = machine.units();
     let width = machine.title.profile_tolerance.map(|width| units.zone(MILLIMETRES * width));
@@ -202,6 +208,7 @@ pub(crate) fn keyway_note(machine: &Machine) -> Option<String> {
 }
 
 /// Bore with its keyway, which are the datums, and balance holes, by their names.
+#[must_use]
 pub fn bore(machine: &Machine, balancing: Option<&Balancing>) -> Vec<Mark> {
     let mut marks = Vec::new();
     let Some(bore) = machine.cam.bore_radius else { return marks };
@@ -248,6 +255,7 @@ pub fn bore(machine: &Machine, balancing: Option<&Balancing>) -> Vec<Mark> {
 }
 
 /// How a cam turns, about its bore, and where its angle begins and how it grows, on a profile radius.
+#[must_use]
 pub fn turning(machine: &Machine, base: f64, profile: f64, zero: &str) -> Vec<Mark> {
     let bore = MILLIMETRES * machine.cam.bore_radius.unwrap_or(0.0);
     let (sense, way) = match machine.cam.rotation {
@@ -299,11 +307,13 @@ fn cell(value: Option<f64>, decimals: usize) -> String {
 }
 
 /// A length, mm, as a cell of a table in a unit; a dash where there is no value.
+#[must_use]
 pub fn length_cell(value: Option<f64>, units: LengthUnit) -> String {
     value.map_or("–".to_owned(), |value| units.cell(value))
 }
 
 /// The profiles of several sections as a shop plots them: R of each at the polar angles ψ, with the head of its column.
+#[must_use]
 pub fn section_profiles(sections: &[(String, &Contour)], units: LengthUnit) -> Vec<PlaceTable> {
     let (angles, rays) = rays();
     let radii: Vec<Vec<Option<f64>>> = sections.iter().map(|(_, contour)| polar::outermost(contour, &rays)).collect();
@@ -324,6 +334,7 @@ pub fn section_profiles(sections: &[(String, &Contour)], units: LengthUnit) -> V
 }
 
 /// A cam seen from the side: its thickness from a place on the sheet (x, mm), with the bore of a radius hidden.
+#[must_use]
 pub fn side_view(
     left: f64,
     outline: &Extents,

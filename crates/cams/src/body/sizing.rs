@@ -66,6 +66,7 @@ pub fn broken_limit(body: &impl Figures) -> Option<&'static str> {
 const SIZED_TO: f64 = 1e-9;
 
 /// The message where no base radius keeps every limit, with the limit that a huge cam still breaks; of a motion program or of another motion.
+#[must_use]
 pub fn no_radius(binding: Option<&'static str>, of_program: bool) -> String {
     match binding {
         Some("undercut") if of_program => {
@@ -82,6 +83,7 @@ pub fn no_radius(binding: Option<&'static str>, of_program: bool) -> String {
 }
 
 /// The sentence of a remedy: a base radius (m) in millimetres, without the noise of the last digits.
+#[must_use]
 pub fn passing(base_radius: f64) -> String {
     const PER_METRE: f64 = 1e12;
     let picometres = (PER_METRE * base_radius - 1e-3).ceil();

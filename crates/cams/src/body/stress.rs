@@ -116,6 +116,7 @@ pub(crate) fn exceeds_somewhere(
 
 /// Keys of the machine file that make the contact line long enough for a limit: the pressure is proportional to 1/√b. `None` if no accepted
 /// length is.
+#[must_use]
 pub fn length_for(machine: &Machine, largest: f64, limit: f64) -> Option<String> {
     let cam = &machine.cam;
     let over = largest / limit;
@@ -146,6 +147,7 @@ pub fn length_for(machine: &Machine, largest: f64, limit: f64) -> Option<String>
 /// ```
 ///
 /// The first gives b/a, the other two b³ = 3 F (b/a) E/(2 π E* (A + B)).
+#[must_use]
 pub fn of_sphere(force: f64, radius: f64, curvatures: (f64, f64), material: Material) -> f64 {
     let relative = |curvature: f64| 1.0 / radius + curvature;
     in_ellipse(force, (relative(curvatures.0), relative(curvatures.1)), contact_modulus(material))

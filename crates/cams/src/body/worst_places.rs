@@ -77,6 +77,7 @@ pub(crate) fn min_concave_radius(curves: Curves<'_>) -> Option<Worst> {
 }
 
 /// The radius of the largest convex curvature; infinite where nothing is convex.
+#[must_use]
 pub fn radius_of(sharpest: Worst) -> Worst {
     Worst { value: if sharpest.value > 0.0 { 1.0 / sharpest.value } else { f64::INFINITY }, ..sharpest }
 }

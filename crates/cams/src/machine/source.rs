@@ -67,6 +67,7 @@ pub struct MachineSource {
 
 impl MachineSource {
     /// A text of the user that is not in a folder.
+    #[must_use]
     pub fn of_user(catalogue: &'static Catalogue, name: &str, text: &str) -> Self {
         let (stem, text) = (stem::fitting(name), FlatText::new(text, &catalogue.keys.sections));
         let (known, motion) = (Arc::default(), Arc::default());
@@ -151,6 +152,9 @@ impl MachineSource {
     }
 
     /// The result of `parts` for this text.
+    ///
+    /// # Errors
+    /// All faults found.
     pub fn read<T>(
         &self,
         overrides: &[String],

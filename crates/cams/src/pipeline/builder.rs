@@ -113,6 +113,7 @@ impl Builder {
     }
 
     /// Sets a key to a number with a unit; a key without a value keeps its default.
+    #[must_use]
     pub fn quantity(self, key: &str, value: impl Into<Option<f64>>, unit: &str) -> Self {
         match value.into() {
             Some(value) => self.set(key, &with_unit(value, unit)),
@@ -121,16 +122,19 @@ impl Builder {
     }
 
     /// Sets a key to a length, m.
+    #[must_use]
     pub fn length(self, key: &str, metres: impl Into<Option<f64>>) -> Self {
         self.quantity(key, metres, "m")
     }
 
     /// Sets a key to an angle, rad.
+    #[must_use]
     pub fn angle(self, key: &str, radians: impl Into<Option<f64>>) -> Self {
         self.quantity(key, radians, "rad")
     }
 
     /// Sets a key to a bare number.
+    #[must_use]
     pub fn number(self, key: &str, value: impl Into<Option<f64>>) -> Self {
         match value.into() {
             Some(value) => self.set(key, &shortest(value)),
@@ -235,6 +239,7 @@ impl Builder {
     }
 
     /// The text of a machine file, and the keys that are set in addition: for machines of a domain that are read in another way.
+    #[must_use]
     pub fn into_source(self) -> (String, Vec<String>) {
         let mut keys = self.keys;
         if let Some(spring) = self.spring {

@@ -412,6 +412,7 @@ impl Proven {
     }
 
     /// Tolerance of its outlines, mm.
+    #[must_use]
     pub fn tolerance_mm(&self) -> f64 {
         MILLIMETRES * self.0.request.fit.tolerance
     }

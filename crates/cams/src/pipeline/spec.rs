@@ -42,6 +42,7 @@ impl SolvedBodies {
     }
 
     /// With another body that is made for it, whose files are named by its command, and the report on both together.
+    #[must_use]
     pub fn with(mut self, other: impl Body + 'static, joint_report: impl AssemblyReport + 'static) -> Self {
         self.others.push((other.kind().command.to_owned(), Arc::new(other)));
         Self { joint_report: Some(Arc::new(joint_report)), ..self }
@@ -93,11 +94,13 @@ impl Spec {
     }
 
     /// All inputs of the solution in addition to the machine.
+    #[must_use]
     pub fn with_inputs(self, inputs: Vec<Input>) -> Self {
         Self { inputs: Some(inputs), ..self }
     }
 
     /// How the cam is solved for other speeds, and of which other machines a file may be the cam: a check that fails looks for these.
+    #[must_use]
     pub fn for_other_speeds<B, E>(
         self,
         solve: impl Fn(&Machine, f64) -> Result<B, E> + Send + Sync + 'static,

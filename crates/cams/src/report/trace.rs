@@ -29,6 +29,7 @@ pub struct Trace {
 }
 
 /// The largest of 1, 2 and 5 times a power of ten of which at most a given number fit into a range.
+#[must_use]
 pub fn round_step(range: f64, most: f64) -> f64 {
     let decade = libm::pow(10.0, libm::log10(range / most).floor());
     [1.0, 2.0, 5.0, 10.0].into_iter().map(|n| n * decade).find(|step| range / step <= most).unwrap_or(10.0 * decade)

@@ -221,6 +221,9 @@ impl TradeLimits {
 }
 
 /// Time of some work, µs, and its result.
+///
+/// # Errors
+/// As for the work.
 pub fn timed<T>(clock: TradeClock<'_>, work: impl FnOnce() -> Result<T, Refusal>) -> Result<(f64, T), Refusal> {
     let start = clock();
     let made = work()?;

@@ -86,6 +86,9 @@ pub fn of_program(
 }
 
 /// Measures a task.
+///
+/// # Errors
+/// [`Refusal`] when a setting cannot be made.
 pub fn analysis(task: &TradeTask<'_>, run: TradeRun<'_>) -> Result<Analysis, Refusal> {
     let (laws, settings) = &task.settings;
     let limits = task.limits;

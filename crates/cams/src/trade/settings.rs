@@ -43,6 +43,7 @@ const POINTS: [(&str, f64, Option<f64>, PointInterpolation); 5] = [
 pub type SettingLadder = (Vec<TradeLaw>, Vec<TradeSetting>);
 
 /// The flags of an outline that is drawn to a distance, m, and keeps a share of the acceleration.
+#[must_use]
 pub fn flags(tolerance: f64, share: Option<f64>) -> String {
     // Flags give a tolerance in micrometres; rounding removes the digits that the conversion adds.
     let micrometres = shortest((1e12 * tolerance).round() / 1e6);
@@ -51,6 +52,7 @@ pub fn flags(tolerance: f64, share: Option<f64>) -> String {
 }
 
 /// Outlines from coarse to fine, with the first law.
+#[must_use]
 pub fn ladder() -> Vec<TradeSetting> {
     let arcs = TOLERANCES.iter().map(|(name, tolerance)| (*name, *tolerance, None, SegmentKind::Arcs));
     let all = arcs.chain(WITH_ACCELERATION);
@@ -65,6 +67,9 @@ pub fn ladder() -> Vec<TradeSetting> {
 }
 
 /// A disc cam over the ladder; its law is a closed form, exact to rounding.
+///
+/// # Errors
+/// [`Refusal`] when there is no such cam.
 pub fn of_disc(spec: impl Fn() -> Result<Spec, Refusal> + 'static) -> Result<SettingLadder, Refusal> {
     let solve = move || spec()?.solve().map_err(Refusal::of);
     let law = TradeLaw { cam: solve()?, solve: Box::new(solve), error_mm: 0.0, residual_n: 0.0 };

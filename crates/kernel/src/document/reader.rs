@@ -94,6 +94,7 @@ impl<'a> Reader<'a> {
 
     /// As [`Reader::of_flat`], from what is known of the text without overrides: only what they set is read. `None` where they may change
     /// more than the values that they set, or have a fault; then everything is to be read.
+    #[must_use]
     pub fn of_known(
         (files, source): (&'a NamedFiles, &'a str),
         flat: &FlatText,

@@ -114,11 +114,13 @@ pub(super) struct Document<'a> {
 
 impl FlatText {
     /// The text as it was read.
+    #[must_use]
     pub fn text(&self) -> &str {
         &self.text
     }
 
     /// Reads a TOML text; the sections say which tables occur several times.
+    #[must_use]
     pub fn new(text: &str, sections: &[&KeySection]) -> Self {
         let repeated =
             |path: &str| sections.iter().any(|section| section.path == path && section.occurs == Occurrence::Repeated);

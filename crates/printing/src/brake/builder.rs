@@ -31,7 +31,7 @@ pub struct BrakeSettings {
 
 /// A belt brake put together in code: methods of the [`Builder`].
 pub trait BuilderOfBrake: Sized {
-    /// What a belt brake is to do. Its parts are [`Builder::paper_roll`] with [`Builder::brake_frame`], or [`Builder::brake_ends`].
+    /// What a belt brake is to do. Its parts are [`Builder::paper_roll`](BuilderOfBrake::paper_roll) with [`Builder::brake_frame`](BuilderOfBrake::brake_frame), or [`Builder::brake_ends`](BuilderOfBrake::brake_ends).
     ///
     /// ```
     /// use camgen::{BuilderOfBrake, Spec};

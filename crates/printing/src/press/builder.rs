@@ -26,8 +26,8 @@ pub struct BufferData {
 
 /// A press put together in code: methods of the [`Builder`].
 ///
-/// The tables of a press. What they describe is cut with [`Spec::rotary`](camgen_cams::Spec::rotary), [`Spec::translating`](camgen_cams::Spec::translating),
-/// [`Spec::conoid`](camgen_cams::Spec::conoid) and [`Spec::compensator`](camgen_cams::Spec::compensator).
+/// The tables of a press. What they describe is cut with [`Spec::rotary`](super::SpecOfPress::rotary), [`Spec::translating`](super::SpecOfPress::translating),
+/// [`Spec::conoid`](super::SpecOfPress::conoid) and [`Spec::compensator`](super::SpecOfPress::compensator).
 pub trait BuilderOfPress: Sized {
     /// The bed and the crank that reverses it.
     ///
@@ -85,20 +85,20 @@ pub trait BuilderOfPress: Sized {
     #[must_use]
     fn largest_column(self, length: f64) -> Self;
 
-    /// The wedge cam on the bed, a plate with a flank on either side: for [`Spec::translating`](camgen_cams::Spec::translating).
+    /// The wedge cam on the bed, a plate with a flank on either side: for [`Spec::translating`](super::SpecOfPress::translating).
     #[must_use]
     fn wedge(self, wedge: TranslatingData) -> Self;
 
-    /// The conoid, a three-dimensional cam for several speeds: for [`Spec::conoid`](camgen_cams::Spec::conoid).
+    /// The conoid, a three-dimensional cam for several speeds: for [`Spec::conoid`](super::SpecOfPress::conoid).
     #[must_use]
     fn conoid(self, conoid: ConoidData) -> Self;
 
-    /// The compensating cam, which takes the torque of the disc cam: for [`Spec::compensator`](camgen_cams::Spec::compensator), and made with the
+    /// The compensating cam, which takes the torque of the disc cam: for [`Spec::compensator`](super::SpecOfPress::compensator), and made with the
     /// disc cam by [`Spec::assemble`](camgen_cams::Spec::assemble).
     #[must_use]
     fn compensator(self, compensator: CompensatorData) -> Self;
 
-    /// The drive of a bed without a cam: for [`Builder::drive_machine`].
+    /// The drive of a bed without a cam: for [`Builder::drive_machine`](BuilderOfPress::drive_machine).
     #[must_use]
     fn drive(self, drive: DriveData) -> Self;
 

@@ -66,7 +66,7 @@ mod tests {
         let main: Arc<dyn Motion> = Arc::new(EccentricCircle::new(0.01, 0.06));
         let turn = std::f64::consts::PI;
         let counter = || CounterMotion::new(Arc::clone(&main), 0.02, turn);
-        contract::kept_by(&[("counter".to_owned(), Box::new(counter()) as Box<dyn Motion>)]);
+        _ = contract::kept_by(&[("counter".to_owned(), Box::new(counter()) as Box<dyn Motion>)]);
         let counter = counter();
         for i in 0..36 {
             let angle = 10.0_f64.to_radians() * f64::from(i);

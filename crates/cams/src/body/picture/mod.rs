@@ -119,6 +119,7 @@ impl Cover {
     }
 
     /// With a margin all round.
+    #[must_use]
     pub fn with_margin(self, margin: f64) -> Extents {
         let margin = Vector2::repeat(margin);
         Extents { least: self.0.least - margin, largest: self.0.largest + margin }

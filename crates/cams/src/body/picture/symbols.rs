@@ -16,6 +16,7 @@ const SPIRAL_PLACES: u32 = 66;
 const STROKES: u32 = 6;
 
 /// What holds a pivot at a place, with half the width of its foot, mm, above it (1) or below it (-1).
+#[must_use]
 pub fn bracket(place: Vector2<f64>, (foot, above): (f64, f64)) -> Vec<SheetShape> {
     let high = above * FOOT * foot;
     let corners = [(0.0, 0.0), (-foot, high), (foot, high), (0.0, 0.0)];

@@ -150,6 +150,7 @@ pub(crate) fn words(at: Vector2<f64>, height: f64, anchor: TextAnchor, text: imp
 }
 
 /// A number for a person: at most three decimals, no trailing zeros.
+#[must_use]
 pub fn rounded(value: f64) -> String {
     if !value.is_finite() {
         return "none".into();

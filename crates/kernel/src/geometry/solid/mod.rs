@@ -173,6 +173,7 @@ fn check_closed(boundary: &TruckBoundary) -> Result<(), Refusal> {
 }
 
 /// That a solid has no closed boundary.
+#[must_use]
 pub fn not_closed(why: &str) -> Refusal {
     Refusal::new(format!("the solid is not closed: {why}")).remedy(REPORT)
 }

@@ -152,6 +152,9 @@ impl OutlineStrips {
 impl Outline {
     /// Fits arcs or a spline along a curve, given in millimetres over a range of its parameter with the allowed errors of its heading and
     /// curvature, within the tolerance of a fit (m).
+    ///
+    /// # Errors
+    /// [`OutlineError`] when the tolerance cannot be kept.
     pub fn add_piece(
         &mut self,
         target: impl Fn(f64) -> (CurvePoint, ChainTolerance),
@@ -338,6 +341,7 @@ fn within(
 
 /// The allowed errors of heading and curvature of a curve in millimetres, where a unit of lift moves the follower this far along its
 /// normal (m), and the parameter has this rate.
+#[must_use]
 pub fn allowed(frame: &CurvePoint, along_normal: f64, pace: f64, motion: MotionTolerance) -> ChainTolerance {
     if motion == MotionTolerance::ANY {
         return ChainTolerance::ANY;
@@ -347,6 +351,7 @@ pub fn allowed(frame: &CurvePoint, along_normal: f64, pace: f64, motion: MotionT
 }
 
 /// The number of arcs that an allowed error of the acceleration requires, where it is more than an outline may have.
+#[must_use]
 pub fn too_many_arcs(curves: Curves<'_>, tolerance: MotionTolerance) -> Option<f64> {
     let motion = curves.motion;
     let rolled = motion.pieces().iter().enumerate().filter(|(piece, span)| motion.is_rolled(*piece) && !span.dwell);

@@ -123,6 +123,7 @@ impl Fit {
 
     /// How far inwards the middle of the band lies, and half its width, m. A band on one side is as wide as the tolerance,
     /// one on both sides twice that.
+    #[must_use]
     pub fn band(&self) -> (f64, f64) {
         match self.side {
             Side::Both => (0.0, self.tolerance),
@@ -198,12 +199,14 @@ impl OutlineError {
 
 impl Outline {
     /// An outline that has no segment yet.
+    #[must_use]
     pub fn empty() -> Self {
         let contour = Contour { vertices: Vec::new() };
         Self { contour, deviation: 0.0, best_possible: 0.0, best_for: [0.0; 2], lead_in: None }
     }
 
     /// With the deviation measured from the exact curve, where the chain was fitted to a curve at the distance `shift` (m) from it.
+    #[must_use]
     pub fn measured_from_exact(self, shift: f64) -> Self {
         let deviation = self.deviation + MILLIMETRES * shift.abs();
         Self { deviation, ..self }
@@ -220,6 +223,9 @@ pub fn profile(curves: Curves<'_>, fit: impl Into<Fit>) -> Result<Outline, Outli
 }
 
 /// The profile as an outline, and how far inwards of the exact profile the middle of its band lies, m.
+///
+/// # Errors
+/// As for [`profile`].
 pub fn profile_within(curves: Curves<'_>, fit: Fit) -> Result<(Outline, f64), OutlineError> {
     let fit = fit.on_side_of(curves);
     // Half the radius is kept where a parallel has the smaller one, so that it stays as smooth as the profile.
@@ -377,6 +383,9 @@ pub fn pitch_within(curves: Curves<'_>, tolerance: f64) -> Result<Outline, Outli
 }
 
 /// Refuses a curve too large for a drawing; `frame` gives its points in millimetres.
+///
+/// # Errors
+/// [`Refusal`] with how far it would reach.
 pub fn check_drawing_size(pieces: &[Piece], frame: impl Fn(usize, f64) -> CurvePoint) -> Result<(), Refusal> {
     let place = |piece: &Piece, part: u32| piece.start + (piece.end - piece.start) * f64::from(part) / f64::from(LOOKS);
     let radius = |(index, piece): (usize, &Piece)| {
@@ -479,6 +488,7 @@ pub(super) fn starts_at(gap: &UndrawnStretch, parameter: f64, period: Option<f64
 }
 
 /// The rest of a piece without the gaps, halved where it is longer than one arc or one fit may be.
+#[must_use]
 pub fn parts(piece: &Piece, gaps: &[(f64, f64)], period: Option<f64>) -> Vec<(f64, f64)> {
     let mut left = vec![(piece.start, piece.end)];
     for gap in gaps {
