@@ -154,7 +154,7 @@ def test_a_worker_outlives_a_change_of_the_base(cluster, program, tmp_path):
     client, worker = cluster
     worker()
     client.wait_for_workers(1, timeout=60)
-    base = (pathlib.Path(__file__).parents[2] / "profiles" / "feeder.toml").read_text("utf-8")
+    base = (pathlib.Path(__file__).parents[2] / "crates" / "cams" / "profiles" / "feeder.toml").read_text("utf-8")
     path = tmp_path / "own.toml"
     path.write_text(STUDY.replace('"feeder"', '"base.toml"').replace("rows = 3000", "rows = 40"), "utf-8")
     tables = []

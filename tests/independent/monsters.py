@@ -259,8 +259,8 @@ def good_files(binary, directory):
     followers = (None, "roller", "swinging-roller", "flat", "knife")
     starts = [[binary, "init", *(["--follower", f] if f else [])] for f in followers]
     machines = [subprocess.run(words, capture_output=True, check=True).stdout for words in starts]
-    profiles = Path(__file__).resolve().parents[2] / "profiles"
-    machines += [path.read_bytes() for path in sorted(profiles.glob("*.toml"))]
+    profiles = (Path(__file__).resolve().parents[2] / "crates").glob("*/profiles/*.toml")
+    machines += [path.read_bytes() for path in sorted(profiles, key=lambda path: path.name)]
     return drawings, machines
 
 

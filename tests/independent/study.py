@@ -475,7 +475,7 @@ def main():
     directory = pathlib.Path(arguments.directory).resolve() / "study"
     shutil.rmtree(directory, ignore_errors=True)
     directory.mkdir(parents=True)
-    texts = {path.stem: path.read_text(encoding="utf-8") for path in sorted((HERE / "profiles" / "studies").glob("*.toml"))}
+    texts = {path.stem: path.read_text(encoding="utf-8") for path in sorted((HERE / "crates" / "cams" / "profiles" / "studies").glob("*.toml"))}
     texts["press"] = """
 name = "press"
 base = "dpi"

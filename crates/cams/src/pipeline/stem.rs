@@ -14,10 +14,11 @@ impl Cam {
     /// The usual start of the names of its files, MACHINE-COMMAND-SPEEDSrpm; of a conoid for a range of speeds, that range, rpm.
     ///
     /// ```
-    /// use camgen::{Machine, Spec, SpecOfPress};
+    /// use camgen::{Machine, Spec};
     ///
-    /// let (machine, name) = Machine::load("dpi", &[])?;
-    /// assert_eq!(Spec::rotary(machine, 35.0).solve()?.stem(&name, None), "dpi-rotary-35rpm");
+    /// let (machine, name) = Machine::load("feeder", &[])?;
+    /// let cam = Spec::of_program(machine, Some(120.0)).ok_or("no motion")?.solve()?;
+    /// assert_eq!(cam.stem(&name, None), "feeder-make-120rpm");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
