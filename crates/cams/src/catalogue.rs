@@ -181,3 +181,18 @@ impl MachineSource {
 pub fn lift_table(text: &str, overrides: &[String]) -> Result<TableRows, MachineError> {
     MachineSource::from_toml("import", text).in_working_folder().read(overrides, machine::read_lift_table)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The tests of this crate are linked with no other that has domains.
+    #[test]
+    fn the_core_alone_has_no_domain() {
+        assert!(registered().is_empty());
+        assert_eq!(commands().map(|command| command.word).collect::<Vec<_>>(), [cams::MAKE]);
+        assert!(catalogue().names().contains(&"feeder") && !catalogue().names().contains(&"dpi"));
+        let told = Machine::load("dpi", &[]).expect_err("a press").to_string();
+        assert!(told.contains("feeder"), "{told}");
+    }
+}

@@ -11,6 +11,8 @@ use crate::press::motion::equation_18::EfficiencyModel;
 use crate::press::template;
 use crate::shaft::ShaftMachine;
 use camgen_cams::catalogue::{analyses, catalogue, checks, kinds};
+use camgen_cams::domain::registered;
+use camgen_cams::machine::Catalogue;
 use camgen_cams::machine::{CamData, Limits, Machine, MachineError, MachineSource, Rotation, schema};
 use camgen_cams::pipeline::Spec;
 use camgen_kernel::document::Presence::Required;
@@ -23,6 +25,17 @@ mod keys;
 /// A motion program behind a press, so that a file has every table that can stand in it.
 const MOTION: &str = "\n[motion]\nstart = \"0 mm\"\n[[motion.segment]]\nover = \"180 deg\"\nto = \"20 mm\"\n\
                       [[motion.segment]]\nto = \"0 mm\"\n";
+
+/// What is linked with the crate has its domains, in their order, as a catalogue has that is put together by hand.
+#[test]
+fn the_domains_are_registered() {
+    assert_eq!(registered().len(), DOMAINS.len());
+    let by_hand = Catalogue::builder().with(DOMAINS).build();
+    assert_eq!(by_hand.names(), catalogue().names());
+    assert_eq!(by_hand.checks, catalogue().checks);
+    let paths = |catalogue: &Catalogue| catalogue.keys.sections.iter().map(|section| section.path).collect::<Vec<_>>();
+    assert_eq!(paths(&by_hand), paths(catalogue()));
+}
 
 fn dpi(overrides: &[&str]) -> Result<Machine, MachineError> {
     let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
