@@ -379,7 +379,7 @@ fn a_linkage_is_drawn_and_moves() {
 /// A written table in the place of that of a machine file makes the same machine; no other analysis, and no cam, has one.
 #[test]
 fn the_table_of_a_linkage_can_be_pasted() {
-    let own = include_str!("../../crates/printing/profiles/dpi-crank-slider.toml");
+    let own = include_str!("../../profiles/dpi-crank-slider.toml");
     let (head, rest) = own.split_once("[linkage]").expect("a table");
     let (_, behind) = rest.split_once("\n[").expect("another table");
     let goals: [&[&str]; 4] = [

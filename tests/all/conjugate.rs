@@ -8,7 +8,7 @@ use serde_json::Value;
 
 const TOLERANCE: f64 = 5e-6;
 
-const TRANSLATING: &str = include_str!("../../crates/cams/profiles/conjugate.toml");
+const TRANSLATING: &str = include_str!("../../profiles/conjugate.toml");
 const SWINGING: &str = r#"
 name = "lever"
 [motion]

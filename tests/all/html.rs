@@ -13,7 +13,7 @@ use serde_json::Value;
 use std::fs;
 
 const LIFTER: &str = include_str!("common/lifter.toml");
-const STYLE: &str = include_str!("../../crates/cams/templates/report.css");
+const STYLE: &str = include_str!("../../templates/report.css");
 const TOLERANCE: f64 = 5e-6;
 /// Addresses that may stand in the page, none of which is loaded: the home of the charts in their licence, and the name of SVG.
 const ADDRESSES: [&str; 2] = ["https://github.com/leeoniya/uPlot", "http://www.w3.org/2000/svg"];

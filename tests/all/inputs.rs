@@ -127,7 +127,7 @@ fn machine(section: &KeySection, sets: &[String]) -> Option<Machine> {
         // A rod is given as a ratio or as a length.
         let by_length = sets.iter().any(|set| set.starts_with("linkage.rod="));
         let rod = if by_length { "" } else { "rod_ratio = 3\n" };
-        let text = include_str!("../../crates/printing/profiles/dpi-six-bar.toml")
+        let text = include_str!("../../profiles/dpi-six-bar.toml")
             .replace("rod_ratio = 3 ", &format!("{rod}# "));
         return Machine::from_toml("six-bar.toml", &text, sets).ok();
     }
@@ -142,7 +142,7 @@ fn machine(section: &KeySection, sets: &[String]) -> Option<Machine> {
         };
         let text = format!(
             "{}\n[[shaft.disc]]\nat = \"290 mm\"\n{disc}\n",
-            include_str!("../../crates/printing/profiles/dpi-shaft.toml").replace("bore_radius = \"25 mm\"", "")
+            include_str!("../../profiles/dpi-shaft.toml").replace("bore_radius = \"25 mm\"", "")
         );
         return Machine::from_toml("shaft.toml", &text, sets).ok();
     }
@@ -150,12 +150,12 @@ fn machine(section: &KeySection, sets: &[String]) -> Option<Machine> {
         // Wire and coils are given together, in the place of the index.
         let by_wire = sets.iter().any(|set| set.contains("body.wire") || set.contains("body.coil"));
         let shape = if by_wire { "wire = \"18 mm\"\ncoil = \"108 mm\"\n" } else { "" };
-        let press = include_str!("../../crates/printing/profiles/dpi.toml");
+        let press = include_str!("../../profiles/dpi.toml");
         let text = format!("{press}\n[spring_buffer.body]\nstress = \"700 MPa\"\n{shape}");
         return Machine::from_toml("springs.toml", &text, sets).ok();
     }
     if section.path.starts_with("brake") {
-        let roll = include_str!("../../crates/printing/profiles/roll.toml");
+        let roll = include_str!("../../profiles/roll.toml");
         let text = if section.path == "brake.ends" {
             let (head, _) = roll.split_once("[brake.roll]").expect("a roll");
             let (_, tail) = roll.split_once("[follower.roller]").expect("a follower");

@@ -12,7 +12,7 @@ use tempfile::TempDir;
 
 const TOLERANCE: f64 = 5e-6;
 
-const YOKE: &str = include_str!("../../crates/cams/profiles/yoke.toml");
+const YOKE: &str = include_str!("../../profiles/yoke.toml");
 const RIB: &str = r#"
 name = "Rib"
 [motion]

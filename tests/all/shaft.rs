@@ -161,7 +161,7 @@ fn faults_of_a_shaft_have_a_place_and_a_remedy() {
         let refused = run(2, args);
         assert!(refused.err.contains(told), "{args:?}: {}", refused.err);
     }
-    let text = fs::read_to_string("crates/printing/profiles/press-cylinder.toml").expect("a profile");
+    let text = fs::read_to_string("profiles/press-cylinder.toml").expect("a profile");
     let disc = "[[shaft.disc]]\nat = \"500 mm\"\n";
     for (more, told) in [
         (disc.to_owned(), "neither a mass nor a size"),

@@ -40,7 +40,7 @@ fn lifter(text: &str, overrides: &[&str]) -> Spec {
 }
 
 /// A turret that is moved on.
-const INDEXER: &str = include_str!("../../crates/cams/profiles/indexer.toml");
+const INDEXER: &str = include_str!("../../profiles/indexer.toml");
 
 /// A cam of each kind. A new kind of body needs a line here.
 fn cam_of(kind: &Kind, overrides: &[&str]) -> Cam {

@@ -7,7 +7,7 @@ use camgen::report::Verdict;
 use std::fs;
 
 const TOLERANCE: f64 = 5e-6;
-const WEDGE: &str = include_str!("../../crates/cams/profiles/wedge.toml");
+const WEDGE: &str = include_str!("../../profiles/wedge.toml");
 
 fn cam(sets: &[&str]) -> Cam {
     let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();

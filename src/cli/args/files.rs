@@ -42,7 +42,7 @@ pub(in crate::cli) struct OutputArgs {
     #[arg(long, value_name = "UNIT", ignore_case = true, value_parser = word::<LengthUnit>())]
     pub(in crate::cli) units: Option<LengthUnit>,
 
-    /// Template of the SVG review sheet instead of the built-in one, crates/cams/templates/sheet.svg
+    /// Template of the SVG review sheet instead of the built-in one, templates/sheet.svg
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) template: Option<PathBuf>,
 
