@@ -330,7 +330,7 @@ def works(program, binary, directory):
     changed = program.engine(task="text", toml=text, changes=[{"set": {"key": "cam.thickness", "to": "17 mm"}}])["toml"]
     assert changed == text.replace('thickness = "15 mm"', 'thickness = "17 mm"') != text
     posted = lambda path, **body: json.loads(program.ask("POST", path, json.dumps(body).encode())[1])
-    assert "changed by another program" in posted("/save", design=0, toml=changed, before="something else")["faults"][0]["message"]
+    assert "another program has changed the file" in posted("/save", design=0, toml=changed, before="something else")["faults"][0]["message"]
     assert "could not be read again" in posted("/save", design=0, toml="name = ", before=text)["faults"][0]["message"]
     assert path.read_text() == text
     assert "written" in posted("/save", design=0, toml=changed, before=text) and path.read_text() == changed
