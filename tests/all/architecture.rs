@@ -85,7 +85,7 @@ fn paths(all: &[Token], module: &[String]) -> Vec<(Vec<String>, usize)> {
 
 /// The root of a crate: its own, or that of one before it.
 fn is_root(head: &str) -> bool {
-    ["crate", "camgen_kernel", "camgen_cams", "camgen_printing", "camgen"].contains(&head)
+    ["crate", "camgen_kernel", "camgen_cams", "camgen_printing"].contains(&head)
 }
 
 /// A path from the root of its crate; `None` for one into another library or to something in scope.

@@ -67,6 +67,9 @@ fn every_public_type_has_a_page() {
     }
 }
 
+/// What the pipeline has for the crates of domains, which make specifications of their own.
+const FOR_DOMAINS: [&str; 4] = ["Alternative", "OF_BUILDER", "SolvedBodies", "WantedCams"];
+
 /// What the pipeline is made of is on the first page.
 #[test]
 fn the_first_page_has_the_whole_pipeline() {
@@ -74,7 +77,8 @@ fn the_first_page_has_the_whole_pipeline() {
     assert!(all.len() > 15 && all.contains("Proven"), "{all:?}");
     for (page, from) in [(root().join("src/lib.rs"), "camgen_cams"), (src("cams").join("lib.rs"), "pipeline")] {
         let first = exported(&page, Some(from));
-        let missing: Vec<&String> = all.difference(&first).collect();
+        let missing: Vec<&String> =
+            all.difference(&first).filter(|name| !FOR_DOMAINS.contains(&name.as_str())).collect();
         assert!(missing.is_empty(), "not on the first page {}: {missing:?}", page.display());
     }
 }

@@ -16,6 +16,7 @@ use std::sync::LazyLock;
 /// What machine files may contain, and those in the binary: of the core and of every domain that the program is linked with.
 ///
 /// ```
+/// # use camgen_cams as camgen;
 /// let catalogue = camgen::catalogue::catalogue();
 /// assert!(catalogue.names().contains(&"feeder") && catalogue.checks.contains(&"pressure_angle"));
 /// ```
@@ -35,6 +36,7 @@ impl Catalogue {
     /// A catalogue of the core and of chosen domains.
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::machine::Catalogue;
     ///
     /// assert!(Catalogue::builder().build().names().contains(&"feeder"));

@@ -24,6 +24,7 @@ inventory::collect!(PlugIn);
 /// Registers the domains of a crate, once, outside of any function: whatever is linked with the crate has them.
 ///
 /// ```
+/// # use camgen_cams as camgen;
 /// use camgen::domain::Domain;
 ///
 /// const DOMAINS: &[&Domain] = &[];

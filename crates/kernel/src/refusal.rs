@@ -5,6 +5,7 @@ use std::fmt;
 /// Why something is refused: what is wrong, where, and what would be right. Errors that no caller tells apart are of this type.
 ///
 /// ```
+/// # use camgen_kernel as camgen;
 /// let refusal = camgen::Refusal::new("the velocity of the follower jumps").at("12 deg").remedy("give the motion a ramp");
 /// assert_eq!(refusal.to_string(), "the velocity of the follower jumps at 12 deg; give the motion a ramp");
 /// ```

@@ -183,6 +183,7 @@ fn of_cam(machine: &Machine, program: &Program, law: &'static Law, rpm: Option<f
 /// Every law at the numbers of a file, or of the flags alone.
 ///
 /// ```
+/// # use camgen_cams as camgen;
 /// use camgen::analysis::laws::{self, LawsOptions};
 ///
 /// let all = laws::analysis(None, &LawsOptions { over: Some(1.5), rpm: Some(200.0), ..LawsOptions::default() })?;

@@ -130,6 +130,7 @@ fn opened(machine: &Machine, free: &[FreeDimension]) -> Result<Machine, Refusal>
 /// of the file.
 ///
 /// ```
+/// # use camgen_cams as camgen;
 /// use camgen::{Judged, Machine};
 /// use camgen::analysis::size::{self, FreeDimension};
 ///

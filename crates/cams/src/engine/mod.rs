@@ -154,6 +154,7 @@ pub fn files(request: &EngineRequest, directory: &Path, overwrite: bool) -> Resu
 /// Answers a request.
 ///
 /// ```
+/// # use camgen_cams as camgen;
 /// use camgen::engine::{EngineRequest, TextChange, answer};
 ///
 /// let toml = camgen::catalogue::catalogue().embedded.iter().find(|file| file.name == "feeder").map(|file| file.toml.to_owned());

@@ -110,6 +110,7 @@ pub fn valid_rpm(rpm: f64) -> Result<f64, String> {
 /// It has what every cam has. What a domain describes, as a press or a shaft, is a part of it ([`Machine::part`]).
 ///
 /// ```
+/// # use camgen_cams as camgen;
 /// use camgen::Machine;
 ///
 /// let (machine, name) = Machine::load("feeder", &["cam.thickness=20 mm".to_owned()])?;

@@ -35,6 +35,7 @@ type ReadMotion = (Option<FollowerMovement>, Option<ProgramSpan>, Arc<Program>);
 /// The text of a machine file, read once: machines of it with other values are made without reading the text again.
 ///
 /// ```
+/// # use camgen_cams as camgen;
 /// use camgen::machine::MachineSource;
 /// use camgen::{Machine, Spec};
 ///

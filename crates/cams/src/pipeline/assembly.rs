@@ -15,6 +15,7 @@ use std::sync::Arc;
 /// Measures and sections of the report on the cams of an assembly together.
 ///
 /// ```
+/// # use camgen_cams as camgen;
 /// use camgen::{Assembly, AssemblyReport, Proven, Section, Spec};
 /// use std::sync::Arc;
 ///

@@ -27,6 +27,7 @@ pub const SOURCE: &str = "the builder";
 /// A lever with a roller, on a motion that is implemented here:
 ///
 /// ```
+/// # use camgen_cams as camgen;
 /// use camgen::{Jet, Keyway, Material, Motion, Piece, Quantity, Spec, SpringData, SwingingRollerFollower};
 /// use std::f64::consts::TAU;
 ///
@@ -84,6 +85,7 @@ impl Spec {
     /// A specification put together in code instead of in a file.
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::{Program, Quantity, Spec, law};
     /// use std::f64::consts::PI;
     ///
@@ -223,6 +225,7 @@ impl Builder {
     /// The machine, every value in range: for a [`Spec`] other than that of [`Builder::motion`], and for analyses.
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::{Error, Spec};
     ///
     /// let wrong = Spec::builder("too thin").knife_edge(Default::default()).thickness(0.0).wall(-0.01);

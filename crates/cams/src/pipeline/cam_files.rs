@@ -12,6 +12,7 @@ impl Proven {
     /// Makes the files in memory.
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::{Error, Spec, Writing};
     ///
     /// # let motion = camgen::motion::EccentricCircle::new(0.005, 0.040);

@@ -54,6 +54,7 @@ impl Cam {
     /// cut from several DXF files: see [`Cam::check_section`].
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::{Machine, Spec, Verdict};
     ///
     /// let cam = |lift: &str| -> Result<_, Box<dyn std::error::Error>> {
@@ -77,6 +78,7 @@ impl Cam {
     /// table of points or for a servo drive and a program for a milling machine are recognised and checked as such.
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::{ExpectedFile, Machine, Request, Spec};
     ///
     /// let (machine, _) = Machine::load("feeder", &[])?;

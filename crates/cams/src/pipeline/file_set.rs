@@ -164,6 +164,7 @@ impl FileSet {
     /// and the notes of the report name the inputs that differ from the last time.
     ///
     /// ```no_run
+    /// # use camgen_cams as camgen;
     /// use camgen::{Machine, Spec, Writing};
     ///
     /// let (machine, name) = Machine::load("feeder", &[])?;

@@ -13,6 +13,7 @@ use camgen_kernel::units::LengthUnit;
 /// An analysis whose measures were judged, with the cam that was cut for it, where there is one.
 ///
 /// ```
+/// # use camgen_cams as camgen;
 /// use camgen::{Judged, Machine, analysis::size};
 ///
 /// let (machine, _) = Machine::load("lever", &[])?;

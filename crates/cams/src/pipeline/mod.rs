@@ -50,6 +50,7 @@ use std::sync::Arc;
 /// A solved cam: exact curves, nothing drawn yet. A copy shares its body.
 ///
 /// ```
+/// # use camgen_cams as camgen;
 /// use camgen::{Cam, Machine, Request, Spec};
 ///
 /// let (machine, _) = Machine::load("valve", &[])?;
@@ -94,6 +95,7 @@ impl Cam {
     /// command line draws, too.
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::{Fit, Machine, Request, Side, Spec};
     ///
     /// let (machine, _) = Machine::load("feeder", &[])?;

@@ -35,6 +35,7 @@ use std::sync::Arc;
 /// A cam whose cut files were written to memory, read back, and checked. A copy shares all of it.
 ///
 /// ```
+/// # use camgen_cams as camgen;
 /// use camgen::{Machine, Spec, Verdict};
 ///
 /// let (machine, _) = Machine::load("feeder", &["limits.pressure_angle=20 deg".to_owned(), "cam.base_radius=40 mm".to_owned()])?;
@@ -113,6 +114,7 @@ impl Drawing {
     /// As [`Drawing::prove`], in another version of DXF.
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::{Spec, Version};
     ///
     /// # let motion = camgen::motion::EccentricCircle::new(0.005, 0.040);
@@ -450,6 +452,7 @@ impl Proven {
     /// The report, without files.
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::{Machine, Report, Spec};
     ///
     /// let (machine, _) = Machine::load("feeder", &[])?;
@@ -494,6 +497,7 @@ impl Proven {
     /// The point table with so many rows over a turn of the cam, or steps over the stroke of a plate.
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::{Machine, Spec};
     ///
     /// let (machine, _) = Machine::load("feeder", &[])?;

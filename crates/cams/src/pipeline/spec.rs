@@ -117,6 +117,7 @@ impl Spec {
     /// `None` when the file has no motion.
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::{Machine, Spec};
     ///
     /// let text = r#"
@@ -159,6 +160,7 @@ impl Spec {
     /// knows samples, as in [`Spec::new`].
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::motion::EccentricCircle;
     /// use camgen::{Machine, Spec};
     /// use std::sync::Arc;

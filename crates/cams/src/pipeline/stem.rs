@@ -14,6 +14,7 @@ impl Cam {
     /// The usual start of the names of its files, MACHINE-COMMAND-SPEEDSrpm; of a conoid for a range of speeds, that range, rpm.
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::{Machine, Spec};
     ///
     /// let (machine, name) = Machine::load("feeder", &[])?;

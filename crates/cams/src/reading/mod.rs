@@ -193,6 +193,7 @@ pub(crate) fn few(names: &[String]) -> String {
 /// twentieth of it.
 ///
 /// ```
+/// # use camgen_cams as camgen;
 /// use camgen::{Spec, reading};
 ///
 /// # let motion = camgen::motion::EccentricCircle::new(0.005, 0.040);

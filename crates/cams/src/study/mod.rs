@@ -4,6 +4,7 @@
 //! [`Study::rows`] makes any stretch of rows by itself, in any process, with the same bytes. Only what the wanted columns need is computed.
 //!
 //! ```
+//! # use camgen_cams as camgen;
 //! use camgen::study::Study;
 //!
 //! let study = Study::from_toml("quick.toml", r#"

@@ -54,6 +54,7 @@ pub struct TradeTask<'a> {
 /// given.
 ///
 /// ```no_run
+/// # use camgen_cams as camgen;
 /// use camgen::Machine;
 /// use camgen::trade::{self, TradeRun};
 ///

@@ -52,6 +52,7 @@ impl Vertex {
 /// A closed chain.
 ///
 /// ```
+/// # use camgen_kernel as camgen;
 /// use camgen::{Contour, Vector2, Vertex};
 ///
 /// // A slot of 30 mm by 10 mm with round ends: two lines and two half circles.

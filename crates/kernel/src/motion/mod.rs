@@ -98,6 +98,7 @@ const CELLS: u32 = 32;
 /// A follower motion: over one turn of the cam, or over the stroke of a cam that is run over once and back.
 ///
 /// ```
+/// # use camgen_kernel as camgen;
 /// use camgen::{Jet, Motion, Piece};
 /// use std::f64::consts::TAU;
 ///

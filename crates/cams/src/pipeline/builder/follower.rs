@@ -120,6 +120,7 @@ impl Builder {
     /// A roller on a straight path, by its radius (m) or with everything that is known of it.
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::{PlaceChoice, RollerFollower, Spec};
     ///
     /// let centred = Spec::builder("centred").roller(0.012).machine()?;
@@ -161,6 +162,7 @@ impl Builder {
     /// A flat face on a straight path.
     ///
     /// ```
+    /// # use camgen_cams as camgen;
     /// use camgen::{FlatFaceFollower, Program, Quantity, Spec, law};
     ///
     /// // Up and down over 1.5 rad each; the last segment takes what is left of the turn.

@@ -47,6 +47,7 @@ pub fn named(name: &str) -> Option<&'static Law> {
 /// The law with this name or alias, in any case.
 ///
 /// ```
+/// # use camgen_kernel as camgen;
 /// use camgen::law;
 /// use camgen::motion::laws::{LAWS, LawTask};
 ///

@@ -252,6 +252,7 @@ impl Program {
     /// ([`Law::serves_rests`]) has a step at its beginning or end.
     ///
     /// ```
+    /// # use camgen_kernel as camgen;
     /// use camgen::{Motion, Program, Quantity, law};
     /// use std::f64::consts::PI;
     ///
@@ -282,6 +283,7 @@ impl Program {
     /// the sum of the lengths. Each law leads from rest to rest, as in [`Program::new`].
     ///
     /// ```
+    /// # use camgen_kernel as camgen;
     /// use camgen::{Motion, Program, law};
     ///
     /// // 25 mm over 80 mm of the plate, then a rest of 20 mm.

@@ -67,6 +67,7 @@ impl Program {
     /// turn like the rows of a table, and have the same checks: `overshoot`, `noise`, `outlier`.
     ///
     /// ```
+    /// # use camgen_kernel as camgen;
     /// use camgen::{Motion, Program, Quantity, SampleCurve};
     ///
     /// let angles: Vec<f64> = (0..90).map(|row| f64::from(row).to_radians() * 4.0).collect();
