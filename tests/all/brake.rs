@@ -198,8 +198,7 @@ fn a_frame_is_designed_that_holds_the_tension() {
         assert!(number(design, "spread") < 0.002, "{design}");
         let output = made.directory.path().join("output");
         let frame = fs::read_to_string(output.join("roll-brake.toml")).expect("a table");
-        let (head, tail) =
-            include_str!("../../profiles/roll.toml").split_once("[brake.frame]").expect("a frame");
+        let (head, tail) = include_str!("../../profiles/roll.toml").split_once("[brake.frame]").expect("a frame");
         let (_, tail) = tail.split_once("[brake.cam]").expect("a disc");
         let directory = made.directory;
         fs::write(directory.path().join("own.toml"), format!("{head}{frame}\n[brake.cam]{tail}")).expect("written");

@@ -127,8 +127,7 @@ fn machine(section: &KeySection, sets: &[String]) -> Option<Machine> {
         // A rod is given as a ratio or as a length.
         let by_length = sets.iter().any(|set| set.starts_with("linkage.rod="));
         let rod = if by_length { "" } else { "rod_ratio = 3\n" };
-        let text = include_str!("../../profiles/dpi-six-bar.toml")
-            .replace("rod_ratio = 3 ", &format!("{rod}# "));
+        let text = include_str!("../../profiles/dpi-six-bar.toml").replace("rod_ratio = 3 ", &format!("{rod}# "));
         return Machine::from_toml("six-bar.toml", &text, sets).ok();
     }
     if section.path.starts_with("shaft") {

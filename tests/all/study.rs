@@ -263,8 +263,7 @@ fn a_study_names_no_file_elsewhere() {
     let (directory, elsewhere) = (with(SWEEP), tempfile::tempdir().expect("a directory"));
     let secret = elsewhere.path().join("secret");
     fs::write(&secret, "root:x:secret:0\n").expect("written");
-    fs::write(directory.path().join("own.toml"), include_str!("../../profiles/feeder.toml"))
-        .expect("written");
+    fs::write(directory.path().join("own.toml"), include_str!("../../profiles/feeder.toml")).expect("written");
     let base = |name: &str| SWEEP.replace("base = \"feeder\"", &format!("base = {name:?}"));
     let path = secret.display().to_string();
     let table = base("own.toml").replace("kind =", &format!("set = [\"motion.table={path}\"]\nkind ="));

@@ -3,7 +3,7 @@
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::process::Command;
 
 fn cargo(arguments: &[&str]) -> String {
@@ -163,16 +163,25 @@ fn included(directory: &Path, found: &mut BTreeSet<PathBuf>) {
                 for rest in text.split(macro_name).skip(1) {
                     let (name, _) = rest.split_once('"').expect("an end");
                     let folder = path.parent().expect("a folder");
-                    found.insert(
-                        folder
-                            .join(name)
-                            .canonicalize()
-                            .unwrap_or_else(|error| panic!("{} {name}: {error}", path.display())),
-                    );
+                    let file = without_steps_up(&folder.join(name));
+                    assert!(file.is_file(), "{} {name}", path.display());
+                    found.insert(file);
                 }
             }
         }
     }
+}
+
+/// A path without `..`. The folders of profiles and templates in a crate are links, which a package follows.
+fn without_steps_up(path: &Path) -> PathBuf {
+    path.components().fold(PathBuf::new(), |mut to, part| {
+        if part == Component::ParentDir {
+            to.pop();
+        } else {
+            to.push(part);
+        }
+        to
+    })
 }
 
 #[test]
