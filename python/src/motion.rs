@@ -301,7 +301,7 @@ fn law_of(given: Option<String>) -> PyResult<Option<&'static camgen::Law>> {
 fn position(given: &Bound<'_, PyAny>, quantity_of: Quantity) -> PyResult<f64> {
     let (dimension, unit) = match quantity_of {
         Quantity::Angle => (Dimension::Angle, "rad"),
-        _ => (Dimension::Length, "m"),
+        Quantity::Length => (Dimension::Length, "m"),
     };
     let parse = |text: &str| units::parse(text, dimension).map(|found| found.si).map_err(|error| error.to_string());
     Ok(quantity("position", Some(given), unit, parse)?.unwrap_or(0.0))

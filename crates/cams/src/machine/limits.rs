@@ -299,6 +299,7 @@ pub(super) fn inputs(reader: &Reader<'_>, follower: &dyn Follower, moves: Quanti
 }
 
 /// The limits in effect, given or default, as a person would type them; limits that are checked only if given are left out.
+#[cfg(feature = "html")]
 pub(super) fn usual(limits: &Limits, material: Option<CamMaterial>, bore_radius: Option<f64>) -> Vec<Input> {
     let quantity = |key: &Key, si: f64, unit| Input::quantity(&SECTION.path_of(key), si, unit);
     let (degrees, millimetres, megapascals) = (("deg", 1.0_f64.to_radians()), ("mm", 1e-3), ("MPa", 1e6));

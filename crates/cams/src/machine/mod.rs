@@ -465,12 +465,14 @@ impl Machine {
 
     /// [`Machine::inputs`] with the body also for a disc, which the hash of the inputs leaves out.
     #[must_use]
+    #[cfg(feature = "html")]
     pub(crate) fn inputs_with_body(&self, command: &str) -> Vec<Input> {
         self.catalogue.keys.with_effect(&self.key_values.inputs, command)
     }
 
     /// The limits in effect, given or default, as a person would type them.
     #[must_use]
+    #[cfg(feature = "html")]
     pub(crate) fn usual_limits(&self) -> Vec<Input> {
         limits::usual(&self.limits, self.cam.material, self.cam.bore_radius)
     }

@@ -153,10 +153,6 @@ impl Journal {
         Ok((CompleteStudy { summary, json, written, notes }, staged))
     }
 
-    #[cfg_attr(
-        not(feature = "html"),
-        expect(unused_variables, reason = "what the page shows of the summary matters to it alone")
-    )]
     fn new_files(&self, study: &Study, summary: &Summary, json: &Value) -> Result<Vec<NewFile<'_>>, StudyError> {
         let mut files = Vec::new();
         for name in self.files.names(study, &self.stem) {
