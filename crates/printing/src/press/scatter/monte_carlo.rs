@@ -280,21 +280,29 @@ pub fn left_in_practice(
 fn ranked(bounds: &[f64], size: impl Fn(&u32) -> Result<f64, ScatterError> + Sync) -> Result<f64, ScatterError> {
     let count = bounds.len() + 1 - rank(bounds.len(), SHARE);
     let mut order: Vec<(f64, u32)> = bounds.iter().copied().zip(0..).collect();
-    order.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let (mut largest, mut rest): (Vec<f64>, &[(f64, u32)]) = (Vec::new(), &order);
-    // The `count`th largest size so far can only grow.
-    while let Some((bound, _)) = rest.first()
-        && largest.get(count - 1).is_none_or(|least| bound >= least)
-    {
-        let (next, after) = rest.split_at(count.min(rest.len()));
-        let next: Vec<u32> = next.iter().map(|(_, sample)| *sample).collect();
+    let falling = |a: &(f64, u32), b: &(f64, u32)| b.0.total_cmp(&a.0);
+    let (mut largest, mut rest): (Vec<f64>, &mut [(f64, u32)]) = (Vec::new(), &mut order);
+    // The first chunk fills the ranks; behind it most bounds are below the `count`th largest size so far, which can only grow.
+    let mut chunk = count;
+    while !rest.is_empty() {
+        let at = chunk.min(rest.len()) - 1;
+        rest.select_nth_unstable_by(at, falling);
+        let (next, after) = rest.split_at_mut(at + 1);
+        let least = largest.get(count - 1).copied().unwrap_or(f64::NEG_INFINITY);
+        let next: Vec<u32> = next.iter().filter(|(bound, _)| *bound >= least).map(|(_, sample)| *sample).collect();
+        if next.is_empty() {
+            break;
+        }
         largest.extend(parallel::map(&next, &size).into_iter().collect::<Result<Vec<_>, _>>()?);
         largest.sort_by(|a, b| b.total_cmp(a));
         largest.truncate(count);
-        rest = after;
+        (rest, chunk) = (after, count.div_ceil(LATER_CHUNKS));
     }
     Ok(largest.get(count - 1).copied().unwrap_or(f64::NAN))
 }
+
+/// Into how many parts the chunks behind the first one are divided: each may end the search.
+const LATER_CHUNKS: usize = 4;
 
 /// Whether at least one of `count` presses is beyond the percentile of a share.
 #[must_use]
