@@ -38,6 +38,7 @@ __all__ = [
     "law",
     "laws",
     "machines",
+    "write_shard",
 ]
 
 __version__: str
