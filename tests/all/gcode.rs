@@ -993,9 +993,21 @@ fn what_changes_path_tool_or_length_unseen_is_refused() {
                 "G53 G0 Z-400",
                 "(abort, no blank)",
                 "G43 H4 Z60",
+                "G064 P1",
+                "G64.0 P1",
+                "G 64",
+                "G64 P0",
+                "G64 P-1",
+                "G61 G64 P1",
+                "G64 P0.003 P1",
+                "G62",
+                "G9",
+                "m061 q2",
+                "S10 M64 P0",
+                "G4",
             ][..],
         ),
-        (Fanuc, "G0 X", &["G43 H04 Z60.", "G43 H1.5", "T1 M61"]),
+        (Fanuc, "G0 X", &["G43 H04 Z60.", "G43 H1.5", "T1 M61", "N10GOTO10", "G642"]),
         (
             Sinumerik,
             "G0 X",
@@ -1011,6 +1023,16 @@ fn what_changes_path_tool_or_length_unseen_is_refused() {
                 "Z=IC(2)",
                 "POSA[Z]=3",
                 "G[14]=2",
+                "G 64",
+                "G0641",
+                "G644.",
+                "CTOL=-1",
+                "G642\tCTOL = 0.001+1",
+                "MSG(\"a\") Z=AC(-30)",
+                "MSG(\"a\") POCKET3(1)",
+                "G61",
+                "LAB: MYPROG",
+                "G500",
                 "G0 SUPA Z-400 D0",
             ],
         ),
@@ -1027,6 +1049,12 @@ fn what_changes_path_tool_or_length_unseen_is_refused() {
                 "TCH PROBE 400.0",
                 "CYCL DEF 220 PATTERN",
                 "L Z-400 R0 FMAX M91",
+                "L Z-400 R0 FMAX M92",
+                "CYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1 T-1",
+                "CYCL DEF 32.0 TOLERANCE",
+                "CYCL DEF 32.1T5",
+                "L M140 MB50",
+                "PLANE RESET TURN",
             ],
         ),
     ] {
@@ -1053,6 +1081,13 @@ fn heads_and_tails_of_shops_are_taken() {
     for (controller, before, line) in [
         (Heidenhain, "L X", "L Z+100 R0 FMAX M3"),
         (Heidenhain, "L X", "L M3"),
+        (Heidenhain, "L X", "FUNCTION RESET TCPM"),
+        (Heidenhain, "L X", "L Z+100 R0 F MAX"),
+        (Heidenhain, "L X", "L M140 MB MAX"),
+        (Fanuc, "G0 X", "G05.1 Q1 R5"),
+        (Fanuc, "M9", "M88"),
+        (Fanuc, "M30", "M88"),
+        (Sinumerik, "M30", "SOFT"),
         (Heidenhain, "L Z-1", "BLK FORM 0.1 Z X-60 Y-60 Z-20"),
         (Heidenhain, "L Z-1", "CYCL DEF 247 DATUM SETTING Q339=+1"),
         (Fanuc, "G0 X", "G0 G43 H01 Z100."),
@@ -1065,5 +1100,31 @@ fn heads_and_tails_of_shops_are_taken() {
         assert_ne!(other, text, "{controller:?} {line}");
         let found = checked(&cam, &other, cutter);
         assert!(found.as_ref().is_ok_and(|found| found.0), "{controller:?} {line}: {found:?}");
+    }
+}
+
+/// The radius and the path mode stay what they are while the control keeps the cutter beside its path, and the spindle turns in the cut.
+#[test]
+fn nothing_changes_under_compensation_or_in_the_cut() {
+    use Controller::{Heidenhain, LinuxCnc};
+    let cam = cam("feeder", &SHOP);
+    let behind_arc = |text: &str, words: &str| {
+        let dialogue = text.starts_with("0 BEGIN PGM");
+        let at = text.match_indices(if dialogue { " DR" } else { "\nG3 X" }).nth(1).expect("an arc").0;
+        let end = at + 1 + text[at + 1..].find('\n').expect("a line");
+        format!("{}\n{}{words}{}", &text[..end], if dialogue { "0 " } else { "" }, &text[end..])
+    };
+    for (controller, words) in [
+        (Heidenhain, "TOOL CALL DR+0.5"),
+        (Heidenhain, "M6"),
+        (Heidenhain, "M0"),
+        (LinuxCnc, "G61"),
+        (LinuxCnc, "G64 P0.003"),
+        (LinuxCnc, "G41 D1"),
+    ] {
+        let text = program(&cam, request(controller, None));
+        assert!(checked(&cam, &text, None).is_ok_and(|found| found.0), "{controller:?}");
+        let found = why_refused(&cam, &behind_arc(&text, words), None);
+        assert!(found.contains("line"), "{controller:?} {words}: {found}");
     }
 }

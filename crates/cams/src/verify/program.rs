@@ -34,7 +34,7 @@ pub(super) struct JudgedProgram {
 pub(super) fn remarks(body: &dyn Body, written: &WrittenProgram) -> String {
     let unknown = match written.program.as_ref().map(|program| program.unknown.as_slice()) {
         Ok([]) | Err(_) => String::new(),
-        Ok(blocks) => format!("; of the preamble `{}` is passed over", blocks.join("`, `")),
+        Ok(blocks) => format!("; passed over: `{}`", blocks.join("`, `")),
     };
     let rib = rib_between(body, written.cutter.map(|radius| radius / MILLIMETRES));
     let rib = rib.map(|rib| {

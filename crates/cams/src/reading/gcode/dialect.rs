@@ -1,6 +1,6 @@
 //! Whose words a program is written in, and the words that move, turn, mirror or scale the profile.
 
-use super::words::at_line;
+use super::words::{at_line, unquoted};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
 
@@ -130,7 +130,8 @@ pub(super) fn moves_the_profile(block: &str, control: Option<Controller>) -> Opt
 pub(super) fn is_nothing(block: &str, control: Option<Controller>) -> bool {
     let upper = block.to_ascii_uppercase();
     let block = behind_its_number(&upper).trim_end();
-    let states = |word: &&str| block.starts_with(*word) && block.ends_with(')');
+    // Nothing stands behind its parenthesis.
+    let states = |word: &&str| block.starts_with(*word) && unquoted(block).find(')') == Some(unquoted(block).len() - 1);
     control == Some(Controller::Sinumerik) && (ends_frames(block) || ["MSG(", "CYCLE832("].iter().any(states))
 }
 
@@ -277,7 +278,11 @@ pub(super) fn moves_the_profile_of_a_dialogue(words: &[&str]) -> Option<&'static
             };
             (line != "0" && !rest.iter().all(|word| nothing(neutral, word))).then_some(what)
         }
+        ["PLANE", "RESET", rest @ ..] if rest.iter().any(|word| ["TURN", "MOVE"].contains(word)) => {
+            Some("turns the axes of the machine (PLANE RESET TURN, MOVE)")
+        }
         ["PLANE" | "TRANS", "RESET", ..] | ["TRANS", "DATUM", "RESET", ..] => None,
+        ["FUNCTION", "RESET", "TCPM"] | ["FUNCTION", "MODE", "MILL"] => None,
         ["PLANE", ..] => Some("tilts the plane (PLANE)"),
         ["TRANS", "DATUM", "AXIS", rest @ ..] if rest.iter().all(|word| nothing(0.0, word)) => None,
         ["TRANS", ..] => Some("moves, mirrors, turns or scales the profile (TRANS)"),

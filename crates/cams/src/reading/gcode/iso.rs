@@ -1,11 +1,11 @@
 //! Programs in words of a letter and a number: LinuxCNC, FANUC, SINUMERIK.
 
 use super::dialect::{
-    behind_its_number, behind_its_start, dialect, in_common_words, is_nothing, moves_the_profile, not_aborted,
+    behind_its_number, behind_its_start, dialect, has_word, in_common_words, is_nothing, moves_the_profile, not_aborted,
 };
 use super::machine_state::MachineState;
 use super::modal::{ModalWords, Situation, are_known, dwells, is_harmless, leaves, passed_over};
-use super::words::{Word, at_line, counted, of, without_comments, words};
+use super::words::{Word, at_line, counted, of, with_plain_codes, without_comments, words};
 use super::{CutterProgram, CutterSide, MoveKind, NO_MOVE, RADII, ToolLength};
 use crate::machine::Controller;
 use camgen_kernel::refusal::Refusal;
@@ -25,8 +25,10 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
         }
         not_aborted(line, whole, control)?;
         let block = without_comments(whole, control).ok_or_else(|| at_line(line, "a comment does not end"))?;
-        let typed = block.trim();
-        state.path_mode.block(line, typed, control, modal.scale());
+        let plain = with_plain_codes(block.trim());
+        let typed = plain.as_str();
+        path_mode_may_change(line, typed, (&state, control))?;
+        state.path_mode.block(line, typed, control, modal.scale())?;
         state.readiness.path_mode(&state.path_mode);
         let block = in_common_words(typed, control);
         let block = block.as_str();
@@ -59,7 +61,9 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
         match words(block) {
             Some(words) if are_known(&words, None) => run(line, &words, &mut state, &mut modal)?,
             found => {
-                state.unknown(line, typed)?;
+                let of_machine =
+                    found.as_ref().is_some_and(|words| words.iter().all(|(letter, _)| "NM".contains(*letter)));
+                state.unknown(line, typed, of_machine)?;
                 passed_over(line, block, control)?;
                 // Datums such as G54.1 P1.
                 state.readiness.block(&found.unwrap_or_default());
@@ -67,6 +71,21 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
         }
     }
     if modal.ended { state.program(control) } else { Err(Refusal::new("the program has no end (M2 or M30)")) }
+}
+
+/// Refuses another path mode while LinuxCNC keeps the cutter beside its path: it stops there.
+fn path_mode_may_change(
+    line: usize,
+    block: &str,
+    (state, control): (&MachineState, Option<Controller>),
+) -> Result<(), Refusal> {
+    let upper = block.to_ascii_uppercase();
+    let changes = ["G61", "G61.1", "G64"].iter().any(|word| has_word(&upper, word));
+    if changes && control == Some(Controller::LinuxCnc) && state.side != CutterSide::Centre {
+        let what = "LinuxCNC stops at another path mode (G61, G64) while the cutter is kept beside its path";
+        return Err(at_line(line, what).remedy("write it before G41 or G42"));
+    }
+    Ok(())
 }
 
 /// A block behind `/`, which the operator may leave out: only one that changes nothing of the cut may be there.

@@ -48,15 +48,15 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
             []
             // Without a call a label does nothing.
             | ["LBL", _]
-            | ["M1" | "M6" | "M8" | "M9"]
+            | ["M8" | "M9"]
             // Those of them that move the profile are refused above.
             | ["PLANE", ..] => {}
-            ["STOP" | "M0"] => state.readiness.stops(),
-            ["CYCL", "DEF", "32.1", rest @ ..] => path_tolerance(line, rest, &mut state)?,
-            // With another shift than 0 it is refused above.
-            ["CYCL", "DEF", cycle, ..] if cycle.starts_with("7.") => state.readiness.shift_is_ended(),
+            [word @ ("STOP" | "M0" | "M1" | "M6")] => stop(line, word, &mut state)?,
+            // What would move the profile is refused above.
+            ["CYCL", "DEF", cycle, rest @ ..] if KNOWN_CYCLES.contains(&cycle.split('.').next().unwrap_or_default()) => {
+                cycle_definition(line, (cycle, rest), &mut state)?;
+            }
             ["TRANS", ..] => state.readiness.shift_is_ended(),
-            ["CYCL", "DEF", cycle, ..] if KNOWN_CYCLES.contains(&cycle.split('.').next().unwrap_or_default()) => {}
             ["TOOL", "CALL", call @ ..] => tool_call(line, call, &mut state)?,
             ["BEGIN", "PGM", _, unit] => state.units = Some(unit_of(line, unit)?),
             ["END", "PGM", _, unit] if Some(unit_of(line, unit)?) != state.units => {
@@ -68,7 +68,7 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
             ["CC", rest @ ..] => centre = Some(centre_of(line, rest)? * state.scale()),
             ["L", rest @ ..] => straight(line, rest, &mut state)?,
             ["C", rest @ ..] => round(line, rest, centre, &mut state)?,
-            _ if is_of_the_shop(&words) => state.unknown(line, block.trim())?,
+            _ if is_of_the_shop(&words) => state.unknown(line, block.trim(), false)?,
             _ => {
                 let shown: String = block.trim().chars().take(40).collect();
                 return Err(at_line(line, format!("`{shown}` is not known, and what it does to the path neither")));
@@ -154,6 +154,12 @@ fn tool_call(line: usize, words: &[&str], state: &mut MachineState) -> Result<()
     for word in words {
         let value = |name: &str| word.strip_prefix(name).map(|value| number(line, value));
         if let Some(change) = value("DR2").or(value("DR")) {
+            if state.side != CutterSide::Centre {
+                return Err(at_line(
+                    line,
+                    "TOOL CALL changes the radius (DR) while the cutter is kept beside its path",
+                ));
+            }
             state.radius_fault = (change? != 0.0).then_some("TOOL CALL changes its radius (DR)").or(state.radius_fault);
         } else if let Some(change) = value("DL") {
             if change? != 0.0 {
@@ -188,10 +194,42 @@ fn turn(line: usize, word: &str, state: &mut MachineState) -> Result<(), Refusal
     Ok(())
 }
 
-/// `CYCL DEF 32.1 T0.01`.
-fn path_tolerance(line: usize, words: &[&str], state: &mut MachineState) -> Result<(), Refusal> {
-    let words = words.concat();
+/// M0, M1 and M6 stop the spindle as well as the program; STOP halts the program.
+fn stop(line: usize, word: &str, state: &mut MachineState) -> Result<(), Refusal> {
+    if state.is_deep() {
+        return Err(at_line(line, format!("the program stops ({word}) below the upper face")));
+    }
+    if ["STOP", "M0"].contains(&word) {
+        state.readiness.stops();
+    }
+    if word != "STOP" && state.spindle != Spindle::Unstated {
+        state.spindle = Spindle::Stopped;
+        state.readiness.spindle_turns(false);
+        state.cutting.spindle = state.spindle.at(state.cutting.speed);
+    }
+    Ok(())
+}
+
+/// Cycle 32 with its tolerance, cycle 7 with shifts of 0, and those of frames that end.
+fn cycle_definition(line: usize, (cycle, rest): (&str, &[&str]), state: &mut MachineState) -> Result<(), Refusal> {
+    match cycle {
+        // Its second line states the tolerance; without that line there is none.
+        "32.0" => state.path_mode.keeps_within(line, None),
+        _ if cycle.starts_with("32.1") => path_tolerance(line, (cycle, rest), state)?,
+        _ if cycle.starts_with("7.") => state.readiness.shift_is_ended(),
+        _ => {}
+    }
+    Ok(())
+}
+
+/// `CYCL DEF 32.1 T0.01`, also without the blank; 0 is the tolerance of the machine builder, as none is.
+fn path_tolerance(line: usize, (cycle, rest): (&str, &[&str]), state: &mut MachineState) -> Result<(), Refusal> {
+    let words = cycle.trim_start_matches("32.1").to_owned() + &rest.concat();
     let tolerance = words.strip_prefix('T').map(|tolerance| number(line, tolerance)).transpose()?;
+    if tolerance.is_some_and(|tolerance| tolerance < 0.0) {
+        return Err(at_line(line, "the tolerance of cycle 32 is below 0"));
+    }
+    let tolerance = tolerance.filter(|tolerance| *tolerance > 0.0);
     let scale = state.scale();
     state.path_mode.keeps_within(line, tolerance.map(|tolerance| scale * tolerance));
     state.readiness.path_mode(&state.path_mode);
@@ -231,6 +269,8 @@ fn coordinates(
             ("DR+", _) => left = Some(true),
             ("DR-", _) => left = Some(false),
             ("FMAX", _) => rapid = true,
+            ("F", _) if words.contains(&"MAX") => rapid = true,
+            ("MAX", _) if words.contains(&"F") => {}
             ("F", _) if words.contains(&"AUTO") => {}
             ("FAUTO" | "AUTO", _) => {
                 let missing = || at_line(line, "F AUTO takes the feed of TOOL CALL, which gives none");
@@ -265,7 +305,11 @@ fn to_the_machine(line: usize, words: &[&str], state: &mut MachineState) -> Resu
     let words_of_move: Vec<&str> = words.iter().copied().filter(other).collect();
     let (to, left, _) = coordinates(line, &words_of_move, state)?;
     let (axes, upwards) = (to.map(|axis| axis.is_some()), words.contains(&"M140"));
-    if let Some(z) = to[2].filter(|_| words.contains(&"M91")) {
+    if upwards && !(words.contains(&"MBMAX") || words.windows(2).any(|pair| pair == ["MB", "MAX"])) {
+        let what = "M140 rises by a length from a height that is not known";
+        return Err(at_line(line, what).remedy("write L M140 MB MAX"));
+    }
+    if let Some(z) = to[2].filter(|_| !upwards) {
         state.retracts_to(line, z);
     }
     if left.is_some() || state.side != CutterSide::Centre || (upwards && axes != [false; 3]) {

@@ -76,9 +76,10 @@ impl MachineState {
         self.at[2].is_some()
     }
 
-    /// A block that is not known.
-    pub(super) fn unknown(&mut self, line: usize, block: &str) -> Result<(), Refusal> {
-        if self.at == [None; 3] && !self.has_moved() {
+    /// A block that is not known: before the first move, with Z retracted to a place of the machine, or above the part one of M functions of the machine.
+    pub(super) fn unknown(&mut self, line: usize, block: &str, of_machine: bool) -> Result<(), Refusal> {
+        let retracted = self.at[2].is_none();
+        if (self.at == [None; 3] && !self.has_moved()) || (!self.is_deep() && (retracted || of_machine)) {
             self.program.unknown.push(block.to_owned());
             return Ok(());
         }

@@ -3,9 +3,9 @@
 
 use super::CutterSide;
 use super::cutting_state::{CuttingState, Spindle, whole};
-use super::dialect::has_word;
+use super::dialect::{behind_its_number, has_word};
 use super::tool_length::{LengthWords, ToolChange, of_another_kind};
-use super::words::{NAMED_TOOL, REFERENCE, Word, at_line, of, unquoted};
+use super::words::{NAMED_TOOL, REFERENCE, Word, at_line, of, unquoted, words};
 use crate::machine::Controller;
 use camgen_kernel::refusal::Refusal;
 use camgen_kernel::units::LengthUnit;
@@ -67,6 +67,7 @@ impl ModalWords {
         let kept = self.side != CutterSide::Centre;
         // A block that leaves for a place of the machine may make coordinates incremental for it.
         let leaves = leaves(words);
+        self.has_its_codes(line, words)?;
         for (_, number) in words.iter().filter(|(letter, number)| *letter == 'G' && !(leaves && *number == 91.0)) {
             self.set(line, 10.0 * number)?;
         }
@@ -91,6 +92,23 @@ impl ModalWords {
             return refused("G58 and G59 with coordinates move the datum");
         }
         self.ended |= words.contains(&('M', 2.0)) || words.contains(&('M', 30.0));
+        Ok(())
+    }
+
+    /// Refuses a code that the control does not have, and a pause without its time: it stops there.
+    fn has_its_codes(&self, line: usize, words: &[Word]) -> Result<(), Refusal> {
+        let (lacking, pause): (&[f64], &[char]) = match self.control {
+            Some(Controller::LinuxCnc) => (NOT_OF_LINUXCNC, &['P']),
+            Some(Controller::Sinumerik) => (NOT_OF_SINUMERIK, &['F', 'S']),
+            Some(Controller::Fanuc) => (NOT_OF_FANUC, &['P', 'X', 'U']),
+            Some(Controller::Heidenhain) | None => return Ok(()),
+        };
+        if let Some((_, code)) = words.iter().find(|(letter, code)| *letter == 'G' && lacking.contains(code)) {
+            return Err(at_line(line, format!("the control has no G{code}")));
+        }
+        if dwells(words) && !words.iter().any(|(letter, time)| pause.contains(letter) && *time >= 0.0) {
+            return Err(at_line(line, "a pause (G4) without its time"));
+        }
         Ok(())
     }
 
@@ -298,6 +316,13 @@ pub(super) fn is_harmless(words: &[Word]) -> bool {
         .all(|(letter, number)| *letter == 'N' || (*letter == 'M' && [0.0, 1.0, 7.0, 8.0, 9.0].contains(number)))
 }
 
+/// Codes of other controls that one of them does not have.
+const NOT_OF_LINUXCNC: &[f64] =
+    &[9.0, 15.0, 44.0, 50.0, 60.0, 62.0, 69.0, 641.0, 642.0, 643.0, 644.0, 645.0, 700.0, 710.0];
+const NOT_OF_SINUMERIK: &[f64] =
+    &[15.0, 43.0, 43.2, 44.0, 49.0, 50.0, 50.1, 61.0, 61.1, 69.0, 80.0, 92.1, 92.2, 98.0, 99.0];
+const NOT_OF_FANUC: &[f64] = &[60.0, 92.2, 641.0, 642.0, 643.0, 644.0, 645.0, 700.0, 710.0];
+
 /// Codes in tenths whose effect on the path is known: G91.1 is 911.
 const KNOWN: [f64; 55] = [
     0.0, 10.0, 20.0, 30.0, 170.0, 180.0, 190.0, 200.0, 210.0, 400.0, 410.0, 420.0, 700.0, 710.0, 7000.0, 7100.0, 900.0,
@@ -351,8 +376,14 @@ const CALLS: [&str; 18] = [
 /// Refuses a block that would be passed over where it has more than a shop's own words: it may do what is then not seen.
 pub(super) fn passed_over(line: usize, block: &str, control: Option<Controller>) -> Result<(), Refusal> {
     let block = unquoted(&block.to_ascii_uppercase());
+    let block = behind_its_number(&block).to_owned();
+    let strange = words(&block).and_then(|words| words.into_iter().find(|word| !are_known(&[*word], None)));
+    let strange = strange.map(|(letter, number)| format!("`{letter}{number}`"));
     let refused = |word: &str| {
-        let what = format!("`{word}` stands in a block with words that are not known");
+        let what = match strange.as_ref().filter(|strange| !strange.contains(word)) {
+            Some(strange) => format!("`{word}` stands in a block with {strange}, which is not known"),
+            None => format!("`{word}` stands in a block with words that are not known"),
+        };
         let remedy = "write what moves, calls a program or states coordinates in blocks of their own";
         Err(at_line(line, what).remedy(remedy))
     };
@@ -394,7 +425,7 @@ pub(super) fn passed_over(line: usize, block: &str, control: Option<Controller>)
             'M' => value.is_none_or(|value| of_machine.contains(&value)),
             // H is no length on SINUMERIK.
             'H' => control != Some(Controller::Sinumerik),
-            letter => "XYZABCDTUVWL".contains(letter),
+            letter => "XYZABCDTSUVWL".contains(letter),
         };
         if lost {
             return refused(&value.map_or_else(|| letter.to_string(), |value| format!("{letter}{value}")));
@@ -426,6 +457,10 @@ fn subprogram(block: &str) -> Option<&str> {
     let block = number.filter(|rest| rest.len() + 1 < block.len()).unwrap_or(block).trim_start();
     let end = block.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(block.len());
     let (name, behind) = block.split_at_checked(end)?;
+    // Behind a label.
+    if let Some(labelled) = behind.trim_start().strip_prefix(':').filter(|rest| !rest.trim().is_empty()) {
+        return subprogram(labelled.trim_start());
+    }
     let is_name = name.len() > 1 && name.bytes().take(2).all(|byte| byte.is_ascii_uppercase() || byte == b'_');
     let assigned = behind.trim_start().starts_with(['=', '[', ':']);
     (is_name && !assigned && !WORDS_OF_SINUMERIK.contains(&format!(" {name} "))).then_some(name)

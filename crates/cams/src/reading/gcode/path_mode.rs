@@ -1,7 +1,9 @@
 //! Path tolerance of the control: G61 and G64 of LinuxCNC; G60, G64, G641 to G645 with CTOL, ADIS or CYCLE832 of SINUMERIK; cycle 32 of HEIDENHAIN.
 
 use super::dialect::{after, has_word};
+use super::words::at_line;
 use crate::machine::Controller;
+use camgen_kernel::refusal::Refusal;
 
 /// How a SINUMERIK control rounds the corners of its path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,24 +47,46 @@ pub(super) struct PathMode {
 
 impl PathMode {
     /// Reads a block; `scale` is millimetres per unit of the program.
-    pub(super) fn block(&mut self, line: usize, block: &str, control: Option<Controller>, scale: f64) {
+    ///
+    /// # Errors
+    /// [`Refusal`] at two path modes in one block, where LinuxCNC stops.
+    pub(super) fn block(
+        &mut self,
+        line: usize,
+        block: &str,
+        control: Option<Controller>,
+        scale: f64,
+    ) -> Result<(), Refusal> {
         let block = block.to_ascii_uppercase();
         match control {
             Some(Controller::Sinumerik) => self.sinumerik(line, &block, scale),
             Some(Controller::Fanuc | Controller::Heidenhain) => {}
-            Some(Controller::LinuxCnc) if ["G61", "G61.1"].iter().any(|word| has_word(&block, word)) => {
-                self.is = Some((line, 0.0));
-            }
             Some(Controller::LinuxCnc) | None => {
-                let Some(rest) = after(&block, "G64") else { return };
-                let behind = |letter: char| rest.split_once(letter).and_then(|(_, rest)| number(rest));
-                // Q joins short moves that lie within it, beside the rounding of corners by P.
-                let stated = behind('P').map(|rounds| rounds.max(behind('Q').unwrap_or(0.0)));
-                let without = (control == Some(Controller::LinuxCnc)).then_some(f64::INFINITY);
-                self.is =
-                    stated.map(|number| scale * number).or(without).map(|tolerance| (line, tolerance)).or(self.is);
+                let modes = ["G61", "G61.1", "G64"].iter().filter(|word| has_word(&block, word)).count();
+                if modes > 1 {
+                    return Err(at_line(line, "two path modes in a block (G61, G61.1, G64)"));
+                }
+                let exact = ["G61", "G61.1"].iter().any(|word| has_word(&block, word));
+                if exact && control.is_some() {
+                    self.is = Some((line, 0.0));
+                } else if has_word(&block, "G64") {
+                    self.is = Self::blended(&block, control).map(|within| (line, scale * within)).or(self.is);
+                }
             }
         }
+        Ok(())
+    }
+
+    /// The tolerance of a G64 of LinuxCNC in its unit: P, and Q, which joins short moves that lie within it. A P of 0 is none.
+    fn blended(block: &str, control: Option<Controller>) -> Option<f64> {
+        let behind = |letter: char| {
+            let mut found = block.split(letter).skip(1);
+            let first = number(found.next()?);
+            // Given twice it is an error of the control.
+            if found.next().is_some() { None } else { first }
+        };
+        let stated = behind('P').filter(|rounds| *rounds > 0.0).map(|rounds| rounds.max(behind('Q').unwrap_or(0.0)));
+        stated.or((control == Some(Controller::LinuxCnc)).then_some(f64::INFINITY))
     }
 
     /// Takes a tolerance, mm; without one that of the machine builder, which the program does not know, follows one that was stated.
@@ -96,9 +120,12 @@ impl PathMode {
         if let Some(words) = after(block, "CYCLE832") {
             self.cycle832(words, scale);
         }
-        let stated = |word: &str| number(after(block, word)?).filter(|number| *number >= 0.0);
-        self.contour = stated("CTOL").map(|number| scale * number).or(self.contour);
-        self.distance = stated("ADIS").map(|number| scale * number).or(self.distance);
+        // One below 0 takes the tolerance back, and what is no number is not known.
+        let stated = |word: &str, own: Option<f64>| match after(block, word) {
+            Some(rest) => number(rest).filter(|number| *number >= 0.0).map(|number| scale * number),
+            None => own,
+        };
+        (self.contour, self.distance) = (stated("CTOL", self.contour), stated("ADIS", self.distance));
         let exact = has("G60");
         let smooths = SMOOTHING.iter().find(|(word, _)| has(word)).map(|(_, how)| *how);
         self.smooths = smooths.or(self.smooths.filter(|_| !exact));
@@ -140,5 +167,7 @@ impl PathMode {
 fn number(rest: &str) -> Option<f64> {
     let rest = rest.trim_start_matches(['(', '=', ' ']);
     let end = rest.find(|c: char| !(c.is_ascii_digit() || ['.', '+', '-'].contains(&c))).unwrap_or(rest.len());
-    rest.get(..end)?.parse().ok()
+    let (digits, behind) = rest.split_at_checked(end)?;
+    // A formula goes on behind its first number.
+    if behind.trim_start().starts_with(['*', '/', '+', '-', '[']) { None } else { digits.parse().ok() }
 }

@@ -148,7 +148,8 @@ impl Readiness {
             self.absolute = Some(is(&[90.0]));
         }
         if (54.0..60.0).contains(&code) || (sinumerik && (500.0..600.0).contains(&code)) {
-            (self.datum, self.sets_up) = (true, true);
+            // G500 switches the datum off.
+            (self.datum, self.sets_up) = (code != 500.0, true);
         }
         self.shift |= is(&[92.1, 92.2]);
         self.path_mode |=

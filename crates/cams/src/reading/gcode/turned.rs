@@ -6,7 +6,7 @@ use super::dialect::{dialect, in_common_words, is_nothing, moves_the_profile, no
 use super::modal::{ModalWords, Situation, are_known, dwells, leaves, passed_over};
 use super::path_mode::PathMode;
 use super::readiness::{PartMove, Readiness};
-use super::words::{Word, at_line, counted, of, without_comments, words};
+use super::words::{Word, at_line, counted, of, with_plain_codes, without_comments, words};
 use super::{CutterProgram, FASTEST};
 use crate::machine::Controller;
 use camgen_kernel::refusal::Refusal;
@@ -78,8 +78,9 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
         let line = index + 1;
         not_aborted(line, whole, control)?;
         let block = without_comments(whole, control).ok_or_else(|| at_line(line, "a comment does not end"))?;
-        let typed = block.trim();
-        state.path_mode.block(line, typed, control, modal.scale());
+        let plain = with_plain_codes(block.trim());
+        let typed = plain.as_str();
+        state.path_mode.block(line, typed, control, modal.scale())?;
         state.readiness.path_mode(&state.path_mode);
         let block = in_common_words(typed, control);
         let block = block.as_str();

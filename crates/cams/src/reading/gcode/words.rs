@@ -51,6 +51,31 @@ pub(super) fn unquoted(block: &str) -> String {
     block.split('"').step_by(2).collect::<Vec<&str>>().join("\"\"")
 }
 
+/// A block whose codes are spelled in one way: `G 64`, `g064`, `G64.0` and `G+64` are `G64` for a control. What is in quotes stays.
+pub(super) fn with_plain_codes(block: &str) -> String {
+    let mut plain = String::with_capacity(block.len());
+    let (mut rest, mut before, mut quoted) = (block, ' ', false);
+    while let Some(letter) = rest.chars().next() {
+        rest = rest.get(letter.len_utf8()..).unwrap_or_default();
+        let begins = !quoted && !(before.is_ascii_alphabetic() || before == '_');
+        quoted ^= letter == '"';
+        before = letter;
+        plain.push(if letter == '\t' { ' ' } else { letter });
+        if !(begins && matches!(letter, 'G' | 'g' | 'M' | 'm')) {
+            continue;
+        }
+        let number = rest.trim_start().trim_start_matches('+');
+        let end = number.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(number.len());
+        let Some((digits, behind)) = number.split_at_checked(end) else { continue };
+        if let Ok(code) = digits.parse::<f64>() {
+            plain.push_str(&code.to_string());
+            rest = behind;
+            before = '0';
+        }
+    }
+    plain
+}
+
 /// The words of a block; `None` where it has something else.
 pub(super) fn words(block: &str) -> Option<Vec<Word>> {
     let mut words = Vec::new();
@@ -88,7 +113,13 @@ pub(super) fn counted(line: usize, block: &str, units: LengthUnit) -> Result<(),
         let after = after.trim_start();
         let end = after.find(|c: char| !(c.is_ascii_digit() || ['.', '+', '-'].contains(&c))).unwrap_or(after.len());
         let (number, next) = after.split_at(end);
-        if COUNTED.contains(letter) && !number.contains('.') && number.parse().is_ok_and(|whole: f64| whole != 0.0) {
+        // The R of a block without coordinates is no radius: G5.1 Q1 R5.
+        let is_length = letter != 'R' || ['X', 'Y', 'x', 'y'].iter().any(|axis| block.contains(*axis));
+        if is_length
+            && COUNTED.contains(letter)
+            && !number.contains('.')
+            && number.parse().is_ok_and(|whole: f64| whole != 0.0)
+        {
             let read = increment(units) * number.parse().unwrap_or(f64::NAN);
             let what =
                 format!("{letter}{number} has no decimal point: a FANUC control reads it as {read} {}", units.symbol());
