@@ -50,7 +50,7 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
             | ["LBL", _]
             | ["M8" | "M9"]
             // Those of them that move the profile are refused above.
-            | ["PLANE", ..] => {}
+            | ["PLANE" | "FUNCTION", ..] => {}
             [word @ ("STOP" | "M0" | "M1" | "M6")] => stop(line, word, &mut state)?,
             // What would move the profile is refused above.
             ["CYCL", "DEF", cycle, rest @ ..] if KNOWN_CYCLES.contains(&cycle.split('.').next().unwrap_or_default()) => {

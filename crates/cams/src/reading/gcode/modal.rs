@@ -453,17 +453,29 @@ const WORDS_OF_SINUMERIK: &str = " ACC BRISK BRISKA CDOF CDOF2 CDON CFC CFIN CFT
 
 /// The name that a block of SINUMERIK calls as a subprogram: one that is no word of the control, gets no number, and is no label.
 fn subprogram(block: &str) -> Option<&str> {
-    let number = block.strip_prefix('N').map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
-    let block = number.filter(|rest| rest.len() + 1 < block.len()).unwrap_or(block).trim_start();
-    let end = block.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(block.len());
-    let (name, behind) = block.split_at_checked(end)?;
-    // Behind a label.
-    if let Some(labelled) = behind.trim_start().strip_prefix(':').filter(|rest| !rest.trim().is_empty()) {
-        return subprogram(labelled.trim_start());
+    let mut rest = behind_its_number(block).trim_start();
+    while let Some(first) = rest.chars().next() {
+        let end = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(rest.len());
+        let (name, behind) = rest.split_at_checked(end.max(first.len_utf8()))?;
+        // Declarations have names of their own behind them.
+        if ["DEF", "PROC"].contains(&name) {
+            return None;
+        }
+        let behind = behind.trim_start();
+        let is_name = name.len() > 1 && name.bytes().take(2).all(|byte| byte.is_ascii_uppercase() || byte == b'_');
+        let assigned = behind.starts_with(['=', '[', ':']);
+        if is_name && !assigned && !WORDS_OF_SINUMERIK.contains(&format!(" {name} ")) {
+            return Some(name);
+        }
+        rest = match behind.chars().next() {
+            // Its arguments, and what is assigned to it.
+            Some('(') => behind.split_once(')').map_or("", |(_, rest)| rest),
+            Some('=' | '[') => behind.split_once(' ').map_or("", |(_, rest)| rest),
+            _ => behind,
+        }
+        .trim_start();
     }
-    let is_name = name.len() > 1 && name.bytes().take(2).all(|byte| byte.is_ascii_uppercase() || byte == b'_');
-    let assigned = behind.trim_start().starts_with(['=', '[', ':']);
-    (is_name && !assigned && !WORDS_OF_SINUMERIK.contains(&format!(" {name} "))).then_some(name)
+    None
 }
 
 #[cfg(test)]
@@ -515,7 +527,21 @@ mod tests {
         for block in ["GOTO100", "M198 P5", "IF[1EQ1]GOTO5"] {
             assert!(passed_over(1, block, Some(Controller::Fanuc)).is_err(), "{block}");
         }
-        for block in ["ROUGH", "ROUGH_SUB", "N20 ROUGH(1,2)", "_SUB", "RET", "M17", "L100", "GOTOF ENDE", "X=5"] {
+        for block in [
+            "ROUGH",
+            "ROUGH_SUB",
+            "N20 ROUGH(1,2)",
+            "_SUB",
+            "RET",
+            "M17",
+            "L100",
+            "GOTOF ENDE",
+            "X=5",
+            "LAB: ROUGH",
+            "M8 ROUGH",
+            "STOPRE ROUGH",
+            "MSG(\"\") POCKET3(1)",
+        ] {
             assert!(passed_over(1, block, Some(Controller::Sinumerik)).is_err(), "{block}");
         }
         for block in
