@@ -281,8 +281,10 @@ pub(super) fn moves_the_profile_of_a_dialogue(words: &[&str]) -> Option<&'static
         ["PLANE", "RESET", rest @ ..] if rest.iter().any(|word| ["TURN", "MOVE"].contains(word)) => {
             Some("turns the axes of the machine (PLANE RESET TURN, MOVE)")
         }
-        ["PLANE" | "TRANS", "RESET", ..] | ["TRANS", "DATUM", "RESET", ..] => None,
-        ["FUNCTION", "RESET", "TCPM"] | ["FUNCTION", "MODE", "MILL"] => None,
+        ["PLANE" | "TRANS", "RESET", ..]
+        | ["TRANS", "DATUM", "RESET", ..]
+        | ["FUNCTION", "RESET", "TCPM"]
+        | ["FUNCTION", "MODE", "MILL"] => None,
         ["PLANE", ..] => Some("tilts the plane (PLANE)"),
         ["TRANS", "DATUM", "AXIS", rest @ ..] if rest.iter().all(|word| nothing(0.0, word)) => None,
         ["TRANS", ..] => Some("moves, mirrors, turns or scales the profile (TRANS)"),

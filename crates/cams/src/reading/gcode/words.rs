@@ -57,7 +57,8 @@ pub(super) fn with_plain_codes(block: &str) -> String {
     let (mut rest, mut before, mut quoted) = (block, ' ', false);
     while let Some(letter) = rest.chars().next() {
         rest = rest.get(letter.len_utf8()..).unwrap_or_default();
-        let begins = !quoted && !(before.is_ascii_alphabetic() || before == '_');
+        let goes_on = before.is_ascii_alphabetic() || before == '_';
+        let begins = !quoted && !goes_on;
         quoted ^= letter == '"';
         before = letter;
         plain.push(if letter == '\t' { ' ' } else { letter });
