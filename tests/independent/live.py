@@ -606,8 +606,9 @@ def at_once(live, binary, directory, path):
             break
         live.page.wait_for_timeout(20)
     assert '"19 mm"' in path.read_text(), live.page.inner_text("#state")
+    # The state names the file since it was written before.
+    live.until("document.getElementById('toml').value.includes('\"19 mm\"')")
     live.until("document.getElementById('state').textContent.includes('served.toml')")
-    assert '"19 mm"' in live.toml()
     solid = directory / "served-files" / "served.step"
     before = solid.read_bytes()
     live.page.fill(field, "20 mm")
@@ -616,6 +617,7 @@ def at_once(live, binary, directory, path):
         if solid.read_bytes() != before:
             break
         live.page.wait_for_timeout(20)
+    live.until("document.getElementById('toml').value.includes('\"20 mm\"')")
     live.until("document.getElementById('state').textContent.includes('.step')")
     (directory / "twenty.toml").write_text(live.toml())
     checked = run(binary, directory, "check", str(solid), "--design", "twenty.toml")
