@@ -7,12 +7,12 @@ use super::args::{
 use super::args::{LinkageArgs, LinkageGoal};
 use super::args::{Order, ShaftArgs, ShaftSolver};
 use super::cams::{show, source_date};
+use super::input_files::{self, files, made_of};
 use super::put::put_set;
 use super::{Failure, Outcome, print, print_message, refusal};
 use camgen::analysis::compare::{self as comparison, ComparisonOptions, measured};
 use camgen::analysis::{Analysis, laws, size};
 use camgen::body::Cut;
-use camgen::document::file::table_text_of;
 use camgen::domains::linkage::analysis::{self as linkage, DragLinkGoal};
 use camgen::domains::press::MachineOfPress;
 use camgen::domains::press::analysis::{drive, plain, regimes, spring};
@@ -69,7 +69,7 @@ pub(super) fn spring(args: &SpringArgs) -> Result<Outcome, Failure> {
 
 /// The wire of the machine file that a design does not take.
 fn replaced_wire(args: &SpringArgs) -> Option<String> {
-    let given = args.design.then(|| Machine::load(&args.machine, &args.analysis.set).ok()).flatten()?.0;
+    let given = args.design.then(|| input_files::machine(&args.machine, &args.analysis.set).ok()).flatten()?.0;
     let SpringShape::Wire { wire, .. } = PressCams::of(&given).spring_body?.shape else { return None };
     Some(format!("--design takes a standard wire in the place of `spring_buffer.body.wire`, {:.3} mm", 1e3 * wire))
 }
@@ -114,7 +114,7 @@ pub(crate) fn scatter_of(args: &ScatterArgs, loaded: (Machine, String)) -> Resul
 }
 
 pub(super) fn drive(args: &DriveArgs) -> Result<Outcome, Failure> {
-    let loaded = DriveMachine::load(&args.machine, &args.analysis.set).map_err(Failure::new)?;
+    let loaded = made_of(&args.machine, |source| DriveMachine::of_source(source, &args.analysis.set))?;
     judge_and_write(drive_of(args, loaded)?, &args.analysis)
 }
 
@@ -144,7 +144,7 @@ pub(crate) fn linkage_of(args: &LinkageArgs, (machine, name): (Machine, String))
 }
 
 pub(super) fn shaft(args: &ShaftArgs) -> Result<Outcome, Failure> {
-    let loaded = ShaftMachine::load(&args.machine, &args.analysis.set).map_err(Failure::new)?;
+    let loaded = made_of(&args.machine, |source| ShaftMachine::of_source(source, &args.analysis.set))?;
     judge_and_write(shaft_of(args, loaded)?, &args.analysis)
 }
 
@@ -198,7 +198,8 @@ pub(crate) fn compare_of(
     load: impl FnOnce() -> Result<(Machine, String), Failure>,
 ) -> Result<NamedAnalysis, Failure> {
     let file = args.measured.display();
-    let text = table_text_of(&args.measured, LARGEST_MEASURED)
+    let text = files()
+        .table_text_of(&args.measured, LARGEST_MEASURED)
         .map_err(|why| Failure(format!("cannot read `{file}`: {why}")))?;
     let wrong = |why: camgen::Refusal| Failure(format!("`{file}`: {why}"));
     let points = measured::read(&text).map_err(wrong)?;

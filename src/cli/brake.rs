@@ -2,9 +2,9 @@
 
 use super::analyses::write_judged;
 use super::args::BrakeArgs;
+use super::input_files::made_of;
 use super::progress::Progress;
 use super::{Failure, Outcome};
-use camgen::catalogue::catalogue;
 use camgen::document::NamedChoice;
 use camgen::domains::brake::{self, BrakeDisc, BrakeMachine, BrakeOutput, analysis};
 use camgen::machine::UNITS_KEY;
@@ -13,7 +13,12 @@ use std::sync::Arc;
 
 /// The brake of a file, with its disc.
 pub(super) fn with_disc(name: &str, set: &[String]) -> Result<BrakeMachine, Failure> {
-    BrakeMachine::load(catalogue(), name, set, BrakeOutput::Disc).map(|(machine, _)| machine).map_err(Failure::new)
+    loaded(name, set, BrakeOutput::Disc).map(|(machine, _)| machine)
+}
+
+/// The brake of a file, with the stem of its files.
+pub(super) fn loaded(name: &str, set: &[String], wanted: BrakeOutput) -> Result<(BrakeMachine, String), Failure> {
+    made_of(name, |source| BrakeMachine::of_source(source, set, wanted))
 }
 
 /// The specification of the disc of a brake, and its motion.
@@ -26,8 +31,7 @@ pub(super) fn of_brake(machine: &BrakeMachine) -> Result<(Spec, Arc<BrakeDisc>),
 pub(super) fn run(args: &BrakeArgs) -> Result<Outcome, Failure> {
     let of_flag = args.analysis.to.units.map(|units| format!("{UNITS_KEY}={}", units.word()));
     let set: Vec<String> = args.analysis.set.iter().cloned().chain(of_flag).collect();
-    let loaded = BrakeMachine::load(catalogue(), &args.machine, &set, wanted(args));
-    let (machine, name) = loaded.map_err(Failure::new)?;
+    let (machine, name) = loaded(&args.machine, &set, wanted(args))?;
     let progress = Progress::of_stages(args.analysis.report.shows_progress());
     let judged = judged(args, &machine, |stage| progress.stage(stage))?;
     drop(progress);

@@ -4,6 +4,7 @@ use super::args::{
     AccuracyArgs, CommonArgs, ConoidArgs, CutterArgs, DiscArgs, FileArgs, OutlineArgs, OutputArgs, PointsArgs,
     ReportArgs, RotaryArgs, SolverKind, Speed, TranslatingArgs, gauge_follower,
 };
+use super::input_files::files;
 use super::live::{self, LiveSource};
 use super::progress::Progress;
 use super::put::put_set;
@@ -15,7 +16,6 @@ use camgen::body::milling::Milling;
 use camgen::body::points::{PointCurve, Points};
 use camgen::catalogue::catalogue;
 use camgen::document::NamedChoice;
-use camgen::document::file::text_of;
 use camgen::domains::press::MachineOfPress;
 use camgen::domains::press::SpecOfPress;
 use camgen::domains::press::machine::exact_on;
@@ -280,7 +280,8 @@ impl OutputArgs {
     pub(super) fn template(&self) -> Result<String, Failure> {
         match &self.template {
             None => Ok(svg::TEMPLATE.to_owned()),
-            Some(path) => text_of(path, LARGEST_TEMPLATE)
+            Some(path) => files()
+                .text_of(path, LARGEST_TEMPLATE)
                 .map_err(|error| Failure(format!("cannot read the template `{}`: {error}", path.display()))),
         }
     }

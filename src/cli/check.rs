@@ -3,12 +3,12 @@
 use super::args::{CheckArgs, CheckTarget, CommonArgs, ReportFormat};
 use super::cams::{balance_of, of_conoid, of_program};
 use super::design::{self, Design};
+use super::input_files::files;
 use super::progress::Progress;
 use super::{Failure, Outcome, print, print_painted, text};
 use camgen::body::Request;
 use camgen::body::conjugate::{COUNTER, MAIN_NAME};
 use camgen::document::NamedChoice;
-use camgen::document::file::bytes_of;
 use camgen::domains::press::MachineOfPress;
 use camgen::domains::press::SpecOfPress;
 use camgen::domains::press::motion::equation_18::Solver;
@@ -208,5 +208,5 @@ fn spec(args: &CheckArgs) -> Result<Spec, Failure> {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    bytes_of(path, LARGEST_FILE).map_err(|why| Failure(format!("cannot read `{}`: {why}", path.display())))
+    files().bytes_of(path, LARGEST_FILE).map_err(|why| Failure(format!("cannot read `{}`: {why}", path.display())))
 }

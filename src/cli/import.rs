@@ -3,12 +3,12 @@
 use super::analyses::write_with;
 use super::args::{ImportArgs, ImportAs, ImportForm, LawOrSpline};
 use super::cams::source_date;
+use super::input_files::files;
 use super::{Failure, Outcome};
 use camgen::Vector2;
 use camgen::analysis::compare::measured::{self, PointsOf, PointsStated};
 use camgen::analysis::import::{self, ImportOptions, ImportSource};
 use camgen::catalogue::lift_table;
-use camgen::document::file::{bytes_of, table_text_of};
 use camgen::pipeline::{Judged, Writing};
 use camgen::reading::outline::outline_of;
 use camgen::reading::{LARGEST_FILE, step};
@@ -34,13 +34,13 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
     let source = match form {
         ImportForm::Table => table(args, &options)?,
         ImportForm::Outline => {
-            let bytes = bytes_of(&args.file, LARGEST_FILE).map_err(|why| unread(&file, &why))?;
+            let bytes = files().bytes_of(&args.file, LARGEST_FILE).map_err(|why| unread(&file, &why))?;
             let found =
                 outline_of(&bytes, args.layer.as_deref()).map_err(|why| Failure(format!("`{file}` is {why}")))?;
             ImportSource::Outline(found.contour, found.told)
         }
         ImportForm::Points => {
-            let text = table_text_of(&args.file, LARGEST_TABLE).map_err(|why| unread(&file, &why))?;
+            let text = files().table_text_of(&args.file, LARGEST_TABLE).map_err(|why| unread(&file, &why))?;
             let mut stated = measured::stated(&text);
             // Columns that no heading names are those that --as says.
             stated.is_polar |= args.taken_as.is_some() && !stated.has_columns;
@@ -175,7 +175,7 @@ fn options(args: &ImportArgs, name: String) -> Result<ImportOptions, Failure> {
 /// What a file is, by its beginning and its headings.
 fn form_of(path: &Path, follower: bool) -> Result<ImportForm, Failure> {
     let file = path.display().to_string();
-    let bytes = bytes_of(path, LARGEST_FILE).map_err(|why| unread(&file, &why))?;
+    let bytes = files().bytes_of(path, LARGEST_FILE).map_err(|why| unread(&file, &why))?;
     let begins = |start: &str| bytes.trim_ascii_start().starts_with(start.as_bytes());
     let line = |number: usize| bytes.split(|byte| *byte == b'\n').nth(number).unwrap_or_default().trim_ascii();
     let named = |ending: &str| path.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending));
@@ -198,7 +198,7 @@ fn form_of(path: &Path, follower: bool) -> Result<ImportForm, Failure> {
             "`{file}` is {kind}; give a lift table or points as text (CSV), a DXF or a STEP file"
         )));
     }
-    let text = table_text_of(path, LARGEST_TABLE).map_err(|why| unread(&file, &why))?;
+    let text = files().table_text_of(path, LARGEST_TABLE).map_err(|why| unread(&file, &why))?;
     Ok(if measured::looks_like_points(&text, follower) { ImportForm::Points } else { ImportForm::Table })
 }
 
@@ -281,7 +281,7 @@ fn table(args: &ImportArgs, options: &ImportOptions) -> Result<ImportSource, Fai
     let read = |options: &ImportOptions| {
         let text = import::frame(options).map_err(Failure::new)?;
         let all: Vec<String> = overrides.iter().cloned().chain(options.follower_settings()).collect();
-        lift_table(&text, &all).map_err(Failure::new)
+        lift_table(&text, &all, files()).map_err(Failure::new)
     };
     match read(options) {
         Ok(rows) => match rows.possible_radii().filter(|_| args.taken_as.is_none()) {

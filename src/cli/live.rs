@@ -2,9 +2,9 @@
 
 use super::Failure;
 use super::args::{CommonArgs, FileArgs, Speed};
+use super::input_files::source as source_of;
 use camgen::body::{Accuracy, Request};
 use camgen::engine::{self, TextChange};
-use camgen::machine::MachineSource;
 use camgen::pipeline::Cam;
 use camgen::profile::outline::Fit;
 use camgen::write::dxf::Version;
@@ -50,7 +50,7 @@ pub(super) fn design(
     (common, cam, named): (&CommonArgs, &Cam, Option<&str>),
     tolerance: f64,
 ) -> Result<LiveDesign, Failure> {
-    let text = MachineSource::load(source.machine).map_err(Failure::new)?;
+    let text = source_of(source.machine).map_err(Failure::new)?;
     let set = |typed: &String| {
         let (key, to) = typed.split_once('=').unwrap_or((typed, ""));
         TextChange::Set { key: key.trim().to_owned(), to: to.trim().to_owned() }

@@ -8,6 +8,7 @@ mod check;
 mod design;
 mod explain;
 mod import;
+mod input_files;
 mod live;
 mod machines;
 mod pages;
@@ -22,7 +23,7 @@ mod trade;
 mod watch;
 
 use args::{Cli, Command, DeferredArgs};
-use camgen::document::{named, plain};
+use camgen::document::plain;
 use clap::Parser;
 use std::ffi::OsString;
 use std::io::{self, ErrorKind, Write};
@@ -57,8 +58,7 @@ pub(crate) fn main(typed: impl IntoIterator<Item = impl Into<OsString> + Clone>)
             return u8::try_from(shown.exit_code()).unwrap_or(BAD_INPUT);
         }
     };
-    let allowed = named::allow(&allow_path).map_err(|why| Failure(format!("--allow-path: {why}")));
-    let outcome = allowed.and_then(|()| match command {
+    let outcome = input_files::allow(&allow_path).and_then(|()| match command {
         None => pages::overview(),
         Some(command) => match command.watched() {
             Some(files) => watch::run(&files, || run(&command)),

@@ -1,10 +1,10 @@
 //! Files of a command: staged next to their targets, reported, then moved into place. Files whose report cannot be printed are not
 //! written, and exit code 0 means that both were done.
 
+use super::input_files::files;
 use super::signals::Signals;
 use super::{Failure, print_message};
 use camgen::FileSet;
-use camgen::document::file::was_read;
 use camgen::report::LazyReport;
 use camgen::write::files::{OutputDirectory, StagedFiles};
 use std::path::{Path, PathBuf};
@@ -61,7 +61,7 @@ pub(super) fn stage_and_commit<T>(
 
 /// Refuses to replace a file that was read, whatever flags say: it is an input, of which there may be no other copy.
 pub(super) fn refuse_inputs(targets: &[PathBuf]) -> Result<(), Failure> {
-    match targets.iter().find(|target| was_read(target)) {
+    match targets.iter().find(|target| files().was_read(target)) {
         None => Ok(()),
         Some(input) => Err(Failure(format!(
             "`{}` was read as an input and is not replaced; nothing was written; choose another --name or --out",

@@ -1,6 +1,7 @@
 //! `camgen study`: a row of figures for each of many designs.
 
 use super::args::StudyArgs;
+use super::input_files::files;
 use super::progress::Progress;
 use super::put::{refuse_inputs, stage_and_commit};
 use super::{Failure, Outcome, print, print_message};
@@ -17,7 +18,7 @@ pub(super) fn run(args: &StudyArgs) -> Result<Outcome, Failure> {
     if args.show {
         return show(&args.study);
     }
-    let study = Study::load(&args.study).map_err(Failure::new)?;
+    let study = Study::load_with(&args.study, files()).map_err(Failure::new)?;
     let needs = if study.proves() { "solved, drawn and proved" } else { "solved, not drawn" };
     if args.dry_run {
         let text = format!("{}: {} designs, each {needs}\n{}", study.name(), study.count(), study.header());

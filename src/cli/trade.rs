@@ -2,12 +2,13 @@
 
 use super::analyses::judge_and_write_as;
 use super::args::{Speed, TradeArgs, TradeTarget, at_end, machine_with_free};
+use super::brake::loaded;
+use super::input_files::made_of;
 use super::progress::Progress;
 use super::{Failure, Outcome};
 use camgen::analysis::Analysis;
-use camgen::catalogue::catalogue;
 use camgen::document::similar;
-use camgen::domains::brake::{BrakeMachine, BrakeOutput, analysis::trade as of_brake};
+use camgen::domains::brake::{BrakeOutput, analysis::trade as of_brake};
 use camgen::domains::press::MachineOfPress;
 use camgen::domains::press::analysis::trade as of_press;
 use camgen::domains::press::machine::{DriveMachine, PressCams};
@@ -46,14 +47,13 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
     let (analysis, name, kind) = match target {
         Some(TradeTarget::Shaft) => {
             args.without_limits(target)?;
-            let (machine, name) =
-                ShaftMachine::load(file.unwrap_or(SHAFT), &args.analysis.set).map_err(Failure::new)?;
+            let (machine, name) = shaft(args, file.unwrap_or(SHAFT))?;
             (of_shaft::analysis(&machine, &clock), name, "shaft")
         }
         Some(TradeTarget::Drive) => {
             args.without_limits(target)?;
             let (machine, name) =
-                DriveMachine::load(file.unwrap_or(DRIVE), &args.analysis.set).map_err(Failure::new)?;
+                made_of(file.unwrap_or(DRIVE), |source| DriveMachine::of_source(source, &args.analysis.set))?;
             (of_press::drive(&machine, &clock), name, "drive")
         }
         Some(TradeTarget::Brake) => {
@@ -61,9 +61,7 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
                 return Err(Failure("--residual belongs to the cams of a press: a brake balances no inertia".into()));
             }
             args.without_speed("a brake")?;
-            let (file, set) = (file.unwrap_or(BRAKE), &args.analysis.set);
-            let loaded = BrakeMachine::load(catalogue(), file, set, BrakeOutput::Disc);
-            let (machine, name) = loaded.map_err(Failure::new)?;
+            let (machine, name) = loaded(file.unwrap_or(BRAKE), &args.analysis.set, BrakeOutput::Disc)?;
             (of_brake::analysis(&machine, args.acceleration, run), name, "brake")
         }
         target => of_cam(args, (target, file), run)?,
@@ -126,9 +124,14 @@ fn of_cam(
     Ok((of_press::rotary(&machine, rpm, limits, others(args, file, rpm), run), name, "rotary"))
 }
 
+/// The shaft of a file, with the stem of its files.
+fn shaft(args: &TradeArgs, file: &str) -> Result<(ShaftMachine, String), Failure> {
+    made_of(file, |source| ShaftMachine::of_source(source, &args.analysis.set))
+}
+
 /// What the camshaft of a file leaves, where it has one.
 fn others(args: &TradeArgs, file: &str, rpm: f64) -> Vec<LeftOver> {
-    if let Ok((machine, _)) = ShaftMachine::load(file, &args.analysis.set) {
+    if let Ok((machine, _)) = shaft(args, file) {
         return of_shaft::left_by_shaft(&machine, rpm).into_iter().collect();
     }
     _ = (args, file, rpm);
@@ -160,7 +163,7 @@ fn speed(speeds: &Speeds) -> String {
 
 /// Whether a file describes a shaft without a press.
 fn is_shaft_alone(args: &TradeArgs, file: &str) -> bool {
-    ShaftMachine::load(file, &args.analysis.set).is_ok_and(|(machine, _)| machine.machine().is_none())
+    shaft(args, file).is_ok_and(|(machine, _)| machine.machine().is_none())
 }
 
 /// The kind of cam of a file.

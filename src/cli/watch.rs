@@ -1,7 +1,7 @@
 //! `--watch`: runs the command again whenever a file changes, until Ctrl-C.
 
+use super::input_files;
 use super::{Failure, Outcome, print_message};
-use camgen::document::named;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
@@ -33,7 +33,7 @@ pub(super) fn run(files: &[PathBuf], command: impl Fn() -> Result<Outcome, Failu
             print_message(&format!("error: {failure}"));
         }
         // The tables that the machine file names are known once it has been read. One that is new is looked at from now on.
-        let found: Vec<PathBuf> = named::read().into_iter().filter(|file| !files.contains(file)).collect();
+        let found: Vec<PathBuf> = input_files::files().named().into_iter().filter(|file| !files.contains(file)).collect();
         let seen = if found == named {
             before
         } else {

@@ -8,7 +8,7 @@ use crate::machine::{self, Catalogue, Machine, MachineError, MachineSource};
 use crate::pipeline::Spec;
 use crate::trade;
 use crate::verify::CHECKS;
-use camgen_kernel::document::{KeySection, Tables, cams};
+use camgen_kernel::document::{InputFiles, KeySection, Tables, cams};
 use camgen_kernel::motion::program::rows::TableRows;
 use camgen_kernel::refusal::Refusal;
 use std::sync::LazyLock;
@@ -139,7 +139,7 @@ impl Machine {
     /// # Errors
     /// All faults found; a file that cannot be read is one of them.
     pub fn load(name_or_path: &str, overrides: &[String]) -> Result<(Self, String), MachineError> {
-        let source = catalogue().source(name_or_path)?;
+        let source = MachineSource::load(name_or_path)?;
         Ok((Self::of_source(&source, overrides)?, source.stem().to_owned()))
     }
 
@@ -158,15 +158,23 @@ impl MachineSource {
     /// # Errors
     /// A file that cannot be read, or is none of a machine; what is wrong in it shows when a machine is made of it.
     pub fn load(name_or_path: &str) -> Result<Self, MachineError> {
-        catalogue().source(name_or_path)
+        Self::load_with(name_or_path, &InputFiles::default())
     }
 
-    /// Reads `text` as the content of the machine file `file`, which need not have it yet.
+    /// As [`MachineSource::load`], read by `files`, which says in which folders further files may lie, and records what is read.
+    ///
+    /// # Errors
+    /// As [`MachineSource::load`].
+    pub fn load_with(name_or_path: &str, files: &InputFiles) -> Result<Self, MachineError> {
+        catalogue().source(name_or_path, files)
+    }
+
+    /// Reads `text` as the content of the machine file `file`, which need not have it yet; `files` reads the files that it names.
     ///
     /// # Errors
     /// If `text` is no machine file; its faults show when a machine is made of it.
-    pub fn of_file(file: &str, text: &str) -> Result<Self, MachineError> {
-        catalogue().of_file(file, text)
+    pub fn of_file(file: &str, text: &str, files: &InputFiles) -> Result<Self, MachineError> {
+        catalogue().of_file(file, text, files)
     }
 
     /// Reads TOML text; `source` names it in messages.
@@ -180,8 +188,8 @@ impl MachineSource {
 ///
 /// # Errors
 /// All faults found, each with its place.
-pub fn lift_table(text: &str, overrides: &[String]) -> Result<TableRows, MachineError> {
-    MachineSource::from_toml("import", text).in_working_folder().read(overrides, machine::read_lift_table)
+pub fn lift_table(text: &str, overrides: &[String], files: &InputFiles) -> Result<TableRows, MachineError> {
+    MachineSource::from_toml("import", text).in_working_folder(files).read(overrides, machine::read_lift_table)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Flags of every command about a cam.
 
 use super::super::Failure;
+use super::super::input_files;
 use super::super::text::Page;
 use super::parse::{RateLimit, Speed, acceleration_error, accuracy, speed, tolerance, velocity_error, word};
 use camgen::analysis::size::FreeDimension;
@@ -109,7 +110,7 @@ pub(in crate::cli) fn machine_of_a_cam(name: &str, overrides: &[String]) -> Resu
         Some(Embedded { command, .. }) => {
             Err(Failure(format!("`{name}` describes no cam; the command for it is `camgen {command} {name}`")))
         }
-        None => Machine::load(name, overrides).map_err(Failure::new),
+        None => input_files::machine(name, overrides),
     }
 }
 
@@ -129,7 +130,7 @@ pub(in crate::cli) fn machine_with_free(
         FreeDimension::Pivot => format!("{table}.pivot_distance=auto"),
     });
     let all: Vec<String> = overrides.iter().cloned().chain(place).chain(["cam.base_radius=auto".to_owned()]).collect();
-    Machine::load(name, &all).map_err(Failure::new)
+    input_files::machine(name, &all)
 }
 
 impl CommonArgs {

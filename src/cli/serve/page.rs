@@ -2,6 +2,7 @@
 
 use super::super::Failure;
 use super::super::args::ServeArgs;
+use super::super::input_files;
 use super::super::put::refuse_inputs;
 use super::http::Answer;
 use super::target::{MachineFile, plain};
@@ -138,7 +139,7 @@ fn json_answer(done: Result<Value, String>) -> Answer {
 
 /// A design by the name of an embedded one or the path of a file.
 fn design(name: &str, args: &ServeArgs) -> Result<ServedDesign, Failure> {
-    let source = MachineSource::load(name).map_err(Failure::new)?;
+    let source = input_files::source(name).map_err(Failure::new)?;
     let is_embedded = catalogue().names().iter().any(|own| own.eq_ignore_ascii_case(name));
     // The page says what is wrong with a design.
     let machine = camgen::Machine::of_source(&source, &[]);
@@ -166,14 +167,14 @@ impl ServedDesign {
         let Some(file) = &self.file else { return Ok(self.design.clone()) };
         let toml = plain(&file.text()?);
         let name = self.design.file.as_deref().unwrap_or_default();
-        let files = MachineSource::load(name).map(|source| source.named_texts(&[])).unwrap_or_default();
+        let files = input_files::source(name).map(|source| source.named_texts(&[])).unwrap_or_default();
         Ok(LiveDesign { toml, files, ..self.design.clone() })
     }
 }
 
 /// The design that is shown where there is no other.
 fn usual() -> Option<LiveDesign> {
-    Some(of_source(&MachineSource::load(FIRST).ok()?))
+    Some(of_source(&input_files::source(FIRST).ok()?))
 }
 
 /// What a page shows of a design, where it has a cam with an outline.

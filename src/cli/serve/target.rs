@@ -1,8 +1,8 @@
 //! A machine file that a page may write: the file that its name, with links resolved, meant when the program began. If a link or anything
 //! but a file takes that name later, it is neither read nor written.
 
+use super::super::input_files::files;
 use camgen::Machine;
-use camgen::document::file;
 use camgen::machine::{FileFault, MachineSource};
 use camgen::write::files::{Output, write_all};
 use std::fs;
@@ -39,7 +39,7 @@ impl MachineFile {
             }
             _ => {}
         }
-        file::text_of(&self.path, LARGEST).map_err(|why| unread(why.to_string()))
+        files().text_of(&self.path, LARGEST).map_err(|why| unread(why.to_string()))
     }
 
     /// Replaces the text that the page has seen, keeping its byte order mark and line ends.
@@ -70,7 +70,7 @@ impl MachineFile {
         if text.len() as u64 > LARGEST {
             return Err(refused(format!("it would be larger than {LARGEST} bytes")));
         }
-        let source = MachineSource::of_file(&self.name, text);
+        let source = MachineSource::of_file(&self.name, text, files());
         let machine = source.and_then(|source| Machine::of_source(&source, &[]));
         machine.map(|_| ()).map_err(|error| refused(error.faults.first().map_or_else(String::new, first_line)))
     }

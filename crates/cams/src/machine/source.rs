@@ -3,8 +3,9 @@
 use super::embedded::Embedded;
 use super::other_files::instead_of_machine;
 use super::{CamData, FollowerData, MachineError, MachineParts, stem};
-use camgen_kernel::document::file;
-use camgen_kernel::document::{FileFault, FlatText, KnownValues, NamedFiles, Reader, Tables, similar};
+use camgen_kernel::document::{
+    FileFault, FlatText, InputFiles, KnownValues, NamedFiles, NamedFolder, Reader, Tables, similar,
+};
 use camgen_kernel::motion::program::{self, FollowerMovement, Program, ProgramSpan};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -88,15 +89,16 @@ impl MachineSource {
     }
 
     /// The text as of a file in the working folder: other files that its overrides name are found from there.
-    pub(crate) fn in_working_folder(self) -> Self {
-        Self { files: NamedFiles::Folder(PathBuf::new()), ..self }
+    pub(crate) fn in_working_folder(self, files: &InputFiles) -> Self {
+        let folder = NamedFolder { path: PathBuf::new(), confines_overrides: false, files: files.clone() };
+        Self { files: NamedFiles::Folder(folder), ..self }
     }
 
     /// The text with overrides that are not the user's own: files named in them must be in the folder of the text.
     #[must_use]
     pub fn with_confined_overrides(self) -> Self {
         let files = match self.files {
-            NamedFiles::Folder(folder) => NamedFiles::Confined(folder),
+            NamedFiles::Folder(folder) => NamedFiles::Folder(NamedFolder { confines_overrides: true, ..folder }),
             other => other,
         };
         Self { files, ..self }
@@ -172,11 +174,11 @@ impl MachineSource {
 }
 
 impl Catalogue {
-    /// The text of an embedded machine by its name, or of a file.
+    /// The text of an embedded machine by its name, or of a file; `files` reads it and the files that it names.
     ///
     /// # Errors
-    /// A file that cannot be read, or is none of a machine; what is wrong in it shows when a machine is made of it.
-    pub fn source(&'static self, name_or_path: &str) -> Result<MachineSource, MachineError> {
+    /// A file that cannot be read, or is not a machine file; what is wrong in it shows when a machine is made of it.
+    pub fn source(&'static self, name_or_path: &str, files: &InputFiles) -> Result<MachineSource, MachineError> {
         let path = Path::new(name_or_path);
         let exact = |machine: &&Embedded| machine.name == name_or_path;
         let in_any_case = |machine: &&Embedded| machine.name.eq_ignore_ascii_case(name_or_path) && !path.exists();
@@ -185,7 +187,7 @@ impl Catalogue {
             let of_embedded = MachineSource::of_user(self, &format!("{} (embedded)", embedded.name), embedded.toml);
             return Ok(MachineSource { stem: embedded.name.to_owned(), by_user: false, ..of_embedded });
         }
-        let text = file::text_of(path, LARGEST_FILE).map_err(|why| MachineError {
+        let text = files.text_of(path, LARGEST_FILE).map_err(|why| MachineError {
             faults: vec![FileFault {
                 key: None,
                 message: format!("cannot read the machine file `{name_or_path}`: {why}"),
@@ -199,22 +201,23 @@ impl Catalogue {
                 place: None,
             }],
         })?;
-        self.of_file(name_or_path, &text)
+        self.of_file(name_or_path, &text, files)
     }
 
-    /// Reads `text` as the content of the machine file `file`, which need not have it yet.
+    /// Reads `text` as the content of the machine file `file`, which need not have it yet; `files` reads the files that it names.
     ///
     /// # Errors
     /// If `text` is no machine file; its faults show when a machine is made of it.
-    pub fn of_file(&'static self, file: &str, text: &str) -> Result<MachineSource, MachineError> {
+    pub fn of_file(&'static self, file: &str, text: &str, files: &InputFiles) -> Result<MachineSource, MachineError> {
         if let Some((kind, help)) = instead_of_machine(file, text.as_bytes()) {
             let message = format!("`{file}` is {kind}, not a machine file");
             return Err(MachineError { faults: vec![FileFault { key: None, message, help: Some(help), place: None }] });
         }
         let path = Path::new(file);
         let stem = stem::fitting(&path.file_stem().unwrap_or_default().to_string_lossy());
-        let files = NamedFiles::Folder(path.parent().map(Path::to_owned).unwrap_or_default());
-        Ok(MachineSource { stem, files, ..MachineSource::of_user(self, file, text) })
+        let path = path.parent().map(Path::to_owned).unwrap_or_default();
+        let folder = NamedFolder { path, confines_overrides: false, files: files.clone() };
+        Ok(MachineSource { stem, files: NamedFiles::Folder(folder), ..MachineSource::of_user(self, file, text) })
     }
 
     /// The names of the machine files in the binary.

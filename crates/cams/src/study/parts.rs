@@ -7,17 +7,16 @@ use super::sampling::Sampling;
 use crate::catalogue::{catalogue, commands, usual_command};
 use crate::domain::DesignCommand;
 use crate::machine::{Machine, MachineSource};
-use camgen_kernel::document::named::outside_fault;
-use camgen_kernel::document::{FileFault, Reader, TableReader, similar};
+use camgen_kernel::document::{FileFault, InputFiles, Reader, TableReader, similar};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The base: an embedded machine, or a file in or below the folder of the study.
-pub(super) fn base_of(name: &str, folder: Option<&Path>) -> Result<MachineSource, Box<FileFault>> {
+pub(super) fn base_of(name: &str, folder: Option<&Path>, files: &InputFiles) -> Result<MachineSource, Box<FileFault>> {
     let fault = |message: String, help: Option<String>| Box::new(FileFault { key: None, message, help, place: None });
     let path = match folder.filter(|folder| folder.join(name).exists()) {
         Some(folder) => {
-            let outside = outside_fault(folder, name, keys::BASE.key.name);
+            let outside = files.outside_fault(folder, name, keys::BASE.key.name);
             outside.map_or(Ok(folder.join(name)), |fault| Err(Box::new(fault)))?
         }
         None if Path::new(name).exists() && !catalogue().names().contains(&name) => {
@@ -27,7 +26,7 @@ pub(super) fn base_of(name: &str, folder: Option<&Path>) -> Result<MachineSource
         None => PathBuf::from(name),
     };
     let unnamed = || fault(format!("the path `{}` is not UTF-8", path.display()), None);
-    let loaded = MachineSource::load(path.to_str().ok_or_else(unnamed)?);
+    let loaded = MachineSource::load_with(path.to_str().ok_or_else(unnamed)?, files);
     loaded.map(MachineSource::with_confined_overrides).map_err(|error| match error.faults.into_iter().next() {
         Some(first) => Box::new(first),
         None => fault(format!("cannot read the base `{name}`"), None),

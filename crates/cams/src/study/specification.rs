@@ -9,7 +9,7 @@ use super::sampling::{self, Sampling};
 use crate::domain::DesignCommand;
 use crate::machine::{Machine, MachineSource, fitting_stem, valid_rpm};
 use crate::report::sha256;
-use camgen_kernel::document::{FileFault, MOST_FAULTS, Reader, TableReader, file, similar};
+use camgen_kernel::document::{FileFault, InputFiles, MOST_FAULTS, Reader, TableReader, similar};
 use camgen_kernel::refusal::Refusal;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -84,17 +84,36 @@ fn refused(message: String, help: String) -> StudyError {
     StudyError::Faults(vec![FileFault { key: None, message, help: Some(help), place: None }])
 }
 
+/// The text of a study, and where it comes from.
+struct StudyText<'a> {
+    text: &'a str,
+    /// What the names of its files begin with.
+    stem: &'a str,
+    /// The folder from which its base is found.
+    folder: Option<&'a Path>,
+    /// By what the base is read.
+    files: &'a InputFiles,
+}
+
 impl Study {
     /// Reads an embedded study by its name, or a file; the base is found from the folder of the file.
     ///
     /// # Errors
     /// All faults of the study file, or of its base.
     pub fn load(name_or_path: &str) -> Result<Self, StudyError> {
+        Self::load_with(name_or_path, &InputFiles::default())
+    }
+
+    /// As [`Study::load`], read by `files`, which says in which folders further files may lie, and records what is read.
+    ///
+    /// # Errors
+    /// As [`Study::load`].
+    pub fn load_with(name_or_path: &str, files: &InputFiles) -> Result<Self, StudyError> {
         if let Some((name, text)) = EMBEDDED.iter().find(|(name, _)| *name == name_or_path) {
-            return Self::read(&format!("{name} (embedded)"), text, (None, name));
+            return Self::read(&format!("{name} (embedded)"), StudyText { text, stem: name, folder: None, files });
         }
         let path = Path::new(name_or_path);
-        let text = file::text_of(path, LARGEST_FILE).map_err(|why| {
+        let text = files.text_of(path, LARGEST_FILE).map_err(|why| {
             let names = EMBEDDED.map(|(name, _)| name);
             let near =
                 similar(name_or_path, names).map_or(String::new(), |near| format!("did you mean `{near}`? Else "));
@@ -102,7 +121,7 @@ impl Study {
             refused(format!("cannot read the study file `{name_or_path}`: {why}"), help)
         })?;
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        Self::read(name_or_path, &text, (path.parent(), &stem))
+        Self::read(name_or_path, StudyText { text: &text, stem: &stem, folder: path.parent(), files })
     }
 
     /// Reads a study from TOML text; `source` names it in messages.
@@ -111,12 +130,12 @@ impl Study {
     /// As [`Study::load`].
     pub fn from_toml(source: &str, text: &str) -> Result<Self, StudyError> {
         let stem = Path::new(source).file_stem().unwrap_or_default().to_string_lossy();
-        Self::read(source, text, (None, &stem))
+        Self::read(source, StudyText { text, stem: &stem, folder: None, files: &InputFiles::default() })
     }
 
-    fn read(source: &str, text: &str, (folder, stem): (Option<&Path>, &str)) -> Result<Self, StudyError> {
-        let reader = Reader::new(source, text, &[], keys::SECTIONS);
-        let study = Self::of(&reader, (text, folder, stem));
+    fn read(source: &str, text: StudyText<'_>) -> Result<Self, StudyError> {
+        let reader = Reader::new(source, text.text, &[], keys::SECTIONS);
+        let study = Self::of(&reader, text);
         reader.finish().map_err(StudyError::Faults)?;
         match study {
             Ok(Some(study)) => Ok(study),
@@ -127,7 +146,8 @@ impl Study {
     }
 
     /// `None` after a fault that was reported.
-    fn of(reader: &Reader<'_>, (text, folder, stem): (&str, Option<&Path>, &str)) -> Result<Option<Self>, StudyError> {
+    fn of(reader: &Reader<'_>, study: StudyText<'_>) -> Result<Option<Self>, StudyError> {
+        let StudyText { text, stem, folder, files } = study;
         let root = reader.table(&keys::ROOT);
         let parameters: Option<Vec<Parameter>> =
             reader.elements(&keys::PARAMETER).map(|table| parameter(&table)).collect();
@@ -145,7 +165,7 @@ impl Study {
             return Ok(None);
         }
         let base = root.get(&keys::BASE).unwrap_or_default();
-        let base = match base_of(&base, folder) {
+        let base = match base_of(&base, folder, files) {
             Ok(base) => base,
             Err(fault) => {
                 root.fail(&keys::BASE, fault.message, fault.help);

@@ -137,13 +137,13 @@ impl Columns {
 
     /// Reads a file by its name; `key` names the key in messages. A path that the user gave leads to any folder.
     pub(super) fn read(files: &NamedFiles, name: &str, key: &str, by_user: bool) -> Result<Self, ColumnsFault> {
-        let text = files.text(name, key, (LARGEST, by_user)).map_err(|misfit| (misfit, None))?;
+        let text = files.text(name, key, LARGEST, by_user).map_err(|misfit| (misfit, None))?;
         Self::parse(name, &text)
     }
 
     /// The text of the file that was read, where it is still there.
     pub(super) fn text(&self, files: &NamedFiles, by_user: bool) -> Option<String> {
-        files.text(&self.name, "", (LARGEST, by_user)).ok()
+        files.text(&self.name, "", LARGEST, by_user).ok()
     }
 
     fn parse(name: &str, text: &str) -> Result<Self, ColumnsFault> {

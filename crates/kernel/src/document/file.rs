@@ -1,20 +1,9 @@
 //! Files that a person names: read whole, where they are files and not too large.
 
 use crate::refusal::Refusal;
-use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::Read;
-use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
-
-/// The files that were read, links resolved. It is one for the process, as the files are.
-static READ: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
-
-/// Whether this process has read a file as an input.
-#[must_use]
-pub fn was_read(path: &Path) -> bool {
-    fs::canonicalize(path).is_ok_and(|path| READ.lock().unwrap_or_else(PoisonError::into_inner).contains(&path))
-}
+use std::path::Path;
 
 /// The bytes of a file of limited size; a refusal completes "cannot read".
 ///
@@ -40,9 +29,6 @@ pub fn bytes_of(path: &Path, largest: u64) -> Result<Vec<u8>, Refusal> {
         let read = File::open(path).and_then(|file| file.take(data.len()).read_to_end(&mut bytes));
         read.map_err(Refusal::of)?;
     }
-    if let Ok(found) = fs::canonicalize(path) {
-        READ.lock().unwrap_or_else(PoisonError::into_inner).insert(found);
-    }
     Ok(bytes)
 }
 
@@ -51,18 +37,18 @@ pub fn bytes_of(path: &Path, largest: u64) -> Result<Vec<u8>, Refusal> {
 /// # Errors
 /// [`Refusal`] as [`bytes_of`], or where it is not text.
 pub fn text_of(path: &Path, largest: u64) -> Result<String, Refusal> {
-    String::from_utf8(bytes_of(path, largest)?)
-        .map_err(|_| Refusal::new("it is not UTF-8 text").remedy("save it as UTF-8"))
+    text_in(bytes_of(path, largest)?)
 }
 
-/// The text of a table of limited size: UTF-8, UTF-16 behind its mark, or else Windows-1252, as spreadsheets save it. The signs in which that
+/// Bytes as UTF-8 text.
+pub(super) fn text_in(bytes: Vec<u8>) -> Result<String, Refusal> {
+    String::from_utf8(bytes).map_err(|_| Refusal::new("it is not UTF-8 text").remedy("save it as UTF-8"))
+}
+
+/// The bytes of a table as text: UTF-8, UTF-16 behind its mark, or else Windows-1252, as spreadsheets save it. The signs in which that
 /// differs from Latin-1 are quotes and dashes of headings.
-///
-/// # Errors
-/// [`Refusal`] as [`bytes_of`], or where it is not text.
-pub fn table_text_of(path: &Path, largest: u64) -> Result<String, Refusal> {
+pub(super) fn table_text_in(bytes: Vec<u8>) -> Result<String, Refusal> {
     let no_text = || Refusal::new("it is not text").remedy("save the table as CSV");
-    let bytes = bytes_of(path, largest)?;
     let wide = |units: &dyn Fn([u8; 2]) -> u16| {
         let units = bytes.chunks_exact(2).skip(1).filter_map(|pair| Some(units(pair.try_into().ok()?)));
         char::decode_utf16(units).collect::<Result<String, _>>().map_err(|_| no_text())
@@ -85,12 +71,6 @@ mod tests {
 
     #[test]
     fn tables_are_read_as_spreadsheets_save_them() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("table");
-        let read = |bytes: &[u8]| {
-            fs::write(&path, bytes).expect("written");
-            table_text_of(&path, 64)
-        };
         let wanted = "Winkel [°];Höhe\r\n0;1,5";
         let latin: Vec<u8> =
             wanted.chars().map(|letter| u8::try_from(u32::from(letter)).expect("a letter of Latin-1")).collect();
@@ -98,9 +78,9 @@ mod tests {
         let little: Vec<u8> = wide.iter().flat_map(|unit| unit.to_le_bytes()).collect();
         let big: Vec<u8> = wide.iter().flat_map(|unit| unit.to_be_bytes()).collect();
         for bytes in [wanted.as_bytes(), &latin, &little, &big] {
-            assert_eq!(read(bytes).expect("text"), wanted);
+            assert_eq!(table_text_in(bytes.to_vec()).expect("text"), wanted);
         }
-        assert_eq!(read(b"0;1\x00").expect_err("no text").what, "it is not text");
+        assert_eq!(table_text_in(b"0;1\x00".to_vec()).expect_err("no text").what, "it is not text");
     }
 
     #[test]
@@ -108,9 +88,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("text");
         fs::write(&path, "four").expect("written");
-        assert!(!was_read(&path));
         assert_eq!(text_of(&path, 4).expect("read"), "four");
-        assert!(was_read(&folder.path().join(".").join("text")));
         let what = |path: &Path, largest: u64| text_of(path, largest).expect_err("refused").what;
         assert_eq!(what(&path, 3), "it is larger than 3 bytes");
         assert_eq!(what(folder.path(), 4), "it is a directory");

@@ -12,7 +12,7 @@ use crate::brake::mechanics::{
     Brake, BrakeError, BrakeFrame, PaperRoll, Pulley, RollRotation, TensionHolding, Web, turned_too_far,
 };
 use camgen_cams::machine::{Catalogue, FollowerData, Machine, MachineError, MachineSource, NAME, ROOT};
-use camgen_kernel::document::{Input, Reader, TableReader};
+use camgen_kernel::document::{Input, InputFiles, Reader, TableReader};
 use camgen_kernel::refusal::Refusal;
 use keys::{
     ACCELERATION, BELT_SPEED_RATIO, CENTRE_OF_GRAVITY, DENSITY, FRICTION, GRIP, LARGEST_RADIUS, LEFT_PULLEY, MODE,
@@ -307,7 +307,7 @@ impl BrakeMachine {
         overrides: &[String],
         wanted: BrakeOutput,
     ) -> Result<(Self, String), MachineError> {
-        let source = catalogue.source(name_or_path)?;
+        let source = catalogue.source(name_or_path, &InputFiles::default())?;
         Ok((Self::of_source(&source, overrides, wanted)?, source.stem().to_owned()))
     }
 
