@@ -706,6 +706,19 @@ def looks(live, name, directory, pictures):
     assert not unnamed, unnamed
 
 
+def outdated(browser, directory, name):
+    """A page whose engine finds other results than the program that wrote it says so."""
+    text = page_of(directory, name).read_text()
+    words = '"words":["'
+    assert words in text
+    altered = directory / f"outdated-{name}.html"
+    altered.write_text(text.replace(words, words + "as an older engine says: ", 1))
+    live = Live(browser, altered.as_uri())
+    assert live.page.is_visible("#older"), "the page does not say that its engine is older"
+    live.close()
+    altered.unlink()
+
+
 def page_of(directory, name):
     """The live page of a design: of a pair of cams that of the first."""
     return next(path for path in sorted(directory.glob(f"{name}*.html")) if b"wasm-unsafe-eval" in path.read_bytes())
@@ -725,6 +738,7 @@ def judge(browser, options, directory, name, command, generator):
     size = path.stat().st_size
     assert size < LARGEST, f"{name}: {size} bytes"
     live = Live(browser, path.as_uri())
+    assert live.page.is_hidden("#older"), f"{name}: the page says that its engine is older"
     sent = live.toml()
     assert sent == text, f"{name}: another text than the file"
     first = same_files(live, binary, directory, command, name)
@@ -779,6 +793,7 @@ def main():
         browser = playwright.chromium.launch(executable_path=browser_path(), args=FLAGS)
         for name in names:
             print("live:", judge(browser, options, directory, name.split(":")[0], known[name], generator), flush=True)
+        outdated(browser, directory, names[0].split(":")[0])
         forms(browser, options.binary, directory, generator)
         tabled(browser, options.binary, directory)
         usual_names(browser, options.binary, directory)
