@@ -85,6 +85,7 @@ fn refused(message: String, help: String) -> StudyError {
 }
 
 /// The text of a study, and where it comes from.
+#[derive(Clone, Copy)]
 struct StudyText<'a> {
     text: &'a str,
     /// What the names of its files begin with.
