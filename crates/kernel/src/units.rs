@@ -174,8 +174,9 @@ fn unit_of(typed: &str, kind: Option<Dimension>) -> Option<&'static UnitSymbol> 
         })
         .collect();
     let plain = SPELLINGS.iter().find(|(spelling, _)| *spelling == plain).map_or(plain.as_str(), |(_, symbol)| symbol);
-    let joined = |unit: &&UnitSymbol| unit.symbol.replace('*', "") == plain.replace('*', "");
-    if let Some(unit) = exact(plain).or_else(|| UNITS.iter().find(joined)) {
+    if let Some(unit) =
+        exact(plain).or_else(|| UNITS.iter().find(|unit| unit.symbol.replace('*', "") == plain.replace('*', "")))
+    {
         return Some(unit);
     }
     // `mPa` and `Mm` are other units, a thousandth and a million times the size.

@@ -87,8 +87,10 @@ impl FileRow {
     }
 
     fn canonical(&self) -> String {
-        let cell = |at: usize| self.number(at).map_or_else(|| self.cell(at).to_owned(), exact);
-        (0..self.width()).map(cell).collect::<Vec<_>>().join(" ")
+        (0..self.width())
+            .map(|at| self.number(at).map_or_else(|| self.cell(at).to_owned(), exact))
+            .collect::<Vec<_>>()
+            .join(" ")
     }
 }
 
@@ -206,9 +208,8 @@ fn cells(line: &str) -> Vec<String> {
     }
     let blanks: Vec<&str> = line.split_whitespace().collect();
     if line.contains(',') {
-        let decimal = |cell: &&str| number(cell).is_some();
         let any = blanks.iter().any(|cell| cell.contains(','));
-        if !(blanks.len() > 1 && any && blanks.iter().all(decimal)) {
+        if !(blanks.len() > 1 && any && blanks.iter().all(|cell| number(cell).is_some())) {
             return kept(parts(line, ','));
         }
     }
@@ -283,8 +284,9 @@ const FEW: usize = 8;
 
 /// A text as it is where it consists of numbers, otherwise its first characters.
 fn few(text: &str) -> String {
-    let of_number = |c: char| c.is_ascii_digit() || c.is_whitespace() || "+-.,;eE".contains(c);
-    if text.chars().count() <= FEW || text.chars().all(of_number) {
+    if text.chars().count() <= FEW
+        || text.chars().all(|c| c.is_ascii_digit() || c.is_whitespace() || "+-.,;eE".contains(c))
+    {
         return text.to_owned();
     }
     text.chars().take(FEW).chain(['…']).collect()

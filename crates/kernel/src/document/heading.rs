@@ -249,8 +249,8 @@ fn inside(heading: &str) -> Option<&str> {
 
 /// The words of a heading, and its numbers.
 fn words(text: &str) -> impl Iterator<Item = &str> {
-    let apart = |c: char| !(c.is_alphanumeric() || matches!(c, '°' | '%' | '‰' | '"' | '\'' | '″' | '”' | '/'));
-    text.split(apart).filter(|word| !word.is_empty())
+    text.split(|c: char| !(c.is_alphanumeric() || matches!(c, '°' | '%' | '‰' | '"' | '\'' | '″' | '”' | '/')))
+        .filter(|word| !word.is_empty())
 }
 
 /// The word of a heading that says that the column has no positions: a velocity, an acceleration or a force.

@@ -42,10 +42,10 @@ impl Tables {
                 continue;
             }
             // A radius may have been given by its diameter.
-            let doubled = input.typed.strip_prefix('Ø').and_then(|typed| {
-                let of_key = |other: &&Key| other.halved == Some(key.name);
-                Some((section.keys.iter().find(of_key)?, typed))
-            });
+            let doubled = input
+                .typed
+                .strip_prefix('Ø')
+                .and_then(|typed| Some((section.keys.iter().find(|other| other.halved == Some(key.name))?, typed)));
             let (key, typed) = doubled.unwrap_or((key, &input.typed));
             let place = self.sections.iter().position(|other| other.path == section.path).unwrap_or_default();
             let indices = indices.iter().filter_map(|index| index.parse().ok()).collect();
@@ -89,11 +89,12 @@ impl Tables {
     /// The kinds that a list of kinds and classes names.
     #[must_use]
     pub fn listed<'c>(&self, cams: &[&'c str]) -> Vec<&'c str> {
-        let of = |cam: &&'c str| -> Vec<&'c str> {
-            let members = self.kinds.iter().filter(|kind| kind.classes.contains(cam));
-            let members: Vec<&'c str> = members.map(|kind| kind.name).collect();
-            if members.is_empty() { vec![*cam] } else { members }
-        };
-        cams.iter().flat_map(of).collect()
+        cams.iter()
+            .flat_map(|cam| -> Vec<&'c str> {
+                let members = self.kinds.iter().filter(|kind| kind.classes.contains(cam));
+                let members: Vec<&'c str> = members.map(|kind| kind.name).collect();
+                if members.is_empty() { vec![*cam] } else { members }
+            })
+            .collect()
     }
 }

@@ -198,8 +198,9 @@ impl KeyAtPath<'_> {
     /// A list in the file, or `[angle, 3]` after a flag.
     fn texts(&self, scalar: &Scalar) -> Result<KeyValue, Misfit> {
         let wrong = || misfit(format!("`{}` must be a list of texts or numbers", self.path), Some(self.example()));
-        let bare = |text: String| Scalar::Text(text.trim().trim_matches('"').to_owned());
-        let Some(items) = items(scalar, bare) else { return wrong() };
+        let Some(items) = items(scalar, |text| Scalar::Text(text.trim().trim_matches('"').to_owned())) else {
+            return wrong();
+        };
         let texts: Option<Vec<String>> = items.iter().map(|item| item.typed().map(str::to_owned)).collect();
         match texts {
             Some(texts) if texts.iter().all(|text| !text.trim().is_empty() && text.chars().all(is_text)) => {
@@ -419,8 +420,11 @@ fn length_or_angle((dimension, value): (Dimension, f64)) -> KeyValue {
 
 /// The points of a text such as `[[0 deg, 0 mm], [90 deg, 12 mm]]`.
 fn points_of_flag(text: &str) -> Vec<Scalar> {
-    let quantity = |text: &str| Scalar::Text(text.trim().trim_matches('"').to_owned());
     let points = text.trim().trim_start_matches('[').trim_end_matches(']').split(']');
     let points = points.map(|point| point.trim().trim_start_matches(',').trim().trim_start_matches('['));
-    points.map(|point| Scalar::List(point.split(',').map(quantity).collect())).collect()
+    points
+        .map(|point| {
+            Scalar::List(point.split(',').map(|text| Scalar::Text(text.trim().trim_matches('"').to_owned())).collect())
+        })
+        .collect()
 }

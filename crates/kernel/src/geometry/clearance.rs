@@ -91,9 +91,8 @@ fn places_on(edge: &Edge, others: &[Edge], distance: &impl Fn(Vector2<f64>) -> f
 
 /// The places of an arc or a line whose normal is one of another edge, too, or passes through its ends.
 fn on_common_normals(segment: &Segment, other: &Edge) -> Vec<Vector2<f64>> {
-    let centre = |of: &Segment| (of.bulge != 0.0).then(|| of.centre());
     let other = other.segment();
-    let middle = other.as_ref().and_then(centre);
+    let middle = other.as_ref().and_then(|of| (of.bulge != 0.0).then(|| of.centre()));
     if segment.bulge == 0.0 {
         return middle.map(|middle| segment.nearest(middle).foot).into_iter().collect();
     }

@@ -72,14 +72,19 @@ impl Contour {
     /// The contour with all of its lengths multiplied, about the origin.
     #[must_use]
     pub fn scaled(&self, scale: f64) -> Self {
-        let vertex = |vertex: &Vertex| {
-            let bend = match vertex.bend {
-                Bend::Arc(bulge) => Bend::Arc(bulge),
-                Bend::Cubic([leaves, arrives]) => Bend::Cubic([leaves * scale, arrives * scale]),
-            };
-            Vertex { point: vertex.point * scale, bend }
-        };
-        Self { vertices: self.vertices.iter().map(vertex).collect() }
+        Self {
+            vertices: self
+                .vertices
+                .iter()
+                .map(|vertex| {
+                    let bend = match vertex.bend {
+                        Bend::Arc(bulge) => Bend::Arc(bulge),
+                        Bend::Cubic([leaves, arrives]) => Bend::Cubic([leaves * scale, arrives * scale]),
+                    };
+                    Vertex { point: vertex.point * scale, bend }
+                })
+                .collect(),
+        }
     }
 
     /// A full circle, counter-clockwise, as two half arcs.
@@ -140,18 +145,19 @@ impl Contour {
     /// on each edge, which is exact to rounding for arcs up to half a turn.
     #[must_use]
     pub fn polar_moment(&self) -> f64 {
-        let of = |edge: Edge| {
-            let across = |share: f64| {
-                let (point, direction) = edge.at(share);
-                let speed = match edge {
-                    Edge::Segment(segment) => segment.length(),
-                    Edge::Cubic(cubic) => cubic.derivatives(share)[1].norm(),
+        self.edges()
+            .map(|edge| {
+                let across = |share: f64| {
+                    let (point, direction) = edge.at(share);
+                    let speed = match edge {
+                        Edge::Segment(segment) => segment.length(),
+                        Edge::Cubic(cubic) => cubic.derivatives(share)[1].norm(),
+                    };
+                    point.norm_squared() * point.perp(&direction) * speed
                 };
-                point.norm_squared() * point.perp(&direction) * speed
-            };
-            0.25 * quadrature::integrate(across, (0.0, 1.0), PANELS)
-        };
-        self.edges().map(of).sum()
+                0.25 * quadrature::integrate(across, (0.0, 1.0), PANELS)
+            })
+            .sum()
     }
 
     /// Length of the whole chain, mm.

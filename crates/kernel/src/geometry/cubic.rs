@@ -93,11 +93,12 @@ impl Cubic {
     pub fn part(&self, from: f64, to: f64) -> Self {
         let [p, q, r, s] = self.points;
         let on = |a: Vector2<f64>, b: Vector2<f64>, t: f64| a + (b - a) * t;
-        let blossom = |[x, y, z]: [f64; 3]| {
-            let (a, b, c) = (on(p, q, x), on(q, r, x), on(r, s, x));
-            on(on(a, b, y), on(b, c, y), z)
-        };
-        Self { points: [[from; 3], [from, from, to], [from, to, to], [to; 3]].map(blossom) }
+        Self {
+            points: [[from; 3], [from, from, to], [from, to, to], [to; 3]].map(|[x, y, z]| {
+                let (a, b, c) = (on(p, q, x), on(q, r, x), on(r, s, x));
+                on(on(a, b, y), on(b, c, y), z)
+            }),
+        }
     }
 
     /// The curve in the opposite sense.
@@ -160,11 +161,13 @@ impl Cubic {
     /// By how much it turns left from its start to its end, rad.
     #[must_use]
     pub fn turning(&self) -> f64 {
-        let turn = |(part, _): &(Self, (f64, f64))| {
-            let (a, b) = (part.start_tangent(), part.end_tangent());
-            libm::atan2(a.perp(&b), a.dot(&b))
-        };
-        self.smooth_parts().iter().map(turn).sum()
+        self.smooth_parts()
+            .iter()
+            .map(|(part, _)| {
+                let (a, b) = (part.start_tangent(), part.end_tangent());
+                libm::atan2(a.perp(&b), a.dot(&b))
+            })
+            .sum()
     }
 
     /// Parameters at which it is perpendicular to a direction.

@@ -9,7 +9,7 @@ use crate::geometry::contour::{Contour, Edge, NearestOnSegment};
 use nalgebra::Vector2;
 use parry2d_f64::bounding_volume::{Aabb, BoundingVolume as _};
 use parry2d_f64::math::Vector;
-use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
+use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use parry2d_f64::query::{PointQuery, PointQueryWithLocation};
 use parry2d_f64::shape::{Segment, SegmentPointLocation};
 
@@ -137,7 +137,6 @@ impl EdgeTree {
     /// The nearest of the edges that are nearer than `most`, except some that are known.
     fn nearer_than(&self, point: Vector2<f64>, most: f64, known: &[usize]) -> Option<(usize, NearestOnSegment)> {
         let from = parry(point);
-        let distance_to_box = |node: &BvhNode, _: f64| node.aabb().distance_to_local_point(from, true);
         let distance = |leaf: u32, _: f64| {
             if known.contains(&(leaf as usize)) {
                 return None;
@@ -145,7 +144,8 @@ impl EdgeTree {
             let nearest = self.edges.get(leaf as usize)?.nearest(point);
             Some((nearest.left.abs(), (leaf as usize, nearest)))
         };
-        let (_, (_, found)) = self.tree.find_best(most, distance_to_box, distance)?;
+        let (_, (_, found)) =
+            self.tree.find_best(most, |node, _| node.aabb().distance_to_local_point(from, true), distance)?;
         Some(found)
     }
 
@@ -174,12 +174,14 @@ impl EdgeTree {
     pub fn farthest(&self, direction: Vector2<f64>) -> Option<f64> {
         // No box reaches farther than its corner, and the search skips boxes that cannot win.
         let corner = |low: f64, high: f64, along: f64| if along > 0.0 { high * along } else { low * along };
-        let of_box = |node: &BvhNode, _: f64| {
-            let (low, high) = (node.aabb().mins, node.aabb().maxs);
-            -corner(low.x, high.x, direction.x) - corner(low.y, high.y, direction.y)
-        };
-        let reach = |leaf: u32, _: f64| Some(-self.edges.get(leaf as usize)?.farthest(direction));
-        let (_, least) = self.tree.find_best(f64::MAX, of_box, reach)?;
+        let (_, least) = self.tree.find_best(
+            f64::MAX,
+            |node, _| {
+                let (low, high) = (node.aabb().mins, node.aabb().maxs);
+                -corner(low.x, high.x, direction.x) - corner(low.y, high.y, direction.y)
+            },
+            |leaf, _| Some(-self.edges.get(leaf as usize)?.farthest(direction)),
+        )?;
         Some(-least)
     }
 
@@ -196,8 +198,8 @@ impl EdgeTree {
         let from = parry(point);
         let near =
             |leaf: &u32| self.edges.get(*leaf as usize).is_some_and(|edge| edge.nearest(point).left.abs() <= reach);
-        let within = |node: &BvhNode| node.aabb().distance_to_local_point(from, true) <= reach;
-        let mut touching: Vec<u32> = self.tree.leaves(within).filter(near).collect();
+        let mut touching: Vec<u32> =
+            self.tree.leaves(|node| node.aabb().distance_to_local_point(from, true) <= reach).filter(near).collect();
         touching.sort_unstable();
         let gaps = touching.windows(2).filter(|pair| matches!(pair, [a, b] if b - a > 1)).count();
         let closes = match (touching.first(), touching.last()) {
@@ -267,16 +269,17 @@ impl Chords {
             Aabb::from_points(ends)
         });
         let boxes: Vec<Aabb> = boxes.collect();
-        let about = |boxes: &[Aabb]| boxes.iter().copied().reduce(|about, other| about.merged(&other));
-        let larger = boxes.chunks(TO_A_BOX).filter_map(about).collect();
+        let larger = boxes
+            .chunks(TO_A_BOX)
+            .filter_map(|boxes| boxes.iter().copied().reduce(|about, other| about.merged(&other)))
+            .collect();
         Self { boxes, larger, points, count, sagitta: worst }
     }
 
     /// How far the chords reach in a direction (a unit vector) from the origin.
     #[must_use]
     pub fn farthest(&self, direction: Vector2<f64>) -> f64 {
-        let reach = |point: &Vector| point.x * direction.x + point.y * direction.y;
-        self.points.iter().map(reach).fold(f64::NEG_INFINITY, f64::max)
+        self.points.iter().map(|point| point.x * direction.x + point.y * direction.y).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Distance of a point from the chords, positive outside.

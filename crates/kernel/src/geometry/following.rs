@@ -550,22 +550,27 @@ fn steps(path: &EdgePath, (from, to): (f64, f64)) -> impl Iterator<Item = f64> +
 fn parts(paths: &[EdgePath], from: (usize, f64), to: (usize, f64)) -> Vec<(EdgePath, (f64, f64))> {
     let count = paths.len();
     let last = if from < to { to.0 } else { to.0 + count };
-    let part = |index: usize| {
-        let path = *paths.get(index % count)?;
-        let start = if index == from.0 { from.1 } else { 0.0 };
-        let end = if index == last { to.1 } else { path.length() };
-        Some((path, (start, end)))
-    };
-    (from.0..=last).filter_map(part).filter(|(_, (from, to))| to - from > NEAR).collect()
+    (from.0..=last)
+        .filter_map(|index| {
+            let path = *paths.get(index % count)?;
+            let start = if index == from.0 { from.1 } else { 0.0 };
+            let end = if index == last { to.1 } else { path.length() };
+            Some((path, (start, end)))
+        })
+        .filter(|(_, (from, to))| to - from > NEAR)
+        .collect()
 }
 
 /// The place of the chain nearest to a point: its distance, and the segment with the length along it.
 fn nearest(paths: &[EdgePath], point: Vector2<f64>) -> Option<(f64, (usize, f64))> {
-    let of = |(index, path): (usize, &EdgePath)| {
-        let along = path.nearest(point);
-        ((path.at(along).0 - point).norm(), (index, along))
-    };
-    paths.iter().enumerate().map(of).min_by(|a, b| a.0.total_cmp(&b.0))
+    paths
+        .iter()
+        .enumerate()
+        .map(|(index, path)| {
+            let along = path.nearest(point);
+            ((path.at(along).0 - point).norm(), (index, along))
+        })
+        .min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 #[cfg(test)]

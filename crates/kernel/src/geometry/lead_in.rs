@@ -81,12 +81,13 @@ pub fn path_of_centre(way: &[Segment], side: f64, radius: f64) -> Vec<Segment> {
     let Some((first, rest)) = way.split_first() else { return Vec::new() };
     let next = rest.first().map_or_else(|| first.end_tangent(), Segment::start_tangent);
     let taken_up = Segment { end: first.end + offset(next), bulge: 0.0, ..*first };
-    let parallel = |segment: &Segment| Segment {
-        start: segment.start + offset(segment.start_tangent()),
-        end: segment.end + offset(segment.end_tangent()),
-        bulge: segment.bulge,
-    };
-    std::iter::once(taken_up).chain(rest.iter().map(parallel)).collect()
+    std::iter::once(taken_up)
+        .chain(rest.iter().map(|segment| Segment {
+            start: segment.start + offset(segment.start_tangent()),
+            end: segment.end + offset(segment.end_tangent()),
+            bulge: segment.bulge,
+        }))
+        .collect()
 }
 
 /// A way in the other sense.
@@ -98,11 +99,13 @@ pub fn reversed(way: &[Segment]) -> Vec<Segment> {
 /// How deep a cutter of a radius (mm) cuts into the metal of any of the chains along paths of its centre, mm.
 #[must_use]
 pub fn depth_along(trees: &[EdgeTree], centre: &[Segment], radius: f64, fine: f64) -> f64 {
-    let of_tree = |tree: &EdgeTree| {
-        let depths = centre.iter().map(|segment| depth_of_disc(tree, &Edge::Segment(*segment), radius, fine));
-        depths.fold(0.0, f64::max)
-    };
-    trees.iter().map(of_tree).fold(0.0, f64::max)
+    trees
+        .iter()
+        .map(|tree| {
+            let depths = centre.iter().map(|segment| depth_of_disc(tree, &Edge::Segment(*segment), radius, fine));
+            depths.fold(0.0, f64::max)
+        })
+        .fold(0.0, f64::max)
 }
 
 #[cfg(test)]

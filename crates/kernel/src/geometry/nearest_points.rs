@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use parry2d_f64::bounding_volume::Aabb;
 use parry2d_f64::math::Vector;
-use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
+use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use parry2d_f64::query::PointQuery;
 
 /// The distance of each point from the nearest other one; infinite for a single point.
@@ -19,12 +19,12 @@ fn parry(point: &Vector2<f64>) -> Vector {
 }
 
 fn distance_to_others(tree: &Bvh, points: &[Vector2<f64>], (index, point): (usize, &Vector2<f64>)) -> f64 {
-    let distance_to_box = |node: &BvhNode, _: f64| node.aabb().distance_to_local_point(parry(point), true);
     let distance = |leaf: u32, _: f64| {
         let other = points.get(leaf as usize).filter(|_| leaf as usize != index)?;
         Some((other - point).norm())
     };
-    tree.find_best(f64::MAX, distance_to_box, distance).map_or(f64::INFINITY, |(_, distance)| distance)
+    tree.find_best(f64::MAX, |node, _| node.aabb().distance_to_local_point(parry(point), true), distance)
+        .map_or(f64::INFINITY, |(_, distance)| distance)
 }
 
 #[cfg(test)]

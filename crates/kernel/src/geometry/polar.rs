@@ -36,12 +36,14 @@ pub fn crossing(
 #[must_use]
 pub fn outermost(contour: &Contour, directions: &[Vector2<f64>]) -> Vec<Option<f64>> {
     let edges: Vec<(Edge, f64)> = contour.edges().map(|edge| (edge, edge.length())).collect();
-    let along = |direction: &Vector2<f64>| {
-        // An edge does not reach farther from its start than its length.
-        let near = edges.iter().filter(|(edge, length)| direction.perp(&edge.start()).abs() <= *length);
-        near.filter_map(|(edge, _)| of_edge(edge, *direction)).reduce(f64::max)
-    };
-    directions.iter().map(along).collect()
+    directions
+        .iter()
+        .map(|direction| {
+            // An edge does not reach farther from its start than its length.
+            let near = edges.iter().filter(|(edge, length)| direction.perp(&edge.start()).abs() <= *length);
+            near.filter_map(|(edge, _)| of_edge(edge, *direction)).reduce(f64::max)
+        })
+        .collect()
 }
 
 fn of_edge(edge: &Edge, direction: Vector2<f64>) -> Option<f64> {
@@ -52,11 +54,12 @@ fn of_edge(edge: &Edge, direction: Vector2<f64>) -> Option<f64> {
         PARTS => edge.end(),
         _ => at(f64::from(index) / f64::from(PARTS)),
     };
-    let part = |index: u32| {
-        let shares = [index, index + 1].map(|end| f64::from(end) / f64::from(PARTS));
-        crossing(at, shares, [end(index), end(index + 1)], direction).map(|share| direction.dot(&at(share)))
-    };
-    (0..PARTS).filter_map(part).reduce(f64::max)
+    (0..PARTS)
+        .filter_map(|index| {
+            let shares = [index, index + 1].map(|end| f64::from(end) / f64::from(PARTS));
+            crossing(at, shares, [end(index), end(index + 1)], direction).map(|share| direction.dot(&at(share)))
+        })
+        .reduce(f64::max)
 }
 
 #[cfg(test)]

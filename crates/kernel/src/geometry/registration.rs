@@ -159,13 +159,16 @@ impl RegistrationOutline {
 }
 
 fn mean_square(model: &RegistrationOutline, points: &[Vector2<f64>], registration: &Registration) -> f64 {
-    let square = |p: &Vector2<f64>| {
-        let off = model.outside(registration.back(*p)).0 - registration.offset;
-        off * off
-    };
     #[expect(clippy::cast_precision_loss, reason = "a few thousand")]
     let count = points.len().max(1) as f64;
-    points.iter().map(square).sum::<f64>() / count
+    points
+        .iter()
+        .map(|p| {
+            let off = model.outside(registration.back(*p)).0 - registration.offset;
+            off * off
+        })
+        .sum::<f64>()
+        / count
 }
 
 /// Starts of a fit: sizes and centroids brought together, at the most promising angles.

@@ -100,9 +100,9 @@ fn farthest(chain: &Contour, other: &EdgeTree) -> Deviation {
     }
     highest.sort_by(|a, b| b.from.1.max(b.to.1).total_cmp(&a.from.1.max(a.to.1)));
     for part in highest.iter().take(SOLVED) {
-        let value = |length: f64| away(part.path.at(length).0);
         let range = (part.from.0, part.to.0);
-        let top = extremum::largest_without_slope(value, range, 4, extremum::TO_ROUNDING);
+        let top =
+            extremum::largest_without_slope(|length| away(part.path.at(length).0), range, 4, extremum::TO_ROUNDING);
         if top.value > best.distance {
             best = Deviation { distance: top.value, at: part.path.at(top.at).0 };
         }

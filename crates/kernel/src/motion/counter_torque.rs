@@ -160,13 +160,21 @@ impl CounterMotion {
         let pieces = work.pieces().to_vec();
         let distinct = pieces.len() / usize::try_from(work.lobes().max(1)).unwrap_or(1);
         let extreme = |sign: f64| {
-            let of = |(index, piece): (usize, &Piece)| {
-                let value = |angle| sign * work.at(index, angle).energy;
-                let slope = |angle| sign * work.at(index, angle).torque;
-                let cells = if piece.dwell { 1 } else { CELLS };
-                extremum::largest(value, slope, (piece.start, piece.end), cells).value
-            };
-            sign * pieces.iter().take(distinct.max(1)).enumerate().map(of).fold(f64::NEG_INFINITY, f64::max)
+            sign * pieces
+                .iter()
+                .take(distinct.max(1))
+                .enumerate()
+                .map(|(index, piece)| {
+                    let cells = if piece.dwell { 1 } else { CELLS };
+                    extremum::largest(
+                        |angle| sign * work.at(index, angle).energy,
+                        |angle| sign * work.at(index, angle).torque,
+                        (piece.start, piece.end),
+                        cells,
+                    )
+                    .value
+                })
+                .fold(f64::NEG_INFINITY, f64::max)
         };
         let (most, least) = (extreme(1.0), extreme(-1.0));
         Ok(Self { law: CounterTorque::new(rate, preload, most)?, stored: most - least, pieces, work })

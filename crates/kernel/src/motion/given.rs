@@ -100,8 +100,7 @@ fn derivatives_belong(motion: &dyn Motion, all: &[Vec<(f64, Jet)>], range: f64) 
             for (at, jet) in samples {
                 let given = of(jet);
                 let found = STEPS.map(|step| difference(motion, piece, (*at, step * width), order));
-                let near = |found: &Option<f64>| found.is_none_or(|found| (found - given).abs() <= scale);
-                if !found.iter().any(near) {
+                if !found.iter().any(|found| found.is_none_or(|found| (found - given).abs() <= scale)) {
                     let by = found.last().copied().flatten().unwrap_or(f64::NAN);
                     let what = format!("its {name} is {given:.6e}, but the finite difference is {by:.6e}");
                     return Err(refused(motion, &what, *at)

@@ -32,17 +32,19 @@ pub(super) fn by_lift<M: Motion + ?Sized>(motion: &M) -> Vec<NamedStretch> {
         }
     }
     let most = found.iter().flat_map(|(_, lifts, _)| lifts).fold(0.0_f64, |most, lift| most.max(lift.abs()));
-    let named = |(stretch, [from, to], (dwell, rolled)): (NamedStretch, [f64; 2], (bool, bool))| {
-        let name = match to - from {
-            _ if !rolled => "no follower",
-            _ if dwell => "dwell",
-            travel if travel > LEVEL * most => "rise",
-            travel if travel < -LEVEL * most => "return",
-            _ => "movement",
-        };
-        NamedStretch { name: name.into(), ..stretch }
-    };
-    found.into_iter().map(named).collect()
+    found
+        .into_iter()
+        .map(|(stretch, [from, to], (dwell, rolled))| {
+            let name = match to - from {
+                _ if !rolled => "no follower",
+                _ if dwell => "dwell",
+                travel if travel > LEVEL * most => "rise",
+                travel if travel < -LEVEL * most => "return",
+                _ => "movement",
+            };
+            NamedStretch { name: name.into(), ..stretch }
+        })
+        .collect()
 }
 
 #[cfg(test)]

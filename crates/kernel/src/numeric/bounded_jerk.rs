@@ -106,8 +106,10 @@ impl Unknowns {
                     (next, 1, v1),
                     (next, 2, a1),
                 ];
-                let unknown = |(node, which, factor)| self.at(node, which).map(|unknown| (unknown, factor));
-                let terms: Vec<(usize, f64)> = all.into_iter().filter_map(unknown).collect();
+                let terms: Vec<(usize, f64)> = all
+                    .into_iter()
+                    .filter_map(|(node, which, factor)| self.at(node, which).map(|unknown| (unknown, factor)))
+                    .collect();
                 let known: f64 = all.into_iter().map(|(node, which, factor)| factor * self.known(node, which)).sum();
                 form.add_square(weight, &terms, per_rise * rise / self.size + known);
             }
@@ -299,15 +301,16 @@ impl Unknowns {
             (&[(v1, -h), (a1, 0.25 * h * h)], 0.0),
             (&[(v1, -h)], 0.0),
         ];
-        let bound = |(terms, most): (&[Term], f64)| {
-            let unknown = |((node, which), factor): &Term| self.at(*node, *which).map(|unknown| (unknown, up * factor));
-            let known = |((node, which), factor): &Term| up * factor * self.known(*node, *which);
-            Bound {
-                terms: terms.iter().filter_map(unknown).collect(),
-                most: most - terms.iter().map(known).sum::<f64>(),
-            }
-        };
-        rows.into_iter().map(bound).collect()
+        rows.into_iter()
+            .map(|(terms, most)| Bound {
+                terms: terms
+                    .iter()
+                    .filter_map(|((node, which), factor)| self.at(*node, *which).map(|unknown| (unknown, up * factor)))
+                    .collect(),
+                most: most
+                    - terms.iter().map(|((node, which), factor)| up * factor * self.known(*node, *which)).sum::<f64>(),
+            })
+            .collect()
     }
 }
 

@@ -42,23 +42,24 @@ pub fn solutions(equations: &[(Vec<f64>, f64)], unknowns: usize) -> Option<Linea
         *particular.get_mut((*column)?)? = *right;
     }
     let free = (0..unknowns).filter(|column| !given.contains(&Some(*column)));
-    let direction = |column: usize| {
-        let mut direction = vec![0.0; unknowns];
-        *direction.get_mut(column)? = 1.0;
-        for ((coefficients, _), own) in rows.iter().zip(&given) {
-            *direction.get_mut((*own)?)? = -coefficients.get(column).copied()?;
-        }
-        Some(direction)
-    };
-    let directions = free.map(direction).collect::<Option<_>>()?;
+    let directions = free
+        .map(|column| {
+            let mut direction = vec![0.0; unknowns];
+            *direction.get_mut(column)? = 1.0;
+            for ((coefficients, _), own) in rows.iter().zip(&given) {
+                *direction.get_mut((*own)?)? = -coefficients.get(column).copied()?;
+            }
+            Some(direction)
+        })
+        .collect::<Option<_>>()?;
     Some(LinearSolutions { particular, directions })
 }
 
 /// An equation divided by its largest coefficient.
 fn scaled((coefficients, right): &(Vec<f64>, f64)) -> Option<(Vec<f64>, f64)> {
     let largest = coefficients.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    let scaled = || (coefficients.iter().map(|value| value / largest).collect(), right / largest);
-    (largest > 0.0 && largest.is_finite()).then(scaled)
+    (largest > 0.0 && largest.is_finite())
+        .then(|| (coefficients.iter().map(|value| value / largest).collect(), right / largest))
 }
 
 /// Makes a pivot 1, and all other entries of its column 0.

@@ -161,8 +161,9 @@ struct Judge<'a> {
 
 impl<'a> Judge<'a> {
     fn new(samples: &'a [Sample], rounding: f64, many: bool) -> Self {
-        let ends = |(low, high): (f64, f64), sample: &Sample| (low.min(sample.value), high.max(sample.value));
-        let (low, high) = samples.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+        let (low, high) = samples.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), sample| {
+            (low.min(sample.value), high.max(sample.value))
+        });
         let scatter =
             SIDES.map(|side| samples.windows(2 * side + 1).map(|window| Difference::of(window).scatter()).collect());
         let mut judge = Self { samples, scatter, overall: 0.0, range: high - low, rounding, many };
@@ -173,12 +174,15 @@ impl<'a> Judge<'a> {
     /// Standard deviation of the scatter from the windows of each order whose first samples are in `first`: the smaller of both orders, because the
     /// curve's own contribution differs between them.
     fn scatter_in(&self, first: [Range<usize>; 2]) -> f64 {
-        let of_order = |(all, first): (&Vec<f64>, Range<usize>)| {
-            let windows = all.get(first.start.min(all.len())..first.end.min(all.len())).unwrap_or_default();
-            let mut moving: Vec<f64> = windows.iter().copied().filter(|off| *off > DIGITS * self.range).collect();
-            if moving.len() < FEWEST_NEAR { 0.0 } else { OF_MEDIAN * median(&mut moving) }
-        };
-        self.scatter.iter().zip(first).map(of_order).fold(f64::INFINITY, f64::min)
+        self.scatter
+            .iter()
+            .zip(first)
+            .map(|(all, first)| {
+                let windows = all.get(first.start.min(all.len())..first.end.min(all.len())).unwrap_or_default();
+                let mut moving: Vec<f64> = windows.iter().copied().filter(|off| *off > DIGITS * self.range).collect();
+                if moving.len() < FEWEST_NEAR { 0.0 } else { OF_MEDIAN * median(&mut moving) }
+            })
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Standard deviation of the scatter near a sample, without the sample: the larger of both sides, because a flank may scatter more than a dwell.

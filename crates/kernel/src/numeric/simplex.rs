@@ -26,11 +26,12 @@ struct Tableau {
 impl Tableau {
     fn new(costs: &[f64], rows: &[Inequality]) -> Self {
         let slack = |row: usize| (0..rows.len()).map(move |other| if other == row { 1.0 } else { 0.0 });
-        let full = |(index, row): (usize, &Inequality)| {
-            row.coefficients.iter().copied().chain(slack(index)).chain([row.right]).collect()
-        };
         Self {
-            rows: rows.iter().enumerate().map(full).collect(),
+            rows: rows
+                .iter()
+                .enumerate()
+                .map(|(index, row)| row.coefficients.iter().copied().chain(slack(index)).chain([row.right]).collect())
+                .collect(),
             costs: costs.iter().copied().chain(vec![0.0; rows.len() + 1]).collect(),
             basis: (0..rows.len()).map(|row| costs.len() + row).collect(),
         }

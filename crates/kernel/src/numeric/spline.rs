@@ -24,12 +24,15 @@ impl Spline {
         let at = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(0.0);
         let last = h.len();
         // The first and the last row hold the slopes at the ends.
-        let row = |i: usize| match i {
-            0 => [0.0, 2.0 * at(&h, 0), at(&h, 0), 6.0 * (at(&d, 0) - ends.0)],
-            i if i == last => [at(&h, i - 1), 2.0 * at(&h, i - 1), 0.0, 6.0 * (ends.1 - at(&d, i - 1))],
-            i => inner_row(at(&h, i - 1), at(&h, i), at(&d, i) - at(&d, i - 1)),
-        };
-        Self::with_second(knots, values, &tridiagonal((0..=last).map(row)))
+        Self::with_second(
+            knots,
+            values,
+            &tridiagonal((0..=last).map(|i| match i {
+                0 => [0.0, 2.0 * at(&h, 0), at(&h, 0), 6.0 * (at(&d, 0) - ends.0)],
+                i if i == last => [at(&h, i - 1), 2.0 * at(&h, i - 1), 0.0, 6.0 * (ends.1 - at(&d, i - 1))],
+                i => inner_row(at(&h, i - 1), at(&h, i), at(&d, i) - at(&d, i - 1)),
+            })),
+        )
     }
 
     /// Through `values` at `knots` over one period, the last value that of the first; three intervals or more.

@@ -47,11 +47,16 @@ pub fn stretches(curves: Curves<'_>, sharp: bool) -> Result<Vec<BoundaryStretch>
 #[must_use]
 pub fn of_centre(curves: Curves<'_>) -> Vec<BoundaryStretch> {
     let period = curves.motion.period();
-    let of_piece = |(index, piece): (usize, &Piece)| {
-        let ranges = outline::parts(piece, &[], period).into_iter();
-        ranges.flat_map(|range| cut(index, piece, range, period.is_none())).collect::<Vec<_>>()
-    };
-    curves.motion.pieces().iter().enumerate().flat_map(of_piece).collect()
+    curves
+        .motion
+        .pieces()
+        .iter()
+        .enumerate()
+        .flat_map(|(index, piece)| {
+            let ranges = outline::parts(piece, &[], period).into_iter();
+            ranges.flat_map(|range| cut(index, piece, range, period.is_none())).collect::<Vec<_>>()
+        })
+        .collect()
 }
 
 /// The exact path of the centre of a cutter (radius in m) along the profile as stretches in millimetres: parallel to the

@@ -229,8 +229,12 @@ impl<'a> Branches<'a> {
         let end = |place: f64| {
             root::bracketed(|at| self.after(at).dot(&self.along) - place, self.fold.1, right, 0.0).unwrap_or(f64::NAN)
         };
-        let apart = |place: f64| self.along.perp(&(self.after(end(place)) - self.before(start(place))));
-        match root::bracketed(apart, low, high, 0.0) {
+        match root::bracketed(
+            |place| self.along.perp(&(self.after(end(place)) - self.before(start(place)))),
+            low,
+            high,
+            0.0,
+        ) {
             Ok(place) => Some(ParallelLoop { from: start(place), to: end(place) }),
             Err(_) => as_point(),
         }

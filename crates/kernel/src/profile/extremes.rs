@@ -36,12 +36,13 @@ fn places(
     searched: impl Fn(usize) -> bool,
     quantity: impl Fn(usize, f64) -> (f64, f64),
 ) -> Vec<(usize, Vec<extremum::ValueAndSlope>)> {
-    let in_piece = |(index, piece): (usize, &Piece)| {
-        let cells = curves.motion.cells(index);
-        (index, extremum::places(|at| quantity(index, at), (piece.start, piece.end), cells))
-    };
     let pieces = curves.motion.distinct().iter().enumerate().filter(|(index, _)| searched(*index));
-    pieces.map(in_piece).collect()
+    pieces
+        .map(|(index, piece)| {
+            let cells = curves.motion.cells(index);
+            (index, extremum::places(|at| quantity(index, at), (piece.start, piece.end), cells))
+        })
+        .collect()
 }
 
 /// Cosine of the turn of the follower's curve within a cell below which the cell is halved, and how often: where a curve turns by half a
@@ -109,17 +110,16 @@ const FORCE_SECTIONS: u32 = 30;
 
 /// Largest value, where a follower runs, of something that depends on the cam angle of a piece and whose derivative is not known.
 pub fn largest_without_slope(curves: Curves<'_>, value: impl Fn(usize, f64) -> f64) -> Extremum {
-    let of_piece = |(index, piece): (usize, &Piece)| {
-        let (cells, sections) = if piece.dwell { (1, 0) } else { (FORCE_CELLS, FORCE_SECTIONS) };
-        extremum::largest_without_slope(|angle| value(index, angle), (piece.start, piece.end), cells, sections)
-    };
     curves
         .motion
         .distinct()
         .iter()
         .enumerate()
         .filter(|(index, _)| curves.motion.is_rolled(*index))
-        .map(of_piece)
+        .map(|(index, piece)| {
+            let (cells, sections) = if piece.dwell { (1, 0) } else { (FORCE_CELLS, FORCE_SECTIONS) };
+            extremum::largest_without_slope(|angle| value(index, angle), (piece.start, piece.end), cells, sections)
+        })
         .fold(NOTHING, larger)
 }
 
@@ -233,18 +233,19 @@ pub fn pressure_angles(curves: Curves<'_>) -> [Extremum; 2] {
         let Some(((_, places), own)) = first.and_then(|found| Some((found, motion.pieces().get(found.0)?))) else {
             continue;
         };
-        let mirrored = |place: &extremum::ValueAndSlope| {
-            let at = (own.end - place.at + piece.start).clamp(piece.start, piece.end);
-            extremum::ValueAndSlope { at, value: -place.value, slope: place.slope }
-        };
-        let places = places.iter().rev().map(mirrored).collect();
+        let places = places
+            .iter()
+            .rev()
+            .map(|place| {
+                let at = (own.end - place.at + piece.start).clamp(piece.start, piece.end);
+                extremum::ValueAndSlope { at, value: -place.value, slope: place.slope }
+            })
+            .collect();
         rising.push((index, places));
     }
     rising.sort_by_key(|(index, _)| *index);
-    let negative = |(index, places): &(usize, Vec<extremum::ValueAndSlope>)| {
-        (*index, places.iter().map(|place| place.negative()).collect())
-    };
-    let falling: Vec<_> = rising.iter().map(negative).collect();
+    let falling: Vec<_> =
+        rising.iter().map(|(index, places)| (*index, places.iter().map(|place| place.negative()).collect())).collect();
     [(rising, 1.0), (falling, -1.0)].map(|(all, sign)| {
         largest_beyond(&all, |piece, at| {
             let (angle, slope, _) = along(piece, at);
@@ -273,8 +274,7 @@ fn largest_curvature(curves: Curves<'_>, searched: impl Fn(usize) -> bool, sign:
     };
     // Mirrored it is the same.
     let repeated = |piece: usize| curves.follower.is_symmetric() && curves.motion.repeats(piece).0 != piece;
-    let searched = |piece: usize| searched(piece) && !repeated(piece);
-    largest_beyond(&places_along(curves, searched, along), |piece, at| {
+    largest_beyond(&places_along(curves, |piece| searched(piece) && !repeated(piece), along), |piece, at| {
         let (curvature, slope, _) = along(piece, at);
         (curvature, slope)
     })
@@ -371,13 +371,14 @@ const LEAST_CORNER: f64 = 1e-7;
 pub fn corners(curves: Curves<'_>) -> Vec<Corner> {
     let pieces = curves.motion.pieces();
     let joints = if curves.motion.period().is_some() { pieces.len() } else { pieces.len().saturating_sub(1) };
-    let turn = |index: usize| {
-        let next = (index + 1) % pieces.len();
-        let (before, after) = (pieces.get(index)?, pieces.get(next)?);
-        let left = curves.touch(index, before.end).curve.tangent;
-        let right = curves.touch(next, after.start).curve.tangent;
-        let turn = libm::atan2(left.perp(&right), left.dot(&right));
-        (turn.abs() > LEAST_CORNER).then_some(Corner { at: before.end, turn })
-    };
-    (0..joints).filter_map(turn).collect()
+    (0..joints)
+        .filter_map(|index| {
+            let next = (index + 1) % pieces.len();
+            let (before, after) = (pieces.get(index)?, pieces.get(next)?);
+            let left = curves.touch(index, before.end).curve.tangent;
+            let right = curves.touch(next, after.start).curve.tangent;
+            let turn = libm::atan2(left.perp(&right), left.dot(&right));
+            (turn.abs() > LEAST_CORNER).then_some(Corner { at: before.end, turn })
+        })
+        .collect()
 }

@@ -21,8 +21,7 @@ use super::Curves;
 use crate::follower::Element;
 use crate::geometry::contour::{Contour, Edge};
 use crate::geometry::{MILLIMETRES, STRAIGHT};
-use crate::motion::program::SegmentSummary;
-use crate::motion::{Jet, Motion, Piece, Quantity, own_pieces};
+use crate::motion::{Jet, Motion, Quantity, own_pieces};
 use crate::numeric::chebyshev::{self, SearchStart};
 use crate::numeric::root;
 use nalgebra::Vector2;
@@ -232,20 +231,28 @@ impl<'a> FollowerOnChain<'a> {
     pub fn lifts(&self, share: f64) -> Vec<Vec<(f64, Jet, Jet)>> {
         let (first, last) = self.curves.motion.range();
         let longest = (share * (last - first)).max(HAIR);
-        let of_stretch = |stretch: &ContactStretch| {
-            let length = stretch.to - stretch.from;
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a few thousand")]
-            let steps = (length / longest).ceil().clamp(1.0, 1e5) as u32;
-            let place = |step: u32| stretch.from + length * (f64::from(step) / f64::from(steps));
-            let at = |parameter: f64| {
-                let (speed, slowing) = self.curves.motion.pace(parameter + stretch.shift);
-                let by_angle =
-                    |jet: Jet| Jet { ds: jet.ds * speed, dds: jet.dds * speed * speed + jet.ds * slowing, ..jet };
-                self.cut(stretch, parameter).map(|(cut, law)| (parameter, by_angle(law), by_angle(cut)))
-            };
-            (0..=steps).map(place).filter_map(at).collect()
-        };
-        self.stretches.iter().filter(|stretch| self.is_rolled(stretch)).map(of_stretch).collect()
+        self.stretches
+            .iter()
+            .filter(|stretch| self.is_rolled(stretch))
+            .map(|stretch| {
+                let length = stretch.to - stretch.from;
+                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a few thousand")]
+                let steps = (length / longest).ceil().clamp(1.0, 1e5) as u32;
+                let place = |step: u32| stretch.from + length * (f64::from(step) / f64::from(steps));
+                (0..=steps)
+                    .map(place)
+                    .filter_map(|parameter| {
+                        let (speed, slowing) = self.curves.motion.pace(parameter + stretch.shift);
+                        let by_angle = |jet: Jet| Jet {
+                            ds: jet.ds * speed,
+                            dds: jet.dds * speed * speed + jet.ds * slowing,
+                            ..jet
+                        };
+                        self.cut(stretch, parameter).map(|(cut, law)| (parameter, by_angle(law), by_angle(cut)))
+                    })
+                    .collect()
+            })
+            .collect()
     }
 
     /// Acceleration of the motion and as cut wherever the follower runs on the chain, by the angle of the shaft: parameter, motion, cut;
@@ -513,23 +520,28 @@ pub fn largest_rates(motion: &dyn Motion) -> [f64; 2] {
     if let Some(program) = motion.program() {
         // The motion knows the peaks of its segments, and its shaft turns evenly.
         let peak = |index: usize| {
-            let of_segment = |told: &SegmentSummary| told.peaks.get(index).map_or(0.0, |(peak, _)| *peak);
-            program.segments().iter().map(of_segment).fold(0.0, f64::max)
+            program
+                .segments()
+                .iter()
+                .map(|told| told.peaks.get(index).map_or(0.0, |(peak, _)| *peak))
+                .fold(0.0, f64::max)
         };
         return [peak(0), peak(1)];
     }
     let mut known = [SearchStart::nothing(0.0); 2];
-    let moving = |(index, piece): &(usize, &Piece)| !piece.dwell && motion.is_rolled(*index);
-    for (index, piece) in own_pieces(motion).filter(moving) {
+    for (index, piece) in own_pieces(motion).filter(|(index, piece)| !piece.dwell && motion.is_rolled(*index)) {
         let range = (piece.start, piece.end);
         let velocity = |at: f64| motion.jet(index, at).ds * motion.pace(at).0;
-        let acceleration = |at: f64| {
-            let (jet, (first, second)) = (motion.jet(index, at), motion.pace(at));
-            jet.dds * first * first + jet.ds * second
-        };
         let [v, a] = &mut known;
         v.best = chebyshev::largest_size(velocity, range, *v);
-        a.best = chebyshev::largest_size(acceleration, range, *a);
+        a.best = chebyshev::largest_size(
+            |at| {
+                let (jet, (first, second)) = (motion.jet(index, at), motion.pace(at));
+                jet.dds * first * first + jet.ds * second
+            },
+            range,
+            *a,
+        );
     }
     // A follower that always rests has no peaks.
     known.map(|known| known.best.value.max(0.0))

@@ -184,12 +184,17 @@ impl IntervalRun<'_> {
         if parameter >= self.parameters.1 {
             return self.range.1;
         }
-        let ahead = |at: f64| {
-            let point = self.curve.at(self.interval, at);
-            point.map_or(f64::NAN, |point| on.parameter_near(&point, self.near(at)) - parameter)
-        };
         let exactly = ROOT * (self.range.1 - self.range.0);
-        root::bracketed(ahead, self.range.0, self.range.1, exactly).unwrap_or(self.range.1)
+        root::bracketed(
+            |at| {
+                let point = self.curve.at(self.interval, at);
+                point.map_or(f64::NAN, |point| on.parameter_near(&point, self.near(at)) - parameter)
+            },
+            self.range.0,
+            self.range.1,
+            exactly,
+        )
+        .unwrap_or(self.range.1)
     }
 }
 

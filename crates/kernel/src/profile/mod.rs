@@ -161,11 +161,14 @@ const LIFT_CELLS: u32 = 64;
 #[must_use]
 pub fn lifts(motion: &dyn Motion) -> (f64, f64) {
     let of_piece = |(index, piece): (usize, &Piece)| {
-        let all = |at: f64| {
-            let jet = motion.jet(index, at);
-            [jet.s, jet.ds, jet.dds]
-        };
-        let [most, least] = extremum::largest_of_both_signs(all, (piece.start, piece.end), LIFT_CELLS);
+        let [most, least] = extremum::largest_of_both_signs(
+            |at| {
+                let jet = motion.jet(index, at);
+                [jet.s, jet.ds, jet.dds]
+            },
+            (piece.start, piece.end),
+            LIFT_CELLS,
+        );
         (-least.value, most.value)
     };
     let all = own_pieces(motion).map(of_piece);

@@ -5,7 +5,7 @@
 //! point of a few half-planes violates others, of which the worst of every piece of the motion are added until none is violated.
 
 use crate::follower::place::{FollowerPlacement, HalfPlane};
-use crate::motion::{Motion, Piece};
+use crate::motion::Motion;
 use crate::numeric::extremum::{self, Extremum};
 use nalgebra::Vector2;
 
@@ -74,20 +74,24 @@ fn broken(
     shaft: Vector2<f64>,
 ) -> Vec<AngleCondition> {
     let size = shaft.norm() + place.of_roller().norm();
-    let worst = |(index, piece): (usize, &Piece)| {
-        let plane = |at: f64| place.condition(&motion.jet(index, at), limit, falling);
-        let lack = |at: f64| {
-            let plane = plane(at);
-            (plane.least - plane.normal.dot(&shaft), plane.least_slope - plane.normal_slope.dot(&shaft))
-        };
-        let cells = motion.cells(index);
-        let Extremum { at, value } = extremum::largest_with_slope(lack, (piece.start, piece.end), cells);
-        let plane = plane(at);
-        (value > BROKEN * (size + plane.least.abs()))
-            .then_some(AngleCondition { plane, of: BindingPressureAngle { at, falling } })
-    };
     let pieces = motion.distinct().iter().enumerate().filter(|(index, _)| motion.is_rolled(*index));
-    pieces.filter_map(worst).collect()
+    pieces
+        .filter_map(|(index, piece)| {
+            let plane = |at: f64| place.condition(&motion.jet(index, at), limit, falling);
+            let cells = motion.cells(index);
+            let Extremum { at, value } = extremum::largest_with_slope(
+                |at| {
+                    let plane = plane(at);
+                    (plane.least - plane.normal.dot(&shaft), plane.least_slope - plane.normal_slope.dot(&shaft))
+                },
+                (piece.start, piece.end),
+                cells,
+            );
+            let plane = plane(at);
+            (value > BROKEN * (size + plane.least.abs()))
+                .then_some(AngleCondition { plane, of: BindingPressureAngle { at, falling } })
+        })
+        .collect()
 }
 
 /// The point of an intersection of half-planes that is nearest to another; `None` where they have no point in common.

@@ -4,7 +4,7 @@ use super::outline::LARGEST_COORDINATE;
 use super::{Curves, extremes, lifts};
 use crate::follower::{Element, Follower, FollowerPlacement};
 use crate::geometry::MILLIMETRES;
-use crate::motion::{Jet, Motion, Piece};
+use crate::motion::{Jet, Motion};
 use crate::numeric::extremum::{self, Extremum};
 use crate::numeric::root;
 
@@ -237,11 +237,15 @@ impl SizeProblem<'_> {
         let (place, choice) = place.as_ref()?;
         let shaft = place.shaft(*choice, radius)?;
         let [most, least] = self.required.pressure_angles;
-        let excess = |(_, lift): &(f64, Jet)| {
-            let angle = place.pressure_angle(lift, shaft);
-            (angle - most).max(-angle - least)
-        };
-        Some(lifts.iter().map(excess).fold(f64::NEG_INFINITY, f64::max))
+        Some(
+            lifts
+                .iter()
+                .map(|(_, lift)| {
+                    let angle = place.pressure_angle(lift, shaft);
+                    (angle - most).max(-angle - least)
+                })
+                .fold(f64::NEG_INFINITY, f64::max),
+        )
     }
 
     /// By how much the profile under a face is too sharp at the sampled lifts.
@@ -261,17 +265,22 @@ impl SizeProblem<'_> {
         let place = self.follower.place().filter(|place| matches!(place, FollowerPlacement::Offset { .. }))?;
         let offset = place.of(self.follower);
         let least_height = |(limit, falling): (f64, bool)| {
-            let of_piece = |(index, piece): (usize, &Piece)| {
-                let height = |at: f64| {
-                    let plane = place.condition(&self.motion.jet(index, at), limit, falling);
-                    let over = plane.normal.x;
-                    ((plane.least - plane.normal.y * offset) / over, plane.least_slope / over)
-                };
-                let cells = self.motion.cells(index);
-                extremum::largest_with_slope(height, (piece.start, piece.end), cells).value
-            };
             let pieces = self.motion.distinct().iter().enumerate().filter(|(index, _)| self.motion.is_rolled(*index));
-            pieces.map(of_piece).fold(0.0, f64::max)
+            pieces
+                .map(|(index, piece)| {
+                    let cells = self.motion.cells(index);
+                    extremum::largest_with_slope(
+                        |at| {
+                            let plane = place.condition(&self.motion.jet(index, at), limit, falling);
+                            let over = plane.normal.x;
+                            ((plane.least - plane.normal.y * offset) / over, plane.least_slope / over)
+                        },
+                        (piece.start, piece.end),
+                        cells,
+                    )
+                    .value
+                })
+                .fold(0.0, f64::max)
         };
         let [most, least] = self.required.pressure_angles;
         let limits = [(most, false), (least, true)].into_iter().filter(|(limit, _)| limit.is_finite());
@@ -382,8 +391,13 @@ fn first_in_reach(least: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Resu
         let better = |one: f64, other: f64| one <= other || other.is_nan();
         let is_best = !here.1.is_nan() && better(here.1, before.1) && better(here.1, next.1);
         if is_best && (next.1 > 0.0 || next.1.is_nan()) {
-            let room = |radius: f64| Some(-excess(radius)).filter(|room| !room.is_nan()).unwrap_or(f64::NEG_INFINITY);
-            let best = extremum::largest_without_slope(room, (before.0, next.0), 1, extremum::TO_ROUNDING).at;
+            let best = extremum::largest_without_slope(
+                |radius| Some(-excess(radius)).filter(|room| !room.is_nan()).unwrap_or(f64::NEG_INFINITY),
+                (before.0, next.0),
+                1,
+                extremum::TO_ROUNDING,
+            )
+            .at;
             if passes(best) {
                 return Ok(first_not_positive(before.0, best, &excess));
             }

@@ -100,10 +100,11 @@ impl ArcChain {
     #[must_use]
     pub fn edges(&self, end: Vector2<f64>) -> Vec<Edge> {
         let ends = self.joints.iter().skip(1).map(|joint| joint.point).chain([end]);
-        let arc = |(joint, end): (&ArcJoint, Vector2<f64>)| {
-            Edge::Segment(Segment { start: joint.point, end, bulge: joint.bulge })
-        };
-        self.joints.iter().zip(ends).map(arc).collect()
+        self.joints
+            .iter()
+            .zip(ends)
+            .map(|(joint, end)| Edge::Segment(Segment { start: joint.point, end, bulge: joint.bulge }))
+            .collect()
     }
 }
 

@@ -235,8 +235,12 @@ impl ArcCountIntegral {
     /// Nodes of equal share, some of them spread evenly; `None` when they are too many.
     fn nodes(&self, target: &impl FitTarget, seen: f64) -> Option<Vec<CurveSample>> {
         let size = libm::cbrt(CHAIN * seen);
-        let node = |(parameter, share)| CurveSample::new(target.at(parameter), parameter, share, size);
-        Some(self.places((NODES_PER_ARC, NODES_PER_SHORT_ARC, LEAST_NODES), size)?.into_iter().map(node).collect())
+        Some(
+            self.places((NODES_PER_ARC, NODES_PER_SHORT_ARC, LEAST_NODES), size)?
+                .into_iter()
+                .map(|(parameter, share)| CurveSample::new(target.at(parameter), parameter, share, size))
+                .collect(),
+        )
     }
 
     /// The ends of narrower cells.

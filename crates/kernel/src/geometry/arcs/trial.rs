@@ -216,10 +216,14 @@ impl ArcTrial {
     /// Share of a step that moves no joint along the curve by more than `most` of its shorter chord.
     pub(super) fn step_share(&self, step: &ChainStep, most: f64) -> f64 {
         let pairs = self.links.iter().zip(self.links.iter().skip(1));
-        let of_joint = |([along, ..], (before, after)): (&[f64; 4], (&ChainArc, &ChainArc))| {
-            most * before.chord.min(after.chord) / (along.abs() * 0.5 * (before.chord + after.chord))
-        };
-        step.0.iter().skip(1).zip(pairs).map(of_joint).fold(1.0, f64::min)
+        step.0
+            .iter()
+            .skip(1)
+            .zip(pairs)
+            .map(|([along, ..], (before, after))| {
+                most * before.chord.min(after.chord) / (along.abs() * 0.5 * (before.chord + after.chord))
+            })
+            .fold(1.0, f64::min)
     }
 
     /// The joints after a share of a step.
@@ -229,12 +233,15 @@ impl ArcTrial {
 
     /// The joints with the bulges of their arcs.
     pub(super) fn joints(&self) -> Vec<ArcJoint> {
-        let joint = |(stand, link): (&PlaneJoint, &ChainArc)| ArcJoint {
-            point: stand.point,
-            parameter: stand.place.parameter,
-            bulge: link.arc.bulge,
-        };
-        self.stands.iter().zip(&self.links).map(joint).collect()
+        self.stands
+            .iter()
+            .zip(&self.links)
+            .map(|(stand, link)| ArcJoint {
+                point: stand.point,
+                parameter: stand.place.parameter,
+                bulge: link.arc.bulge,
+            })
+            .collect()
     }
 
     /// The chain made tangent by the least change of its freedoms; `None` where that is impossible.
@@ -243,8 +250,7 @@ impl ArcTrial {
         let off = |trial: &Self| {
             // The heading of a chord that is short relative to its coordinates is rounding.
             let rounding = |link: &ChainArc| ROUNDINGS * f64::EPSILON * link.arc.start.norm() / link.chord;
-            let of_link = |link: &ChainArc| (link.open * tolerance / link.chord).abs() - rounding(link);
-            trial.links.iter().map(of_link).fold(0.0, larger)
+            trial.links.iter().map(|link| (link.open * tolerance / link.chord).abs() - rounding(link)).fold(0.0, larger)
         };
         let mut closed = close(self)?;
         for _ in 1..CLOSING_STEPS {

@@ -78,20 +78,24 @@ impl Interpolant {
     /// Its intervals as lines and cubic curves; `None` in polar coordinates, where they are of another kind.
     #[must_use]
     pub fn edges(&self) -> Option<Vec<Edge>> {
-        let edge = |interval: &RowInterval| {
-            let length = interval.to - interval.from;
-            let at = |t: f64| Vector2::new(jet(interval.first, t)[0], jet(interval.second, t)[0]);
-            let slope = |t: f64| Vector2::new(jet(interval.first, t)[1], jet(interval.second, t)[1]) * (length / 3.0);
-            let (start, end) = (at(0.0), at(length));
-            if self.straight {
-                Edge::Segment(Segment { start, end, bulge: 0.0 })
-            } else {
-                Edge::Cubic(Cubic { points: [start, start + slope(0.0), end - slope(length), end] })
-            }
-        };
         // The two rows of a double row have no interval between them.
         let long = || self.intervals.iter().filter(|interval| interval.from < interval.to);
-        (self.form == PointCoordinates::Plane).then(|| long().map(edge).collect())
+        (self.form == PointCoordinates::Plane).then(|| {
+            long()
+                .map(|interval| {
+                    let length = interval.to - interval.from;
+                    let at = |t: f64| Vector2::new(jet(interval.first, t)[0], jet(interval.second, t)[0]);
+                    let slope =
+                        |t: f64| Vector2::new(jet(interval.first, t)[1], jet(interval.second, t)[1]) * (length / 3.0);
+                    let (start, end) = (at(0.0), at(length));
+                    if self.straight {
+                        Edge::Segment(Segment { start, end, bulge: 0.0 })
+                    } else {
+                        Edge::Cubic(Cubic { points: [start, start + slope(0.0), end - slope(length), end] })
+                    }
+                })
+                .collect()
+        })
     }
 
     /// The number of its intervals: one less than the table has rows.

@@ -112,8 +112,8 @@ impl MotionLimit<'_> {
 
     /// Whether a list of errors is complete and within the limits; errors that are not numbers are not.
     fn keeps(&self, errors: &[[f64; 2]], intervals: usize) -> bool {
-        let within = |errors: &[f64; 2]| errors.iter().zip(self.allowed).all(|(error, allowed)| *error <= allowed);
-        errors.len() == intervals && errors.iter().all(within)
+        errors.len() == intervals
+            && errors.iter().all(|errors| errors.iter().zip(self.allowed).all(|(error, allowed)| *error <= allowed))
     }
 
     /// Which errors matter.

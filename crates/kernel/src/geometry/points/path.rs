@@ -64,8 +64,11 @@ impl<'a> ExactPath<'a> {
     pub fn new(boundary: Boundary<'a>, closed: bool) -> Self {
         let (mut parts, mut start, mut angle): (Vec<PathPart>, f64, Option<f64>) = (Vec::new(), 0.0, None);
         for (index, stretch) in boundary.stretches().iter().enumerate() {
-            let speed = |at: f64| boundary.at(index, at).map_or(0.0, |point| point.speed);
-            let length = quadrature::integrate(speed, (stretch.from, stretch.to), 1);
+            let length = quadrature::integrate(
+                |at| boundary.at(index, at).map_or(0.0, |point| point.speed),
+                (stretch.from, stretch.to),
+                1,
+            );
             let Some([first, last]) = boundary.ends(index).filter(|_| length > NO_LENGTH) else { continue };
             let from = angle.unwrap_or_else(|| libm::atan2(first.point.y, first.point.x));
             let to = from + libm::atan2(first.point.perp(&last.point), first.point.dot(&last.point));
@@ -178,12 +181,11 @@ impl<'a> ExactPath<'a> {
 
     fn is_round(&self, part: &PathPart) -> bool {
         let middle = 0.5 * (part.from + part.to);
-        let radius = |at: f64| {
+        match [part.from, middle, part.to].map(|at| {
             let point = self.boundary.at(part.index, at)?;
             let radius = point.point.norm();
             ((point.curvature * radius - 1.0).abs() <= ROUND).then_some(radius)
-        };
-        match [part.from, middle, part.to].map(radius) {
+        }) {
             [Some(a), Some(b), Some(c)] => (a - b).abs() <= ROUND * a && (c - b).abs() <= ROUND * a,
             _ => false,
         }
@@ -232,8 +234,8 @@ impl<'a> ExactPath<'a> {
         };
         let mut places: Vec<f64> = Vec::with_capacity(curve.count() + 1);
         for index in 0..=curve.count() {
-            let nowhere = || Refusal::new(format!("row {} does not lie beside the curve", index + 1));
-            let mut length = row(index).ok_or_else(nowhere)?;
+            let mut length =
+                row(index).ok_or_else(|| Refusal::new(format!("row {} does not lie beside the curve", index + 1)))?;
             if let Some(last) = places.last() {
                 // Beyond the end of the curve it goes on with its start.
                 if length + 0.5 * self.length < *last {
@@ -306,8 +308,9 @@ impl<'a> ExactPath<'a> {
         for index in around.map(|index| index % self.parts.len()) {
             let part = self.parts.get(index)?;
             let point = |at: f64| self.boundary.at(part.index, at).map(|point| point.point);
-            let across = |at: f64| point(at).map_or(f64::NAN, |point| ray.perp(&point));
-            if let Ok(parameter) = root::bracketed(across, part.from, part.to, 0.0) {
+            if let Ok(parameter) =
+                root::bracketed(|at| point(at).map_or(f64::NAN, |point| ray.perp(&point)), part.from, part.to, 0.0)
+            {
                 let away = point(parameter)?.dot(&ray);
                 return Some((self.length_at(PathPlace { part: index, parameter }), away)).filter(|_| away > 0.0);
             }

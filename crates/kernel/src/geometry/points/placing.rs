@@ -332,9 +332,12 @@ fn by_angle(goal: &PlacingGoal<'_, '_>) -> Result<PointRows, Refusal> {
         };
     }
     let (count, found) = enough.ok_or_else(|| too_many(wish.tolerance, most))?;
-    let keeps = |count: usize| trial(count, wish.tolerance).ok().filter(|trial| trial.keeps);
     let all = if goal.motion.is_some() { ALL_WITH_MOTION } else { ALL_TRIED };
-    let fewer = if count <= all { (FEWEST..count).find_map(keeps) } else { None };
+    let fewer = if count <= all {
+        (FEWEST..count).find_map(|count| trial(count, wish.tolerance).ok().filter(|trial| trial.keeps))
+    } else {
+        None
+    };
     Ok(fewer.unwrap_or(found).into_rows())
 }
 
@@ -417,10 +420,15 @@ fn sections(goal: &PlacingGoal<'_, '_>) -> Vec<PlacingSection> {
     let end = start + path.length();
     let (at_start, breaks) = goal.breaks(start);
     let any = |place: f64| RowPlace { place, degrees: f64::NAN, kind: BreakKind::Plain };
-    let beyond = |place: f64| if place < start { place + path.length() } else { place };
     let mut spots = vec![RowPlace { degrees: 0.0, kind: at_start, ..any(start) }];
     spots.extend(breaks);
-    spots.extend(path.joints(wish.between == PointInterpolation::Cubic).1.into_iter().map(beyond).map(any));
+    spots.extend(
+        path.joints(wish.between == PointInterpolation::Cubic)
+            .1
+            .into_iter()
+            .map(|place| if place < start { place + path.length() } else { place })
+            .map(any),
+    );
     spots.push(RowPlace { degrees: 360.0, kind: at_start, ..any(end) });
     spots.sort_by(|a, b| a.place.total_cmp(&b.place));
     // A joint at the start is the start.

@@ -143,7 +143,12 @@ impl SplineSurface {
     /// The patch with its parameters exchanged.
     pub(super) fn transposed(&self) -> Self {
         let columns = self.controls.first().map_or(0, Vec::len);
-        let column = |v: usize| self.controls.iter().filter_map(|row| row.get(v).copied()).collect();
-        Self { u: self.v.clone(), v: self.u.clone(), controls: (0..columns).map(column).collect() }
+        Self {
+            u: self.v.clone(),
+            v: self.u.clone(),
+            controls: (0..columns)
+                .map(|v| self.controls.iter().filter_map(|row| row.get(v).copied()).collect())
+                .collect(),
+        }
     }
 }

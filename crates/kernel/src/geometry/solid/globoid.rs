@@ -250,12 +250,11 @@ fn tube_line([from, to]: [Point3; 2], (major, minor): (f64, f64)) -> SplineCurve
         let place = [radius * cos, radius * sin, minor * s];
         (place, [by * cos - radius * sin * turn, by * sin + radius * cos * turn, minor * c * (end - start)])
     };
-    let coordinate = |axis: usize| {
+    let [x, y, z] = [0, 1, 2].map(|axis| {
         let of = |vector: [f64; 3]| vector.get(axis).copied().unwrap_or(f64::NAN);
         let values: Vec<f64> = shares.iter().map(|share| of(along(*share).0)).collect();
         Spline::clamped(&shares, &values, (of(along(0.0).1), of(along(1.0).1))).controls()
-    };
-    let [x, y, z] = [0, 1, 2].map(coordinate);
+    });
     let mut controls: Vec<Point3> = x.into_iter().zip(y).zip(z).map(|((x, y), z)| Point3::new(x, y, z)).collect();
     // The ends are the vertices themselves.
     if let [first, .., last] = controls.as_mut_slice() {

@@ -402,8 +402,7 @@ fn side(edge: &Edge, (low, high): (f64, f64), [below, end, above, start]: [usize
         Edge::Cubic(cubic) => {
             // Raised to degree 3 in height too, in which it is straight.
             let heights = [low, low + (high - low) / 3.0, low + (high - low) * (2.0 / 3.0), high];
-            let row = |point: &Vector2<f64>| heights.iter().map(|z| at(*point, *z)).collect();
-            let controls = cubic.points.iter().map(row).collect();
+            let controls = cubic.points.iter().map(|point| heights.iter().map(|z| at(*point, *z)).collect()).collect();
             let surface = FaceSurface::Spline(SplineSurface { u: SPAN.to_vec(), v: SPAN.to_vec(), controls });
             return CompressedFace { boundaries: vec![outward], orientation: true, surface };
         }

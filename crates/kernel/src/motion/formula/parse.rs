@@ -109,8 +109,8 @@ impl Parser<'_> {
         if tape.operations.len() >= MOST_OPERATIONS {
             return self.fault(at, format!("more than {MOST_OPERATIONS} operations"), None);
         }
-        let given = |term: &Option<TapeTerm>| term.is_none_or(|term| tape.constant(term).is_some());
-        let known = operation.arguments().iter().all(given) && operation != TapeOperation::Abscissa;
+        let known = operation.arguments().iter().all(|term| term.is_none_or(|term| tape.constant(term).is_some()))
+            && operation != TapeOperation::Abscissa;
         let term = tape.push(operation);
         self.text.characters.push(at);
         if !known || matches!(operation, TapeOperation::Constant(_)) {

@@ -255,10 +255,11 @@ impl LawCurve {
         let mut breaks: Vec<usize> = vec![0];
         for part in 1..self.parts() {
             let full = breaks.last().is_some_and(|first| part - first >= self.together);
-            let jumps = |(order, size): &(u32, f64)| {
-                self.jumps_by(part, *order) > ROUNDING * size + self.rounding_at(part, *order, own)
-            };
-            if full || sizes.iter().any(jumps) {
+            if full
+                || sizes.iter().any(|(order, size)| {
+                    self.jumps_by(part, *order) > ROUNDING * size + self.rounding_at(part, *order, own)
+                })
+            {
                 breaks.push(part);
             }
         }

@@ -111,8 +111,8 @@ impl LocalPiece {
 
     fn by_series(&self, t: f64) -> f64 {
         let square = t * t;
-        let sums = |[even, odd]: [f64; 2], [p, q]: &[f64; 2]| [even * square + p, odd * square + q];
-        let [even, odd] = self.series.iter().rev().fold([0.0; 2], sums);
+        let [even, odd] =
+            self.series.iter().rev().fold([0.0; 2], |[even, odd], [p, q]| [even * square + p, odd * square + q]);
         even + t * odd
     }
 
@@ -138,18 +138,20 @@ impl LocalPiece {
         if let Some(known) = usize::try_from(order).ok().and_then(|order| self.at(x).get(order).copied()) {
             return known;
         }
-        let of_wave = |wave: &LocalWave| {
-            let pace = f64::from(wave.harmonic) * self.pace;
-            let (sin, cos) = libm::sincos(pace * (x - self.from));
-            // The derivatives of −sin τ and of −cos τ.
-            let (turn, rise) = match order % 4 {
-                0 => (-sin, -cos),
-                1 => (-cos, sin),
-                2 => (sin, cos),
-                _ => (cos, -sin),
-            };
-            (0..order).fold(wave.turn * turn + wave.rise * rise, |product, _| product * pace)
-        };
-        self.waves.iter().map(of_wave).sum()
+        self.waves
+            .iter()
+            .map(|wave| {
+                let pace = f64::from(wave.harmonic) * self.pace;
+                let (sin, cos) = libm::sincos(pace * (x - self.from));
+                // The derivatives of −sin τ and of −cos τ.
+                let (turn, rise) = match order % 4 {
+                    0 => (-sin, -cos),
+                    1 => (-cos, sin),
+                    2 => (sin, cos),
+                    _ => (cos, -sin),
+                };
+                (0..order).fold(wave.turn * turn + wave.rise * rise, |product, _| product * pace)
+            })
+            .sum()
     }
 }

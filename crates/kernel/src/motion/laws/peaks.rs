@@ -36,8 +36,11 @@ impl LawCurve {
     #[must_use]
     pub fn peaks(&self) -> LawPeaks {
         let squares = (0..self.parts()).map(|part| {
-            let square = |x: f64| self.derivative(part, x, 2) * self.derivative(part, x, 2);
-            quadrature::integrate(square, self.range_of(part), PANELS)
+            quadrature::integrate(
+                |x| self.derivative(part, x, 2) * self.derivative(part, x, 2),
+                self.range_of(part),
+                PANELS,
+            )
         });
         let torque: CurveQuantity = |s| (s[1] * s[2], s[2] * s[2] + s[1] * s[3]);
         let [velocity, acceleration, jerk, torque] = self.largest([VELOCITY, ACCELERATION, JERK, torque]);
@@ -53,8 +56,7 @@ impl LawCurve {
 
     /// The peak of the jerk; infinite where the acceleration jumps inside.
     fn or_jump(&self, jerk: Extremum) -> Extremum {
-        let jump = |part| Extremum { at: self.range_of(part).0, value: f64::INFINITY };
-        self.first_jump(2).map_or(jerk, jump)
+        self.first_jump(2).map_or(jerk, |part| Extremum { at: self.range_of(part).0, value: f64::INFINITY })
     }
 
     /// The least peak acceleration possible over this curve's: of laws between rests with the same peak jerk, or with any where
@@ -104,8 +106,8 @@ impl LawCurve {
             };
             let nothing = Extremum { at: 0.0, value: f64::NEG_INFINITY };
             let rising: Vec<Vec<ValueAndSlope>> = parts.iter().map(|part| part.iter().map(place).collect()).collect();
-            let negative = |part: &Vec<ValueAndSlope>| part.iter().map(|place| place.negative()).collect();
-            let falling: Vec<Vec<ValueAndSlope>> = rising.iter().map(negative).collect();
+            let falling: Vec<Vec<ValueAndSlope>> =
+                rising.iter().map(|part| part.iter().map(|place| place.negative()).collect()).collect();
             let known = rising
                 .iter()
                 .zip(&falling)

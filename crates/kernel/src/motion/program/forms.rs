@@ -138,8 +138,7 @@ fn refuse_keys_of_rows(table: &TableReader<'_>) -> Result<(), FaultReported> {
 /// The program, if its positions are possible.
 fn within_reach(table: &TableReader<'_>, unit: &StartUnit, quantity: Quantity, program: Program) -> Option<Program> {
     let ranges = program.segments().iter().map(|segment| segment.range);
-    let join = |(low, high): (f64, f64), (l, h): (f64, f64)| (low.min(l), high.max(h));
-    let (low, high) = ranges.fold((f64::INFINITY, f64::NEG_INFINITY), join);
+    let (low, high) = ranges.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (l, h)| (low.min(l), high.max(h)));
     let reach = if quantity == Quantity::Angle { LARGEST_SWING } else { LONGEST };
     let size = low.abs().max(high.abs());
     if size > reach {

@@ -437,13 +437,17 @@ impl Program {
     /// The program with its lowest position.
     fn with_lowest(mut self) -> Self {
         let least = self.pieces.iter().zip(&self.sources).enumerate().map(|(index, (piece, source))| {
-            let all = |at: f64| {
-                let position = self.position(index, at);
-                [position.s, position.ds, position.dds]
-            };
             let curve = self.segments.get(source.segment).and_then(|segment| segment.curve.as_ref());
             let cells = curve.map_or(1, |curve| source.parts.clone().map(|part| curve.cells(part).min(CELLS)).sum());
-            -extremum::largest_of_both_signs(all, (piece.start, piece.end), cells)[1].value
+            -extremum::largest_of_both_signs(
+                |at| {
+                    let position = self.position(index, at);
+                    [position.s, position.ds, position.dds]
+                },
+                (piece.start, piece.end),
+                cells,
+            )[1]
+            .value
         });
         self.lowest = least.fold(f64::INFINITY, f64::min);
         self

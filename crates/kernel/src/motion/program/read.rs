@@ -36,11 +36,10 @@ pub fn read(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Optio
 fn depends_on_speed(reader: &Reader<'_>) -> bool {
     let of_load = || reader.find(&POLYDYNE).is_some_and(|load| !load.has(&OWN_RPM));
     let per_second = |segment: &TableReader<'_>| {
-        let by_time = |(order, key): (u32, &Field<String>)| {
+        [(1, &VELOCITY), (2, &ACCELERATION), (3, &JERK)].into_iter().any(|(order, key)| {
             let rate = segment.get(key).and_then(|text| units::parse_rate(&text, order).ok());
             rate.is_some_and(|rate| rate.by_time)
-        };
-        [(1, &VELOCITY), (2, &ACCELERATION), (3, &JERK)].into_iter().any(by_time)
+        })
     };
     of_load() || reader.elements(&SEGMENT).any(|segment| per_second(&segment))
 }
@@ -237,8 +236,13 @@ fn stroke(table: &TableReader<'_>, span: Option<ProgramSpan>) -> Result<Option<f
 /// The positions that are given as lengths, m.
 fn lengths(segments: &[TableReader<'_>], start: f64) -> Vec<f64> {
     let given = segments.iter().flat_map(|segment| [segment.get(&TO), segment.get(&BY)]);
-    let length = |position| if let LengthOrAngle::Length(length) = position { Some(length) } else { None };
-    std::iter::once(start).chain(given.flatten().filter_map(length)).collect()
+    std::iter::once(start)
+        .chain(
+            given
+                .flatten()
+                .filter_map(|position| if let LengthOrAngle::Length(length) = position { Some(length) } else { None }),
+        )
+        .collect()
 }
 
 /// Reports why a segment cannot be made, at the key that is responsible.

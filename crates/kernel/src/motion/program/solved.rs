@@ -127,11 +127,14 @@ impl Ring {
 
     /// Accelerations at both ends of each curve that is known; 0 of a dwell.
     fn known(&self) -> Vec<Option<[f64; 2]>> {
-        let of = |(known, step): (&Option<ScaledCurve>, &SegmentSpec)| {
-            let (curve, travel) = known.as_ref()?;
-            Some(curve.as_ref().map_or([0.0; 2], |curve| accelerations(curve, *travel, step.over)))
-        };
-        self.curves.iter().zip(&self.steps).map(of).collect()
+        self.curves
+            .iter()
+            .zip(&self.steps)
+            .map(|(known, step)| {
+                let (curve, travel) = known.as_ref()?;
+                Some(curve.as_ref().map_or([0.0; 2], |curve| accelerations(curve, *travel, step.over)))
+            })
+            .collect()
     }
 
     /// Gives each turn the acceleration of the curve before it, or else of that behind it.
@@ -207,10 +210,9 @@ fn segment(
         return Ok((Some(LawCurve::line()), travel));
     }
     let ends = begin.end(travel, width).zip(step.end.end(travel, width));
-    let accelerated = || {
+    let (from, to) = ends.ok_or_else(|| {
         LawError::new("law", format!("{} cannot begin or end with an acceleration", law.name))
             .remedy("law = \"polynomial\" can, or end = \"turn\" with velocity 0")
-    };
-    let (from, to) = ends.ok_or_else(accelerated)?;
+    })?;
     Ok((Some(law.solve(&LawTask { from, to, inflection, parameters })?), travel))
 }

@@ -111,26 +111,40 @@ impl Program {
     pub fn harmonics(&self, count: u32) -> Harmonics {
         let last = self.segments.last().map_or(0.0, |segment| end_velocities(segment)[1]);
         let all = Accelerations::of(self.segments.iter().map(|segment| (segment, 0.0)), last, last);
-        let wave = |order: u32| {
-            // Other waves cancel over the lobes.
-            if !order.is_multiple_of(self.lobes) {
-                return [0.0; 2];
-            }
-            let order = f64::from(order);
-            let found = all.transform(order) * (-f64::from(self.lobes) / (PI * order * order));
-            [found.re, found.im]
-        };
-        Harmonics { mean: self.mean() - self.lowest, waves: (1..=count).map(wave).collect() }
+        Harmonics {
+            mean: self.mean() - self.lowest,
+            waves: (1..=count)
+                .map(|order| {
+                    // Other waves cancel over the lobes.
+                    if !order.is_multiple_of(self.lobes) {
+                        return [0.0; 2];
+                    }
+                    let order = f64::from(order);
+                    let found = all.transform(order) * (-f64::from(self.lobes) / (PI * order * order));
+                    [found.re, found.im]
+                })
+                .collect(),
+        }
     }
 
     /// Mean position.
     fn mean(&self) -> f64 {
-        let of = |segment: &ProgramSegment| {
-            let Some(curve) = &segment.curve else { return segment.width * segment.from };
-            let part = |index: usize| quadrature::integrate(|x| curve.at(index, x)[0], curve.range_of(index), PANELS);
-            segment.width * (segment.from + segment.travel * (0..curve.parts()).map(part).sum::<f64>())
-        };
-        self.segments.iter().map(of).sum::<f64>() * f64::from(self.lobes) / TAU
+        self.segments
+            .iter()
+            .map(|segment| {
+                let Some(curve) = &segment.curve else { return segment.width * segment.from };
+                segment.width
+                    * (segment.from
+                        + segment.travel
+                            * (0..curve.parts())
+                                .map(|index| {
+                                    quadrature::integrate(|x| curve.at(index, x)[0], curve.range_of(index), PANELS)
+                                })
+                                .sum::<f64>())
+            })
+            .sum::<f64>()
+            * f64::from(self.lobes)
+            / TAU
     }
 
     /// Its movements from rest to rest in the first lobe; empty for a program that never rests. A movement across the end of the lobe starts
@@ -151,8 +165,8 @@ impl Program {
                 let accelerations = Accelerations::of(run.iter().map(|(s, by)| (*s, by - shift)), 0.0, 0.0);
                 let angles = (begin.start, end.start + end.width + (last_shift - shift));
                 let ranges = run.iter().map(|(segment, _)| super::summary::range(segment));
-                let join = |(low, top): (f64, f64), (l, t): (f64, f64)| (low.min(l), top.max(t));
-                let (low, top) = ranges.fold((f64::INFINITY, f64::NEG_INFINITY), join);
+                let (low, top) =
+                    ranges.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, top), (l, t)| (low.min(l), top.max(t)));
                 (top > low).then_some(ProgramMovement { angles, travel: top - low, accelerations })
             })
             .collect();

@@ -78,11 +78,13 @@ impl Program {
     /// The largest jump of the lowest derivative that jumps up to the jerk; `None` without a jump.
     #[must_use]
     pub fn jump(&self) -> Option<Jump> {
-        let size = |order: usize| {
-            let peaks = self.segments().iter().map(|segment| segment.peaks.get(order).map_or(0.0, |peak| peak.0));
-            peaks.filter(|peak| peak.is_finite()).fold(0.0, f64::max)
-        };
-        jump::largest_above(self, [0, 1, 2].map(size))
+        jump::largest_above(
+            self,
+            [0, 1, 2].map(|order| {
+                let peaks = self.segments().iter().map(|segment| segment.peaks.get(order).map_or(0.0, |peak| peak.0));
+                peaks.filter(|peak| peak.is_finite()).fold(0.0, f64::max)
+            }),
+        )
     }
 }
 
@@ -90,11 +92,14 @@ impl Program {
 pub(super) fn range(segment: &super::ProgramSegment) -> (f64, f64) {
     let Some(curve) = &segment.curve else { return (segment.from, segment.from) };
     let ranges = (0..curve.parts()).map(|part| {
-        let all = |x: f64| {
-            let [value, slope, bend, _] = curve.at(part, x).map(|value| segment.travel * value);
-            [segment.from + value, slope, bend]
-        };
-        let [top, low] = extremum::largest_of_both_signs(all, curve.range_of(part), curve.cells(part));
+        let [top, low] = extremum::largest_of_both_signs(
+            |x| {
+                let [value, slope, bend, _] = curve.at(part, x).map(|value| segment.travel * value);
+                [segment.from + value, slope, bend]
+            },
+            curve.range_of(part),
+            curve.cells(part),
+        );
         (-low.value, top.value)
     });
     ranges.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, top), (l, t)| (low.min(l), top.max(t)))

@@ -151,14 +151,14 @@ fn power(a: &[f64], exponent: f64, out: &mut [f64], from: usize) {
         0 if exponent == 0.5 => first.sqrt(),
         0 => libm::pow(first, exponent),
         n => {
-            let term = |k: usize| ((exponent + 1.0) * number(k) - number(n)) * at(a, k) * at(own, n - k);
-            (1..=n).map(term).sum::<f64>() / (number(n) * first)
+            (1..=n).map(|k| ((exponent + 1.0) * number(k) - number(n)) * at(a, k) * at(own, n - k)).sum::<f64>()
+                / (number(n) * first)
         }
     });
 }
 
 /// The n-th coefficient of E = (1 − a)^(−k): n (1 − a₀) Eₙ = Σ (k j + n − j) aⱼ Eₙ₋ⱼ.
 fn power_of_complement(exponent: f64, n: usize, a: impl Fn(usize) -> f64, own: impl Fn(usize) -> f64) -> f64 {
-    let term = |j: usize| (exponent * number(j) + number(n - j)) * a(j) * own(n - j);
-    (1..=n).map(term).sum::<f64>() / (number(n) * (1.0 - a(0)))
+    (1..=n).map(|j| (exponent * number(j) + number(n - j)) * a(j) * own(n - j)).sum::<f64>()
+        / (number(n) * (1.0 - a(0)))
 }

@@ -87,14 +87,20 @@ impl TaylorExpansion {
     /// coefficient is not a number.
     #[must_use]
     pub fn reach(&self, tolerance: f64) -> f64 {
-        let step = |(power, coefficient): (usize, &f64)| {
-            let power = number(power);
-            libm::pow(tolerance / (power * coefficient.abs()), 1.0 / power)
-        };
         if self.coefficients.iter().any(|coefficient| !coefficient.is_finite()) {
             return f64::NAN;
         }
-        self.coefficients.iter().enumerate().skip(1).rev().take(3).map(step).fold(f64::INFINITY, f64::min)
+        self.coefficients
+            .iter()
+            .enumerate()
+            .skip(1)
+            .rev()
+            .take(3)
+            .map(|(power, coefficient)| {
+                let power = number(power);
+                libm::pow(tolerance / (power * coefficient.abs()), 1.0 / power)
+            })
+            .fold(f64::INFINITY, f64::min)
     }
 }
 

@@ -209,15 +209,23 @@ impl FollowerOnChain<'_> {
         if (low.velocity + 0.5 * left * way).abs() <= NEAR * largest.value {
             return Worst::NONE;
         }
-        let acceleration = |at: f64| self.value(stretch, at, |off| off.acceleration);
-        let found = root::bracketed(acceleration, low.at, high.at, ROOT * (high.at - low.at));
+        let found = root::bracketed(
+            |at| self.value(stretch, at, |off| off.acceleration),
+            low.at,
+            high.at,
+            ROOT * (high.at - low.at),
+        );
         found.map_or(Worst::NONE, |at| worst(stretch, at, self.value(stretch, at, |off| off.velocity)))
     }
 
     /// The largest error of the acceleration within a range with one maximum.
     fn largest_acceleration(&self, stretch: &ContactStretch, range: (f64, f64)) -> Worst {
-        let size = |at: f64| self.value(stretch, at, |off| off.acceleration).abs();
-        let found = extremum::largest_without_slope(size, range, 2, SECTIONS);
+        let found = extremum::largest_without_slope(
+            |at| self.value(stretch, at, |off| off.acceleration).abs(),
+            range,
+            2,
+            SECTIONS,
+        );
         worst(stretch, found.at, found.value)
     }
 }

@@ -5,7 +5,7 @@ use crate::follower::Element;
 use crate::geometry::arcs::{self, ANY_NUMBER};
 use crate::geometry::contour::{Bend, Edge, Vertex};
 use crate::geometry::{ChainTolerance, CurvePoint, MILLIMETRES, cubics};
-use crate::motion::{Motion, Piece};
+use crate::motion::Motion;
 use crate::profile::Curves;
 use crate::profile::followed::FollowerOnChain;
 use nalgebra::Vector2;
@@ -53,12 +53,13 @@ impl Strip {
     ) -> Result<Self, OutlineError> {
         if fit.laid == SegmentKind::Splines {
             let fitted = cubics::fit(|at| target(at).0, range, tolerance, &|at, _| target(at).1)?;
-            let vertex = |[start, leaves, arrives, _]: [Vector2<f64>; 4]| Vertex {
-                point: start,
-                bend: Bend::Cubic([leaves, arrives]),
-            };
             return Ok(Self {
-                vertices: fitted.spline.pieces().into_iter().map(vertex).collect(),
+                vertices: fitted
+                    .spline
+                    .pieces()
+                    .into_iter()
+                    .map(|[start, leaves, arrives, _]| Vertex { point: start, bend: Bend::Cubic([leaves, arrives]) })
+                    .collect(),
                 deviation: fitted.deviation,
                 best_possible: fitted.by_theory,
                 best_for: [0.0; 2],
@@ -96,8 +97,14 @@ impl Strip {
             Bend::Arc(bulge) => Bend::Arc(bulge),
             Bend::Cubic(inner) => Bend::Cubic(inner.map(place)),
         };
-        let vertex = |vertex: &Vertex| Vertex { point: place(vertex.point), bend: bend(vertex.bend) };
-        Self { vertices: self.vertices.iter().map(vertex).collect(), ..*self }
+        Self {
+            vertices: self
+                .vertices
+                .iter()
+                .map(|vertex| Vertex { point: place(vertex.point), bend: bend(vertex.bend) })
+                .collect(),
+            ..*self
+        }
     }
 
     /// The strip mirrored, from its end to its start: the line through the shaft whose direction is half this angle, rad.
@@ -109,8 +116,15 @@ impl Strip {
             Bend::Arc(bulge) => Bend::Arc(bulge),
             Bend::Cubic([leaves, arrives]) => Bend::Cubic([place(arrives), place(leaves)]),
         };
-        let vertex = |edge: &Edge| Vertex { point: place(edge.end()), bend: bend(edge.bend()) };
-        Self { vertices: self.edges(end).iter().rev().map(vertex).collect(), ..*self }
+        Self {
+            vertices: self
+                .edges(end)
+                .iter()
+                .rev()
+                .map(|edge| Vertex { point: place(edge.end()), bend: bend(edge.bend()) })
+                .collect(),
+            ..*self
+        }
     }
 }
 
@@ -212,8 +226,12 @@ fn motion_strip(
     let (piece, distance, _) = place;
     let by_distance = || {
         let fit = Fit { motion: MotionTolerance::ANY, ..*fit };
-        let target = |at: f64| (frame(curves, (piece, at), distance), ChainTolerance::ANY);
-        Strip::along(target, range, MILLIMETRES * fit.tolerance, (&fit, ANY_NUMBER))
+        Strip::along(
+            |at| (frame(curves, (piece, at), distance), ChainTolerance::ANY),
+            range,
+            MILLIMETRES * fit.tolerance,
+            (&fit, ANY_NUMBER),
+        )
     };
     if fit.motion == MotionTolerance::ANY || !curves.motion.is_rolled(piece) {
         return by_distance();
@@ -286,9 +304,13 @@ fn keeping_motion(
     let (mut least, most) = numbers.into_inner();
     let mut best: Option<(f64, Strip)> = None;
     for _ in 0..TRIES {
-        let target = |at: f64| within(curves, (piece, at), distance, (tightened, by_radius));
         // The check reports that it is not kept.
-        let Ok(mut strip) = Strip::along(target, range, MILLIMETRES * fit.tolerance, (fit, least..=most)) else {
+        let Ok(mut strip) = Strip::along(
+            |at| within(curves, (piece, at), distance, (tightened, by_radius)),
+            range,
+            MILLIMETRES * fit.tolerance,
+            (fit, least..=most),
+        ) else {
             break;
         };
         // Tighter tolerances take no fewer arcs.
@@ -355,19 +377,24 @@ pub fn allowed(frame: &CurvePoint, along_normal: f64, pace: f64, motion: MotionT
 pub fn too_many_arcs(curves: Curves<'_>, tolerance: MotionTolerance) -> Option<f64> {
     let motion = curves.motion;
     let rolled = motion.pieces().iter().enumerate().filter(|(piece, span)| motion.is_rolled(*piece) && !span.dwell);
-    let arcs_of = |(piece, span): (usize, &Piece)| {
-        let arcs =
-            |places: u32| variation(motion, piece, (span.start, span.end), places) / (2.0 * tolerance.acceleration);
-        // A piece may have many waves.
-        let mut places = PLACES;
-        let (mut before, mut here) = (0.0, arcs(places));
-        while here > SETTLED * before && places < MOST_PLACES {
-            places *= 2;
-            (before, here) = (here, arcs(places));
-        }
-        here
-    };
-    Some(rolled.map(arcs_of).sum()).filter(|arcs| *arcs > f64::from(MOST_EDGES))
+    Some(
+        rolled
+            .map(|(piece, span)| {
+                let arcs = |places: u32| {
+                    variation(motion, piece, (span.start, span.end), places) / (2.0 * tolerance.acceleration)
+                };
+                // A piece may have many waves.
+                let mut places = PLACES;
+                let (mut before, mut here) = (0.0, arcs(places));
+                while here > SETTLED * before && places < MOST_PLACES {
+                    places *= 2;
+                    (before, here) = (here, arcs(places));
+                }
+                here
+            })
+            .sum(),
+    )
+    .filter(|arcs| *arcs > f64::from(MOST_EDGES))
 }
 
 /// A fit without the tolerances of the motion where they cannot be kept: the check reports that they are not.

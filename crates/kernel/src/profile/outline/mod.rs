@@ -388,10 +388,11 @@ pub fn pitch_within(curves: Curves<'_>, tolerance: f64) -> Result<Outline, Outli
 /// [`Refusal`] with how far it would reach.
 pub fn check_drawing_size(pieces: &[Piece], frame: impl Fn(usize, f64) -> CurvePoint) -> Result<(), Refusal> {
     let place = |piece: &Piece, part: u32| piece.start + (piece.end - piece.start) * f64::from(part) / f64::from(LOOKS);
-    let radius = |(index, piece): (usize, &Piece)| {
-        (0..LOOKS).map(|part| frame(index, place(piece, part)).point.norm()).fold(0.0, f64::max)
-    };
-    let radius_mm = pieces.iter().enumerate().map(radius).fold(0.0, f64::max);
+    let radius_mm = pieces
+        .iter()
+        .enumerate()
+        .map(|(index, piece)| (0..LOOKS).map(|part| frame(index, place(piece, part)).point.norm()).fold(0.0, f64::max))
+        .fold(0.0, f64::max);
     if radius_mm <= LARGEST_COORDINATE {
         return Ok(());
     }

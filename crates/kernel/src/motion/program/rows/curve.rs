@@ -69,11 +69,15 @@ fn run_curve(turn: &Turn, found: &Nodes, cubic: bool, (first, end): (usize, usiz
         let values: Vec<f64> = (first..=end).map(|at| value(at) - own).collect();
         return spline::cubic_at_rest(&knots, &values);
     }
-    let scaled = |at: usize| {
-        let [v, a] = found.states.get(at).copied().unwrap_or_default();
-        [value(at) - own, v * width, a * width * width]
-    };
-    spline::chain(&knots, &(first..=end).map(scaled).collect::<Vec<_>>())
+    spline::chain(
+        &knots,
+        &(first..=end)
+            .map(|at| {
+                let [v, a] = found.states.get(at).copied().unwrap_or_default();
+                [value(at) - own, v * width, a * width * width]
+            })
+            .collect::<Vec<_>>(),
+    )
 }
 
 /// Segments of rows that rest and of rows that move.
@@ -139,11 +143,14 @@ fn overshoot_of(program: &Program, turn: &Turn, base: f64, whole: ProgramContext
         let range = (turn.at + whole.fill * from, turn.at + whole.fill * to);
         let middle = 0.5 * (range.0 + range.1);
         let piece = program.pieces().iter().position(|piece| piece.start <= middle && middle <= piece.end).unwrap_or(0);
-        let both = |angle: f64| {
-            let jet = program.jet(piece, angle);
-            [jet.s + lowest - base + first, jet.ds, jet.dds]
-        };
-        let [top, bottom] = extremum::largest_of_both_signs(both, range, CELLS);
+        let [top, bottom] = extremum::largest_of_both_signs(
+            |angle| {
+                let jet = program.jet(piece, angle);
+                [jet.s + lowest - base + first, jet.ds, jet.dds]
+            },
+            range,
+            CELLS,
+        );
         let (above, below) = (top.value - a.max(*b), a.min(*b) + bottom.value);
         if above >= below { (above.max(0.0), top.at) } else { (below.max(0.0), bottom.at) }
     });

@@ -174,11 +174,13 @@ fn chosen(table: &TableReader<'_>, file: &Columns, quantity: Quantity) -> Option
 /// Names the columns that are not read, unless `columns` chose.
 fn unread(table: &TableReader<'_>, file: &Columns, chosen: &Chosen) -> Option<String> {
     let is_read = |at: &usize| *at == chosen.position || Some(*at) == chosen.angle;
-    let name = |at: usize| match file.headings().get(at).filter(|heading| !heading.is_empty()) {
-        Some(heading) => format!("{} (\"{heading}\")", at + 1),
-        None => (at + 1).to_string(),
-    };
-    let unread: Vec<String> = (0..width(file)).filter(|at| !is_read(at)).map(name).collect();
+    let unread: Vec<String> = (0..width(file))
+        .filter(|at| !is_read(at))
+        .map(|at| match file.headings().get(at).filter(|heading| !heading.is_empty()) {
+            Some(heading) => format!("{} (\"{heading}\")", at + 1),
+            None => (at + 1).to_string(),
+        })
+        .collect();
     let (columns, are) = if unread.len() == 1 { ("column", "is") } else { ("columns", "are") };
     (!unread.is_empty() && !table.has(&COLUMNS))
         .then(|| format!("{columns} {} of `{}` {are} not read", unread.join(", "), file.name()))

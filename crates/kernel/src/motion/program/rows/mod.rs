@@ -150,8 +150,10 @@ impl TableRows {
     /// The least and the largest position, m, where they may be radii of a cam: nothing says that they are lifts, and none is near 0.
     #[must_use]
     pub fn possible_radii(&self) -> Option<(f64, f64)> {
-        let ends = |(low, high): (f64, f64), value: &f64| (low.min(*value), high.max(*value));
-        let (low, high) = self.positions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+        let (low, high) = self
+            .positions
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)));
         let may_be =
             self.quantity == Quantity::Length && !self.has_lifts && high > low && low > LEAST_RADIUS * (high - low);
         may_be.then_some((low, high))
@@ -253,11 +255,13 @@ impl RowFigures {
 
     /// Adds the file line of the outlier.
     pub(super) fn at_lines(self, file: &Columns) -> Self {
-        let line = |outlier: RowOutlier| {
-            let row = outlier.row.checked_sub(1).and_then(|index| file.rows.get(index));
-            RowOutlier { line: row.map(FileRow::line), ..outlier }
-        };
-        Self { outlier: self.outlier.map(line), ..self }
+        Self {
+            outlier: self.outlier.map(|outlier| {
+                let row = outlier.row.checked_sub(1).and_then(|index| file.rows.get(index));
+                RowOutlier { line: row.map(FileRow::line), ..outlier }
+            }),
+            ..self
+        }
     }
 
     /// Figures by shares at an angle and over a width, rad, with positions in a size.

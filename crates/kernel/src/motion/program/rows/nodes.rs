@@ -247,8 +247,8 @@ impl RowRun<'_> {
 
     /// Largest accelerations as it is and with the errors of the rows smoothed, by the share, where that may matter.
     fn noise(&self, found: &Nodes, wishes: RowWishes) -> Option<RowNoise> {
-        let range = |(low, high): (f64, f64), value: &f64| (low.min(*value), high.max(*value));
-        let (low, high) = self.values.iter().fold((0.0_f64, 0.0_f64), range);
+        let (low, high) =
+            self.values.iter().fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(*value), high.max(*value)));
         let largest = found.largest_acceleration();
         let scatter = self.scatter();
         let (error, smooth) =
@@ -312,11 +312,14 @@ fn beyond(width: f64, (from, to): ([f64; 3], [f64; 3])) -> (f64, f64) {
         return (0.0, 0.0);
     }
     let curve = spline::chain(&[0.0, 1.0], &[[y0, v0 * h, a0 * square], [y1, v1 * h, a1 * square]]);
-    let all = |x: f64| {
-        let [value, slope, bend, _] = curve.at(0, x);
-        [value, slope, bend]
-    };
-    let [top, bottom] = extremum::largest_of_both_signs(all, (0.0, 1.0), CELLS);
+    let [top, bottom] = extremum::largest_of_both_signs(
+        |x| {
+            let [value, slope, bend, _] = curve.at(0, x);
+            [value, slope, bend]
+        },
+        (0.0, 1.0),
+        CELLS,
+    );
     let (above, below) = (top.value - high, low + bottom.value);
     if above >= below { (above.max(0.0), top.at) } else { (below.max(0.0), bottom.at) }
 }

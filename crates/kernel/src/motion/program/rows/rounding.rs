@@ -23,12 +23,13 @@ const HALF: f64 = 0.51;
 #[must_use]
 pub fn step(values: &[f64]) -> f64 {
     let largest = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-    let fits = |decimals: &i32| {
+    let Some(decimals) = (0..=MOST_DECIMALS).find(|decimals| {
         let power = libm::pow(10.0, f64::from(*decimals));
         let noise = BINARY.max(8.0 * f64::EPSILON * largest * power);
         noise < HALF && values.iter().all(|value| (value * power - (value * power).round()).abs() <= noise)
+    }) else {
+        return 0.0;
     };
-    let Some(decimals) = (0..=MOST_DECIMALS).find(fits) else { return 0.0 };
     let fine = libm::pow(10.0, f64::from(-decimals));
     if is_ramp(values, fine) {
         return fine;
@@ -70,10 +71,11 @@ fn looks_rounded(values: &[f64], step: f64) -> bool {
 /// Whether values go from the lowest to the highest one in steps of which most are equal: these are then those of a straight line, some of whose
 /// rows may be left out. Rounding to such a step would show some of the values between them twice.
 fn is_ramp(values: &[f64], fine: f64) -> bool {
-    let range = |(low, high): (f64, f64), value: &f64| (low.min(*value), high.max(*value));
-    let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), range);
-    let moves = |(a, b): &(&f64, &f64)| (*b - *a).abs() > 0.5 * fine;
-    let (moving, resting): (Vec<_>, Vec<_>) = values.iter().zip(values.iter().skip(1)).partition(moves);
+    let (low, high) = values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)));
+    let (moving, resting): (Vec<_>, Vec<_>) =
+        values.iter().zip(values.iter().skip(1)).partition(|(a, b)| (*b - *a).abs() > 0.5 * fine);
     let sizes: Vec<f64> = moving.iter().map(|(a, b)| (*b - *a).abs()).collect();
     let least = sizes.iter().copied().fold(f64::INFINITY, f64::min);
     let equal = sizes.iter().filter(|size| **size - least <= 2.0 * (1.0 + BINARY) * fine).count();

@@ -188,8 +188,8 @@ fn mirror(rows: &mut Rows, fill: f64) -> Result<(), RowsFault> {
     }
     let at_last = last.position >= first.position;
     let nose = if at_last { last } else { first };
-    let other = |row: &RowPlace| RowPlace { at: 2.0 * nose.at - row.at, ..*row };
-    let mut mirrored: Vec<RowPlace> = rows.points.iter().rev().map(other).collect();
+    let mut mirrored: Vec<RowPlace> =
+        rows.points.iter().rev().map(|row| RowPlace { at: 2.0 * nose.at - row.at, ..*row }).collect();
     if at_last {
         rows.points.extend(mirrored.into_iter().skip(1));
     } else {
