@@ -159,8 +159,7 @@ const SPELLINGS: &[(&str, &str)] = &[
 /// The unit of a symbol as people write it: powers raised or with ^, products with a dot, a blank or nothing, other spellings, and,
 /// among the units of a kind, small letters for capitals and the reverse.
 fn unit_of(typed: &str, kind: Option<Dimension>) -> Option<&'static UnitSymbol> {
-    let exact = |symbol: &str| UNITS.iter().find(|unit| unit.symbol == symbol);
-    if let Some(unit) = exact(typed) {
+    if let Some(unit) = UNITS.iter().find(|unit| unit.symbol == typed) {
         return Some(unit);
     }
     let plain: String = typed
@@ -174,32 +173,39 @@ fn unit_of(typed: &str, kind: Option<Dimension>) -> Option<&'static UnitSymbol> 
         })
         .collect();
     let plain = SPELLINGS.iter().find(|(spelling, _)| *spelling == plain).map_or(plain.as_str(), |(_, symbol)| symbol);
-    if let Some(unit) =
-        exact(plain).or_else(|| UNITS.iter().find(|unit| unit.symbol.replace('*', "") == plain.replace('*', "")))
-    {
+    let mut exact = UNITS.iter().filter(|unit| unit.symbol == plain);
+    let mut joined = UNITS.iter().filter(|unit| unit.symbol.replace('*', "") == plain.replace('*', ""));
+    if let Some(unit) = exact.next().or_else(|| joined.next()) {
         return Some(unit);
     }
     // `mPa` and `Mm` are other units, a thousandth and a million times the size.
-    let letters = || plain.chars().filter(|c| c.is_alphabetic());
-    let of_one_size = letters().all(char::is_uppercase) || letters().all(char::is_lowercase);
-    let prefix = |symbol: &str| symbol.chars().next().filter(|c| matches!(c, 'm' | 'M'));
-    let folded = |text: &str| text.to_lowercase().replace('*', "");
+    let mut letters = plain.chars().filter(|c| c.is_alphabetic());
+    let of_one_size = letters.clone().all(char::is_uppercase) || letters.all(char::is_lowercase);
     let symbol =
         SPELLINGS.iter().find(|(spelling, _)| folded(spelling) == folded(plain)).map_or(plain, |(_, symbol)| symbol);
     UNITS.iter().find(|unit| {
         kind == Some(unit.dimension)
             && folded(unit.symbol) == folded(symbol)
-            && (of_one_size || prefix(unit.symbol) == prefix(plain))
+            && (of_one_size || milli_or_mega(unit.symbol) == milli_or_mega(plain))
     })
+}
+
+/// A symbol in small letters and without the signs of products.
+fn folded(text: &str) -> String {
+    text.to_lowercase().replace('*', "")
+}
+
+fn milli_or_mega(symbol: &str) -> Option<char> {
+    symbol.chars().next().filter(|c| matches!(c, 'm' | 'M'))
 }
 
 impl Dimension {
     /// Spellings of the units that fit in addition to those of [`Dimension::unit_list`], for a schema.
     pub fn spellings(self) -> impl Iterator<Item = &'static str> {
-        let own = move |symbol: &str| UNITS.iter().any(|unit| unit.symbol == symbol && unit.dimension == self);
-        let others = UNITS.iter().filter(move |unit| unit.dimension == self && !unit.symbol.is_ascii());
-        let others = others.map(|unit| unit.symbol);
-        others.chain(SPELLINGS.iter().filter(move |(_, symbol)| own(symbol)).map(|(spelling, _)| *spelling))
+        let own = UNITS.iter().filter(move |unit| unit.dimension == self);
+        let others = own.clone().filter(|unit| !unit.symbol.is_ascii()).map(|unit| unit.symbol);
+        let spelled = SPELLINGS.iter().filter(move |(_, symbol)| own.clone().any(|unit| unit.symbol == *symbol));
+        others.chain(spelled.map(|(spelling, _)| *spelling))
     }
 
     /// The units that fit, in the order of the documentation, as one list for a message: `um, mm, cm, m, in`.
@@ -349,14 +355,17 @@ fn split_number(text: &str) -> Option<(f64, &str)> {
     })
 }
 
+fn unit_in(symbol: &str, dimension: Dimension) -> Option<&'static UnitSymbol> {
+    unit_of(symbol.trim(), Some(dimension)).filter(|unit| unit.dimension == dimension)
+}
+
 /// A number with a comma, or a fraction: read as far as the sign, what follows would be taken for a unit.
 fn other_number(text: &str) -> Option<QuantityError> {
     let text = text.trim();
-    let digits = |text: &str| text.chars().take_while(char::is_ascii_digit).count();
     let (whole, rest) = text.split_at(text.find([',', '/'])?);
     let (sign, rest) = rest.split_at(1);
     let whole_digits = whole.strip_prefix(['-', '+']).unwrap_or(whole);
-    let count = digits(rest);
+    let count = rest.chars().take_while(char::is_ascii_digit).count();
     if count == 0 || whole_digits.is_empty() || text.len() > LONGEST {
         return None;
     }
@@ -441,13 +450,13 @@ pub fn parse_rate(text: &str, order: u32) -> Result<DerivativeValue, QuantityErr
     }
     let unknown = || other_number(&text).unwrap_or_else(|| QuantityError::UnknownUnit { unit: quoted(symbol) });
     let (of, by) = symbol.split_once('/').ok_or_else(unknown)?;
-    let unit = |symbol: &str, kind| unit_of(symbol.trim(), Some(kind)).filter(|unit| unit.dimension == kind);
-    let of = unit(of, Dimension::Length).or_else(|| unit(of, Dimension::Angle)).ok_or_else(unknown)?;
+    let of = unit_in(of, Dimension::Length).or_else(|| unit_in(of, Dimension::Angle)).ok_or_else(unknown)?;
     let power = if order == 1 { String::new() } else { order.to_string() };
     let by_text = by.trim().strip_suffix(power.as_str()).ok_or_else(unknown)?;
-    let by =
-        unit(by_text, Dimension::Angle).or_else(|| unit(by_text, Dimension::Time).filter(|unit| unit.symbol == "s"));
-    let by = by.or_else(|| unit(by_text, Dimension::Length)).ok_or_else(unknown)?;
+    let by = unit_in(by_text, Dimension::Angle)
+        .or_else(|| unit_in(by_text, Dimension::Time).filter(|unit| unit.symbol == "s"))
+        .or_else(|| unit_in(by_text, Dimension::Length))
+        .ok_or_else(unknown)?;
     let each = by.multiply / by.divide;
     let value = number * of.multiply / of.divide / (0..order).fold(1.0, |power, _| power * each);
     if !value.is_finite() {

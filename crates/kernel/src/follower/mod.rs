@@ -193,18 +193,21 @@ const WIDTH: Field<f64> = Field::quantity(
 /// The one follower of a file.
 pub fn read(reader: &Reader<'_>) -> Option<FollowerData> {
     let mut given = FOLLOWERS.iter().filter_map(|kind| Some((kind, reader.find(kind.section)?)));
-    let known = || FOLLOWERS.iter().map(|kind| format!("[{}]", kind.section.path)).collect::<Vec<_>>().join(", ");
     let Some((kind, table)) = given.next() else {
         if !FOLLOWERS.iter().any(|kind| reader.is_explained(kind.section)) {
-            reader.fail("no follower is given".into(), Some(format!("add one of the tables {}", known())));
+            reader.fail("no follower is given".into(), Some(format!("add one of the tables {}", known_tables())));
         }
         return None;
     };
     if let Some((other, _)) = given.next() {
         let message = format!("two followers: [{}] and [{}]", kind.section.path, other.section.path);
-        reader.fail(message, Some(format!("a cam has one; give one of {}", known())));
+        reader.fail(message, Some(format!("a cam has one; give one of {}", known_tables())));
     }
     (kind.read)(&table)
+}
+
+fn known_tables() -> String {
+    FOLLOWERS.iter().map(|kind| format!("[{}]", kind.section.path)).collect::<Vec<_>>().join(", ")
 }
 
 /// The part of the follower that touches the cam.

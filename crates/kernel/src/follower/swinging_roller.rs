@@ -8,7 +8,7 @@ use crate::document::Presence::{Default, Required};
 use crate::document::cams::MAKE;
 use crate::document::range::LONGEST;
 use crate::document::{Bounds, Field, Key, KeySection, Occurrence, TableReader, above};
-use crate::geometry::CurvePoint;
+use crate::geometry::{CurvePoint, left_of, rotated};
 use crate::motion::{Jet, Quantity};
 use crate::units::Dimension::Length;
 use nalgebra::Vector2;
@@ -103,13 +103,11 @@ impl Follower for SwingingRoller {
     fn point_turned(&self, _: f64, (sin, cos): (f64, f64), lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
         let (l, t) = (self.arm, self.side);
         let (sp, cp) = libm::sincos(self.start + lift.s);
-        let in_plane = |v: Vector2<f64>| Vector2::new(cos, sin) * v.x + Vector2::new(-sin, cos) * v.y;
         let pivot = Vector2::new(self.pivot_distance, 0.0);
-        (in_plane(Vector2::new(-l * cp, -l * t * sp) + pivot), in_plane(Vector2::new(sp, -t * cp)))
+        (rotated(Vector2::new(-l * cp, -l * t * sp) + pivot, sin, cos), rotated(Vector2::new(sp, -t * cp), sin, cos))
     }
 
     fn touch_turned(&self, _: f64, (sin, cos): (f64, f64), lift: &Jet) -> Touch {
-        let (along, across) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
         let (a, l, t) = (self.pivot_distance, self.arm, self.side);
         let psi = self.start + lift.s;
         let (sp, cp) = libm::sincos(psi);
@@ -125,15 +123,15 @@ impl Follower for SwingingRoller {
             ),
         ];
         // A quarter turn for each derivative of the frame: (f)' = f' + J f.
-        let turned = |v: Vector2<f64>| Vector2::new(-v.y, v.x);
         let [p0, p1, p2, p3] = arm;
         let p0 = p0 + Vector2::new(a, 0.0);
-        let first = p1 + turned(p0);
-        let second = p2 + turned(p1) * 2.0 - p0;
-        let third = p3 + turned(p2) * 3.0 - p1 * 3.0 - turned(p0);
-        let in_plane = |v: Vector2<f64>| along * v.x + across * v.y;
-        let curve = CurvePoint::from_derivatives(in_plane(p0), in_plane(first), in_plane(second), in_plane(third));
-        Touch { curve, drive: in_plane(Vector2::new(sp, -t * cp)), drive_turn: 1.0 + t * d1 }
+        let first = p1 + left_of(p0);
+        let second = p2 + left_of(p1) * 2.0 - p0;
+        let third = p3 + left_of(p2) * 3.0 - p1 * 3.0 - left_of(p0);
+        let [point, first, second, third, drive] =
+            [p0, first, second, third, Vector2::new(sp, -t * cp)].map(|v| rotated(v, sin, cos));
+        let curve = CurvePoint::from_derivatives(point, first, second, third);
+        Touch { curve, drive, drive_turn: 1.0 + t * d1 }
     }
 
     fn leverage(&self, _: &Jet) -> f64 {

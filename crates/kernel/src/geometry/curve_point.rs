@@ -2,6 +2,20 @@
 
 use nalgebra::Vector2;
 
+/// A vector rotated by an angle of which sine and cosine are given.
+#[inline]
+#[must_use]
+pub fn rotated(v: Vector2<f64>, sin: f64, cos: f64) -> Vector2<f64> {
+    Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y)
+}
+
+/// A vector rotated by 90° to the left.
+#[inline]
+#[must_use]
+pub fn left_of(v: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(-v.y, v.x)
+}
+
 /// A point of a plane curve with its tangent and curvature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurvePoint {

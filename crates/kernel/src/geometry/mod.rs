@@ -33,7 +33,7 @@ pub mod solid;
 pub mod two_sided_distance;
 
 pub use allowed::ChainTolerance;
-pub use curve_point::CurvePoint;
+pub use curve_point::{CurvePoint, left_of, rotated};
 pub use entity::Entity;
 
 /// Millimetres in a metre: geometry leaves SI by this factor.

@@ -63,8 +63,7 @@ impl<const W: usize> QuadraticForm<W> {
     }
 
     fn value(&self, x: &[f64], gradient: &[f64]) -> f64 {
-        let product = |list: &[f64]| -> f64 { list.iter().zip(x).map(|(a, b)| a * b).sum() };
-        0.5 * (product(gradient) + product(&self.linear)) + self.constant
+        0.5 * (product(gradient, x) + product(&self.linear, x)) + self.constant
     }
 }
 
@@ -133,15 +132,17 @@ impl SearchPoint<'_> {
 
     /// The step to where slack times multiplier of each bound is `wanted`, which is σμ − Δs Δz; what is missed goes away with a whole step.
     fn step<const W: usize>(&self, factors: &BandedFactors<W>, residual: &[f64], wanted: &[f64]) -> SearchStep {
-        let missed = |at: usize| self.missed.get(at).copied().unwrap_or(0.0);
-        let all = || self.weights.iter().zip(self.slack.iter().zip(wanted)).enumerate();
-        let pull: Vec<f64> = all().map(|(at, (z, (s, w)))| z - w / s - z / s * missed(at)).collect();
+        let all = self.weights.iter().zip(self.slack.iter().zip(wanted));
+        // An infinite chain of zeros where nothing is missed.
+        let missed = self.missed.iter().copied().chain(std::iter::repeat(0.0));
+        let pull: Vec<f64> =
+            all.clone().zip(missed.clone()).map(|((z, (s, w)), missed)| z - w / s - z / s * missed).collect();
         let less: Vec<f64> = residual.iter().map(|value| -value).collect();
         let mut by = with_bounds(&less, self.bounds, &pull);
         factors.solve(&mut by);
         let of_slack: Vec<f64> =
-            self.bounds.iter().enumerate().map(|(at, bound)| -bound.sum(&by) - missed(at)).collect();
-        let of_weights = all().zip(&of_slack).map(|((_, (z, (s, w))), ds)| w / s - z - z / s * ds).collect();
+            self.bounds.iter().zip(missed).map(|(bound, missed)| -bound.sum(&by) - missed).collect();
+        let of_weights = all.zip(&of_slack).map(|((z, (s, w)), ds)| w / s - z - z / s * ds).collect();
         (by, of_slack, of_weights)
     }
 

@@ -119,12 +119,14 @@ impl Unknowns {
 
     /// What was found, of each node.
     fn found(&self, values: &[f64]) -> Vec<[f64; 3]> {
-        let value = |node: usize, which: usize| {
-            let given = self.given.get(node).and_then(|given| given.get(which)).copied().flatten();
-            let found = self.at(node, which).and_then(|unknown| values.get(unknown)).copied();
-            given.unwrap_or_else(|| found.unwrap_or(0.0) * self.unit(which))
-        };
-        (0..self.of_node.len()).map(|node| [0, 1, 2].map(|which| value(node, which))).collect()
+        let nodes = (0..self.of_node.len()).map(|node| {
+            [0, 1, 2].map(|which| {
+                let given = self.given.get(node).and_then(|given| given.get(which)).copied().flatten();
+                let found = self.at(node, which).and_then(|unknown| values.get(unknown)).copied();
+                given.unwrap_or_else(|| found.unwrap_or(0.0) * self.unit(which))
+            })
+        });
+        nodes.collect()
     }
 }
 
@@ -179,9 +181,10 @@ fn enough(intervals: &[NodeInterval], most: f64) -> Option<f64> {
     let (mut least, mut shown) = (0.0, None);
     let mut by = 1;
     while 2 * by < intervals.len() {
-        let node = |at: usize| places.get(at).copied().zip(values.get(at).copied());
-        let threes = (0..intervals.len()).map_while(|at| Some((node(at)?, node(at + by)?, node(at + 2 * by)?)));
-        for ((x0, y0), (x1, y1), (x2, y2)) in threes {
+        for at in 0..intervals.len() {
+            let places = [at, at + by, at + 2 * by].map(|node| places.get(node).copied());
+            let values = [at, at + by, at + 2 * by].map(|node| values.get(node).copied());
+            let ([Some(x0), Some(x1), Some(x2)], [Some(y0), Some(y1), Some(y2)]) = (places, values) else { break };
             let (before, after, mean) = (x1 - x0, x2 - x1, 0.5 * (x2 - x0));
             let bend = ((y2 - y1) / after - (y1 - y0) / before).abs() / mean;
             let off = 2.0 * most * (1.0 / before + 1.0 / after) / mean;
@@ -194,21 +197,25 @@ fn enough(intervals: &[NodeInterval], most: f64) -> Option<f64> {
     shown
 }
 
+fn interval(intervals: &[NodeInterval], index: usize) -> NodeInterval {
+    intervals.get(index).copied().flatten()
+}
+
 /// What is given at the nodes of a monotonic spline: it is constant where the values of both ends are equal, and its velocity is 0 at an
 /// extreme.
-fn given_of_monotonic(given: &[Given], rise: &impl Fn(usize) -> NodeInterval) -> Result<Vec<Given>, NotMonotonic> {
+fn given_of_monotonic(given: &[Given], all_intervals: &[NodeInterval]) -> Result<Vec<Given>, NotMonotonic> {
     let nodes = given.len();
     let mut all: Vec<Given> = given.iter().map(|[_, v, a]| [STAYS, *v, *a]).collect();
     for (node, slot) in all.iter_mut().enumerate() {
         let intervals = [(node + nodes - 1) % nodes, node];
-        let (before, after) = (rise(intervals[0]), rise(intervals[1]));
-        let flat = |interval: NodeInterval| interval.is_some_and(|(_, rise)| rise == 0.0);
+        let [before, after] = intervals.map(|index| interval(all_intervals, index));
+        let [flat_before, flat_after] = [before, after].map(|interval| interval.is_some_and(|(_, rise)| rise == 0.0));
         let turns = before.zip(after).is_some_and(|((_, a), (_, b))| (a > 0.0) != (b > 0.0));
         let [_, v, a] = slot;
-        let rests = flat(before) || flat(after);
-        let moves = |given: &Option<f64>| given.is_some_and(|given| given != 0.0);
-        if ((rests || turns) && moves(v)) || (rests && moves(a)) {
-            let interval = if flat(after) || before.is_none() { intervals[1] } else { intervals[0] };
+        let rests = flat_before || flat_after;
+        let [moves, accelerates] = [*v, *a].map(|given| given.is_some_and(|given| given != 0.0));
+        if ((rests || turns) && moves) || (rests && accelerates) {
+            let interval = if flat_after || before.is_none() { intervals[1] } else { intervals[0] };
             return Err(NotMonotonic { interval });
         }
         if rests {
@@ -228,8 +235,7 @@ fn given_of_monotonic(given: &[Given], rise: &impl Fn(usize) -> NodeInterval) ->
 /// The interval on which a given state leads out of the range of both ends, or faster through it than the conditions allow.
 pub fn monotonic(intervals: &[NodeInterval], given: &[Given]) -> Result<Vec<[f64; 2]>, NotMonotonic> {
     let nodes = given.len();
-    let rise = |interval: usize| intervals.get(interval).copied().flatten();
-    let given = given_of_monotonic(given, &rise)?;
+    let given = given_of_monotonic(given, intervals)?;
     let size = intervals.iter().flatten().map(|(_, rise)| rise.abs()).fold(0.0, f64::max);
     if !(size > 0.0) {
         return Ok(vec![[0.0; 2]; nodes]);
@@ -238,7 +244,7 @@ pub fn monotonic(intervals: &[NodeInterval], given: &[Given]) -> Result<Vec<[f64
     let start = unknowns.inside(intervals);
     let mut bounds = Vec::new();
     for node in 0..nodes {
-        let Some(interval) = rise(node).filter(|(_, rise)| *rise != 0.0) else { continue };
+        let Some(interval) = interval(intervals, node).filter(|(_, rise)| *rise != 0.0) else { continue };
         for bound in unknowns.conditions(node, interval) {
             let kept = if bound.terms.is_empty() { bound.most >= -TAKEN } else { bound.sum(&start) < bound.most };
             if !kept {
@@ -257,35 +263,35 @@ impl Unknowns {
     /// Unknowns strictly inside of the conditions of a monotonic spline, where there are such.
     fn inside(&self, intervals: &[NodeInterval]) -> Vec<f64> {
         let nodes = self.given.len();
-        let rise = |interval: usize| intervals.get(interval).copied().flatten();
-        // What given states leave of the rise of an interval.
-        let left = |interval: usize| {
-            let (width, rise) = rise(interval)?;
-            let (next, h) = ((interval + 1) % nodes, width / self.width);
-            let [v0, a0, v1, a1] =
-                [(interval, 1), (interval, 2), (next, 1), (next, 2)].map(|(node, which)| self.known(node, which));
-            let taken = rise.signum() * (0.4 * h * (v0 + v1) + 0.05 * h * h * (a0 - a1)) * self.size;
-            Some((width, rise.abs() - taken.max(0.0)))
-        };
         let mut start = vec![0.0; self.count];
         for node in 0..nodes {
             let before = (node + nodes - 1) % nodes;
-            let Some((_, leads)) = rise(node).or(rise(before)) else { continue };
-            let around = || [left(before), left(node)].into_iter().flatten();
+            let Some((_, leads)) = interval(intervals, node).or(interval(intervals, before)) else { continue };
+            let around = [before, node].into_iter().filter_map(|index| self.free_rise(intervals, index));
             if let Some(slot) = self.at(node, 1).and_then(|unknown| start.get_mut(unknown)) {
-                let slope = around().map(|(width, rise)| rise / width).fold(f64::INFINITY, f64::min);
+                let slope = around.map(|(width, rise)| rise / width).fold(f64::INFINITY, f64::min);
                 *slot = BEGINNING * leads.signum() * slope / self.unit(1);
             } else if let Some(slot) = self.at(node, 2).and_then(|unknown| start.get_mut(unknown))
                 && self.known(node, 1) == 0.0
             {
                 // At an extreme, and at the end of a rest, the acceleration points to where the next interval leads, or from where the
                 // last one comes.
-                let sign = if rise(node).is_some() { leads.signum() } else { -leads.signum() };
-                let bend = around().map(|(width, rise)| rise / width / width).fold(f64::INFINITY, f64::min);
+                let sign = if interval(intervals, node).is_some() { leads.signum() } else { -leads.signum() };
+                let bend = around.map(|(width, rise)| rise / width / width).fold(f64::INFINITY, f64::min);
                 *slot = BEGINNING * sign * bend / self.unit(2);
             }
         }
         start
+    }
+
+    /// Width of an interval and the part of its rise, without sign, that the given states do not take.
+    fn free_rise(&self, intervals: &[NodeInterval], index: usize) -> NodeInterval {
+        let (width, rise) = interval(intervals, index)?;
+        let (next, h) = ((index + 1) % self.given.len(), width / self.width);
+        let [v0, a0, v1, a1] =
+            [(index, 1), (index, 2), (next, 1), (next, 2)].map(|(node, which)| self.known(node, which));
+        let taken = rise.signum() * (0.4 * h * (v0 + v1) + 0.05 * h * h * (a0 - a1)) * self.size;
+        Some((width, rise.abs() - taken.max(0.0)))
     }
 
     /// The sufficient conditions of an interval; those of given states alone have no unknowns.

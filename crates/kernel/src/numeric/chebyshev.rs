@@ -67,8 +67,7 @@ impl CellDerivatives {
     fn of(coefficients: &[f64]) -> Self {
         let first = derivative(coefficients);
         let second = derivative(&first);
-        let most = |of: &[f64]| of.iter().map(|c| c.abs()).sum::<f64>();
-        Self { rounding: ROUNDING * most(&first), most_bend: most(&second), first, second }
+        Self { rounding: ROUNDING * size(&first), most_bend: size(&second), first, second }
     }
 
     fn at(&self, at: f64) -> SlopeAndBend {
@@ -188,10 +187,9 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> ChebyshevSearch<V, G> {
     /// where these fall so that what follows them is smaller still.
     fn cannot_exceed(&self, cell: &ChebyshevCell) -> bool {
         let count = cell.coefficients.len();
-        let sum = |from: usize, to: usize| -> f64 {
-            cell.coefficients.iter().skip(from).take(to - from).map(|c| c.abs()).sum()
-        };
-        let (third, fourth) = (sum(count / 2, 3 * count / 4), sum(3 * count / 4, count));
+        let (half, three_quarters) = (count / 2, 3 * count / 4);
+        let third = size(cell.coefficients.get(half..three_quarters).unwrap_or_default());
+        let fourth = size(cell.coefficients.get(three_quarters..).unwrap_or_default());
         let falling = fourth <= FALLING * third || fourth <= self.negligible;
         let goals = cell.values.iter().map(|value| (self.goal)(*value));
         let (least, most) = goals.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
@@ -223,19 +221,18 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> ChebyshevSearch<V, G> {
     fn try_between(&mut self, cell: &ChebyshevCell, slopes: &CellDerivatives, left: SlopeAndBend, right: SlopeAndBend) {
         let from = self.with_certain_sign(cell, slopes, left, right.at);
         let to = self.with_certain_sign(cell, slopes, right, left.at);
-        let slope = |t: f64| series(&slopes.first, t);
         // Two stationary points within a cell of the grid: the slope has an extremum between them.
         let turns = from.slope * to.slope > 0.0 && from.bend * from.slope < 0.0 && to.bend * to.slope > 0.0;
         let split = if turns { root::bracketed(|t| series(&slopes.second, t), from.at, to.at, 0.0).ok() } else { None };
         let Some(split) = split else {
             if from.slope * to.slope < 0.0 {
-                self.try_root(cell, slope, (from.at, to.at));
+                self.try_root(cell, slopes, (from.at, to.at));
             }
             return;
         };
-        if from.slope * slope(split) < 0.0 {
-            self.try_root(cell, slope, (from.at, split));
-            self.try_root(cell, slope, (split, to.at));
+        if from.slope * series(&slopes.first, split) < 0.0 {
+            self.try_root(cell, slopes, (from.at, split));
+            self.try_root(cell, slopes, (split, to.at));
         }
     }
 
@@ -254,8 +251,8 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> ChebyshevSearch<V, G> {
         slopes.at(place.at + ASIDE * (other - place.at))
     }
 
-    fn try_root(&mut self, cell: &ChebyshevCell, slope: impl Fn(f64) -> f64, (low, high): (f64, f64)) {
-        if let Ok(t) = root::bracketed(slope, low, high, 0.0) {
+    fn try_root(&mut self, cell: &ChebyshevCell, slopes: &CellDerivatives, (low, high): (f64, f64)) {
+        if let Ok(t) = root::bracketed(|t| series(&slopes.first, t), low, high, 0.0) {
             self.sample(cell.place(t));
         }
     }
@@ -361,6 +358,11 @@ fn derivative(coefficients: &[f64]) -> Vec<f64> {
     }
     slopes.truncate(coefficients.len().saturating_sub(1).max(1));
     slopes
+}
+
+/// Sum of the sizes of coefficients: no value of their series exceeds it.
+fn size(coefficients: &[f64]) -> f64 {
+    coefficients.iter().map(|c| c.abs()).sum()
 }
 
 /// Σ cₖ Tₖ(t) by Clenshaw's recurrence.

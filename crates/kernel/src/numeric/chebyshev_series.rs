@@ -24,12 +24,11 @@ impl ChebyshevSeries {
     #[must_use]
     pub fn through(range: (f64, f64), values: &[f64], rounding: f64) -> Self {
         let count = u32::try_from(values.len()).unwrap_or(u32::MAX);
-        let term = |n: u32| {
-            let sum: f64 =
-                (0..count).zip(values).map(|(i, value)| value * libm::cos(f64::from(n) * angle(i, count))).sum();
-            sum * if n == 0 { 1.0 } else { 2.0 } / f64::from(count.max(1))
-        };
-        let mut coefficients: Vec<f64> = (0..count).map(term).collect();
+        let coefficients = (0..count).map(|n| {
+            let terms = (0..count).zip(values).map(|(i, value)| value * libm::cos(f64::from(n) * angle(i, count)));
+            terms.sum::<f64>() * if n == 0 { 1.0 } else { 2.0 } / f64::from(count.max(1))
+        });
+        let mut coefficients: Vec<f64> = coefficients.collect();
         let least = rounding * coefficients.iter().fold(0.0, |largest: f64, c| largest.max(c.abs()));
         while coefficients.last().is_some_and(|last| last.abs() <= least) {
             coefficients.pop();
@@ -107,9 +106,9 @@ impl<const N: usize> SeriesGroup<N> {
     #[must_use]
     pub fn new(all: [&ChebyshevSeries; N]) -> Self {
         let terms = all.iter().map(|series| series.terms()).max().unwrap_or(0);
-        let term = |n: usize| all.map(|series| series.coefficients.get(n).copied().unwrap_or(0.0));
+        let terms = (0..terms).map(|n| all.map(|series| series.coefficients.get(n).copied().unwrap_or(0.0)));
         let range = all.first().map_or((0.0, 1.0), |series| series.range);
-        Self { range, coefficients: (0..terms).map(term).collect() }
+        Self { range, coefficients: terms.collect() }
     }
 
     /// The series that have these values at [`ChebyshevSeries::points`].

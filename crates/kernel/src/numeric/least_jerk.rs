@@ -20,7 +20,6 @@ const BAND: usize = 6;
 #[must_use]
 pub fn least_jerk(intervals: &[NodeInterval], given: &[NodeConstraint]) -> Vec<[f64; 2]> {
     let count = given.len().min(intervals.len());
-    let place = |node: usize| if 2 * node < count { 2 * node } else { 2 * (count - 1 - node) + 1 };
     let mut matrix = BandedMatrix::<BAND>::zero(2 * count);
     let mut right = vec![0.0; 2 * count];
     let mut joined = vec![false; count];
@@ -34,7 +33,7 @@ pub fn least_jerk(intervals: &[NodeInterval], given: &[NodeConstraint]) -> Vec<[
         }
         let unknowns = [(node, 0), (node, 1), (next, 0), (next, 1)];
         let fixed = unknowns.map(|(node, which)| given.get(node).and_then(|given| given.get(which)).copied().flatten());
-        let rows = unknowns.map(|(node, which)| 2 * place(node) + which);
+        let rows = unknowns.map(|(node, which)| row_of(node, count) + which);
         for (weight, form, constant) in forms(width, rise) {
             let known: f64 = constant + form.iter().zip(fixed).map(|(l, value)| l * value.unwrap_or(0.0)).sum::<f64>();
             for (first, (row, l)) in rows.iter().zip(form).enumerate().filter(|(at, _)| free(&fixed, *at)) {
@@ -52,14 +51,20 @@ pub fn least_jerk(intervals: &[NodeInterval], given: &[NodeConstraint]) -> Vec<[
     for (node, (given, joined)) in given.iter().zip(&joined).enumerate() {
         for (which, value) in given.iter().enumerate() {
             if value.is_some() || !joined {
-                matrix.add(2 * place(node) + which, 2 * place(node) + which, 1.0);
-                add(&mut right, 2 * place(node) + which, value.unwrap_or(0.0));
+                let row = row_of(node, count) + which;
+                matrix.add(row, row, 1.0);
+                add(&mut right, row, value.unwrap_or(0.0));
             }
         }
     }
     matrix.factored().solve(&mut right);
-    let value = |index: usize| right.get(index).copied().unwrap_or(0.0);
-    (0..count).map(|node| [value(2 * place(node)), value(2 * place(node) + 1)]).collect()
+    let rows = (0..count).map(|node| row_of(node, count));
+    rows.map(|row| [row, row + 1].map(|index| right.get(index).copied().unwrap_or(0.0))).collect()
+}
+
+/// The row of the velocity at a node of a ring, in the order 0, n−1, 1, n−2, …; that of its acceleration is the next.
+fn row_of(node: usize, count: usize) -> usize {
+    if 2 * node < count { 4 * node } else { 2 * (2 * (count - 1 - node) + 1) }
 }
 
 fn free(fixed: &[Option<f64>; 4], at: usize) -> bool {
@@ -79,12 +84,12 @@ fn add(list: &mut [f64], index: usize, value: f64) {
 pub(super) fn forms(width: f64, rise: f64) -> [(f64, [f64; 4], f64); 3] {
     let (h, square) = (width, width * width);
     let weight = 1.0 / (square * square * width);
-    let scaled = |[v0, a0, v1, a1]: [f64; 4]| [v0 * h, a0 * square, v1 * h, a1 * square];
     [
-        (weight, scaled([0.0, -1.0, 0.0, 1.0]), 0.0),
-        (weight / 3.0, scaled([6.0, 3.0, -6.0, 3.0]), 0.0),
-        (weight / 5.0, scaled([-30.0, -5.0, -30.0, 5.0]), 60.0 * rise),
+        (weight, [0.0, -1.0, 0.0, 1.0], 0.0),
+        (weight / 3.0, [6.0, 3.0, -6.0, 3.0], 0.0),
+        (weight / 5.0, [-30.0, -5.0, -30.0, 5.0], 60.0 * rise),
     ]
+    .map(|(weight, [v0, a0, v1, a1], constant)| (weight, [v0 * h, a0 * square, v1 * h, a1 * square], constant))
 }
 
 /// The fifth derivative between two nodes.
@@ -105,34 +110,34 @@ pub fn not_a_knot(knots: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
     let intervals: Vec<NodeInterval> =
         pairs.map(|((x0, x1), (y0, y1))| Some((x1 - x0, y1 - y0))).take(count - 1).chain([None]).collect();
     let flat: Vec<NodeInterval> = intervals.iter().map(|interval| interval.map(|(width, _)| (width, 0.0))).collect();
-    // The spline is linear in the values given at its ends.
-    let solved = |intervals: &[NodeInterval], [v0, a0, v1, a1]: [f64; 4]| {
-        let mut given = vec![[None; 2]; count];
-        for (end, values) in [(0, [v0, a0]), (count - 1, [v1, a1])] {
-            if let Some(given) = given.get_mut(end) {
-                *given = values.map(Some);
-            }
-        }
-        least_jerk(intervals, &given)
-    };
     let length = (knots.last().unwrap_or(&1.0) - knots.first().unwrap_or(&0.0)) / mean(count);
-    let unit = |index: usize| {
-        let size = if index.is_multiple_of(2) { 1.0 / length } else { 1.0 / (length * length) };
-        [0, 1, 2, 3].map(|other| if other == index { size } else { 0.0 })
-    };
-    let columns = [0, 1, 2, 3].map(|index| jumps(&flat, &solved(&flat, unit(index)), count));
+    let (v, a) = (1.0 / length, 1.0 / (length * length));
+    let units = [[v, 0.0, 0.0, 0.0], [0.0, a, 0.0, 0.0], [0.0, 0.0, v, 0.0], [0.0, 0.0, 0.0, a]];
+    // The spline is linear in the values given at its ends.
+    let columns = units.map(|ends| jumps(&flat, &between_ends(&flat, count, ends), count));
     let mut ends = [0.0; 4];
     // The second pass removes the rounding of the first.
     for _ in 0..2 {
-        let left = jumps(&intervals, &solved(&intervals, ends), count);
+        let left = jumps(&intervals, &between_ends(&intervals, count, ends), count);
         let steps = solve_four(&columns, left);
-        for (index, step) in steps.into_iter().enumerate() {
-            for (end, unit) in ends.iter_mut().zip(unit(index)) {
+        for (unit, step) in units.into_iter().zip(steps) {
+            for (end, unit) in ends.iter_mut().zip(unit) {
                 *end -= step * unit;
             }
         }
     }
-    solved(&intervals, ends)
+    between_ends(&intervals, count, ends)
+}
+
+/// The spline of least jerk of an open chain with given velocity and acceleration at its first and at its last node.
+fn between_ends(intervals: &[NodeInterval], count: usize, [v0, a0, v1, a1]: [f64; 4]) -> Vec<[f64; 2]> {
+    let mut given = vec![[None; 2]; count];
+    for (end, values) in [(0, [v0, a0]), (count - 1, [v1, a1])] {
+        if let Some(given) = given.get_mut(end) {
+            *given = values.map(Some);
+        }
+    }
+    least_jerk(intervals, &given)
 }
 
 #[expect(clippy::cast_precision_loss, reason = "at most some ten thousand knots")]
@@ -142,37 +147,30 @@ fn mean(count: usize) -> f64 {
 
 /// By how much the fifth derivative jumps at the two knots next to either end, times the widths to the fifth.
 fn jumps(intervals: &[NodeInterval], states: &[[f64; 2]], count: usize) -> [f64; 4] {
-    let of = |index: usize| {
-        let (interval, from, to) =
-            (intervals.get(index).copied().flatten()?, states.get(index)?, states.get(index + 1)?);
-        Some((fifth(interval, *from, *to), interval.0))
-    };
-    [1, 2, count - 3, count - 2].map(|knot| match (of(knot - 1), of(knot)) {
-        (Some((before, a)), Some((after, b))) => {
-            let width = a.min(b);
-            (after - before) * width * width * width * width * width
-        }
-        _ => 0.0,
+    [1, 2, count - 3, count - 2].map(|knot| {
+        let around = [knot - 1, knot].map(|index| {
+            let (interval, from, to) =
+                (intervals.get(index).copied().flatten()?, states.get(index)?, states.get(index + 1)?);
+            Some((fifth(interval, *from, *to), interval.0))
+        });
+        let [Some((before, a)), Some((after, b))] = around else { return 0.0 };
+        let width = a.min(b);
+        (after - before) * width * width * width * width * width
     })
 }
 
 /// x with Σ columnsₖ xₖ = right, by Gauss elimination with pivots.
 fn solve_four(columns: &[[f64; 4]; 4], right: [f64; 4]) -> [f64; 4] {
-    let entry = |row: usize, column: usize| columns.get(column).and_then(|list| list.get(row)).copied().unwrap_or(0.0);
-    let mut rows: Vec<[f64; 5]> = [0, 1, 2, 3]
-        .iter()
-        .zip(right)
-        .map(|(&row, right)| [entry(row, 0), entry(row, 1), entry(row, 2), entry(row, 3), right])
-        .collect();
-    let of = |row: &[f64; 5], column: usize| row.get(column).copied().unwrap_or(0.0);
+    let [[a0, a1, a2, a3], [b0, b1, b2, b3], [c0, c1, c2, c3], [d0, d1, d2, d3]] = *columns;
+    let [r0, r1, r2, r3] = right;
+    let mut rows = vec![[a0, b0, c0, d0, r0], [a1, b1, c1, d1, r1], [a2, b2, c2, d2, r2], [a3, b3, c3, d3, r3]];
     let mut done: Vec<[f64; 5]> = Vec::new();
     for column in 0..4 {
-        let largest =
-            |a: &(usize, &[f64; 5]), b: &(usize, &[f64; 5])| of(a.1, column).abs().total_cmp(&of(b.1, column).abs());
-        let Some(pivot) = rows.iter().enumerate().max_by(largest).map(|(index, _)| index) else { break };
+        let sizes = rows.iter().map(|row| row[column].abs()).enumerate();
+        let Some((pivot, _)) = sizes.max_by(|(_, a), (_, b)| a.total_cmp(b)) else { break };
         let pivot = rows.swap_remove(pivot);
         for row in &mut rows {
-            let factor = of(row, column) / of(&pivot, column);
+            let factor = row[column] / pivot[column];
             for (value, above) in row.iter_mut().zip(pivot) {
                 *value -= factor * above;
             }
@@ -183,7 +181,7 @@ fn solve_four(columns: &[[f64; 4]; 4], right: [f64; 4]) -> [f64; 4] {
     for (column, row) in done.iter().enumerate().rev() {
         let known: f64 = row.iter().zip(solution).skip(column + 1).map(|(factor, value)| factor * value).sum();
         if let Some(slot) = solution.get_mut(column) {
-            *slot = (row[4] - known) / of(row, column);
+            *slot = (row[4] - known) / row[column];
         }
     }
     solution
@@ -198,7 +196,7 @@ fn of_polynomial(knots: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
         row = row.iter().zip(row.iter().skip(1)).zip(spans).map(|((a, b), span)| (b - a) / span).collect();
         coefficients.extend(row.first());
     }
-    let at = |x: f64| {
+    let states = knots.iter().map(|x| {
         let (mut value, mut first, mut second) = (0.0, 0.0, 0.0);
         for (coefficient, knot) in coefficients.iter().zip(knots).rev() {
             let t = x - knot;
@@ -207,8 +205,8 @@ fn of_polynomial(knots: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
             value = value * t + coefficient;
         }
         [first, second]
-    };
-    knots.iter().map(|knot| at(*knot)).collect()
+    });
+    states.collect()
 }
 
 #[cfg(test)]

@@ -102,10 +102,11 @@ impl<F: Fn(f64, u32) -> Vec<f64>> LeastPeakProblem<F> {
 
     /// Where the sum can have its peak.
     fn tops(&self, weights: &[f64]) -> Vec<LocalExtreme> {
-        let slope = |place: f64| self.at(weights, place, 1);
-        let nodes: Vec<(f64, f64)> = (0..=self.cells).map(|cell| self.place(cell)).map(|at| (at, slope(at))).collect();
+        let places = (0..=self.cells).map(|cell| self.place(cell));
+        let nodes: Vec<(f64, f64)> = places.map(|at| (at, self.at(weights, at, 1))).collect();
         let cells = nodes.iter().zip(nodes.iter().skip(1)).filter(|(low, high)| low.1 * high.1 <= 0.0);
-        let inner = cells.filter_map(|(low, high)| root::bracketed(slope, low.0, high.0, 0.0).ok());
+        let inner =
+            cells.filter_map(|(low, high)| root::bracketed(|at| self.at(weights, at, 1), low.0, high.0, 0.0).ok());
         let all = inner.map(|at| (at, true)).chain([(self.range.0, false), (self.range.1, false)]);
         all.map(|(at, inner)| LocalExtreme { at, value: self.at(weights, at, 0), inner }).collect()
     }
@@ -113,15 +114,14 @@ impl<F: Fn(f64, u32) -> Vec<f64>> LeastPeakProblem<F> {
     /// The weights of least peak on a set of places, that peak, and the prices of the places: above 0 for a place where the sum is positive,
     /// below where it is negative.
     fn program(&self, places: &[f64]) -> Option<(Vec<f64>, f64, Vec<f64>)> {
-        let row = |place: f64, sign: f64| {
+        let mut rows = Vec::with_capacity(2 * places.len());
+        for (place, sign) in places.iter().flat_map(|place| [(*place, 1.0), (*place, -1.0)]) {
             let all: Vec<f64> = (self.functions)(place, 0).iter().map(|value| sign * value).collect();
             let (own, others) = all.split_first()?;
             // A weight of any sign is the difference of two that are not negative.
             let coefficients = others.iter().copied().chain(others.iter().map(|value| -value)).chain([-1.0]).collect();
-            Some(Inequality { coefficients, right: -own })
-        };
-        let rows: Vec<Inequality> =
-            places.iter().flat_map(|place| [row(*place, 1.0), row(*place, -1.0)]).collect::<Option<_>>()?;
+            rows.push(Inequality { coefficients, right: -own });
+        }
         let bound = 2 * self.others;
         let costs: Vec<f64> = (0..=bound).map(|index| if index == bound { 1.0 } else { 0.0 }).collect();
         let found = simplex::least(&costs, &rows, &[bound])?;
@@ -150,11 +150,12 @@ impl<F: Fn(f64, u32) -> Vec<f64>> LeastPeakProblem<F> {
     fn step(&self, point: &mut NewtonPoint) -> Option<f64> {
         let (others, count) = (self.others, point.bindings.len());
         let unknowns = others + 1 + 2 * count;
-        let (place, price) = (|index: usize| others + 1 + index, |index: usize| others + 1 + count + index);
         let mut equations: Vec<(Vec<f64>, f64)> = vec![(vec![0.0; unknowns], 0.0); others];
         let mut whole = (vec![0.0; unknowns], 1.0);
         for (index, binding) in point.bindings.iter().enumerate() {
             let sign = binding.sign;
+            // Columns of the unknowns of this extreme.
+            let (place, price) = (others + 1 + index, others + 1 + count + index);
             let [values, slopes] = [0, 1].map(|order| (self.functions)(binding.at, order));
             let [value, slope, bend] = [0, 1, 2].map(|order| self.at(&point.weights, binding.at, order));
             // The peak is reached there …
@@ -166,14 +167,14 @@ impl<F: Fn(f64, u32) -> Vec<f64>> LeastPeakProblem<F> {
                 *flat.get_mut(own)? = if binding.inner { *slope } else { 0.0 };
                 // The prices admit no direction of descent.
                 let (row, right) = equations.get_mut(own)?;
-                *row.get_mut(place(index))? = if binding.inner { binding.price * sign * slope } else { 0.0 };
-                *row.get_mut(price(index))? = sign * value;
+                *row.get_mut(place)? = if binding.inner { binding.price * sign * slope } else { 0.0 };
+                *row.get_mut(price)? = sign * value;
                 *right -= binding.price * sign * value;
             }
             *reached.get_mut(others)? = -1.0;
-            *reached.get_mut(place(index))? = if binding.inner { sign * slope } else { 0.0 };
-            *flat.get_mut(place(index))? = if binding.inner { bend } else { 1.0 };
-            *whole.0.get_mut(price(index))? = 1.0;
+            *reached.get_mut(place)? = if binding.inner { sign * slope } else { 0.0 };
+            *flat.get_mut(place)? = if binding.inner { bend } else { 1.0 };
+            *whole.0.get_mut(price)? = 1.0;
             whole.1 -= binding.price;
             equations.push((reached, point.peak - sign * value));
             equations.push((flat, if binding.inner { -slope } else { 0.0 }));
@@ -189,8 +190,9 @@ impl<F: Fn(f64, u32) -> Vec<f64>> LeastPeakProblem<F> {
             binding.at = (binding.at + at).clamp(self.range.0, self.range.1);
             binding.price += price;
         }
-        let size = |all: &[f64]| all.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-        Some(size(weights) / size(&point.weights))
+        let [change, size] =
+            [weights, &point.weights].map(|all| all.iter().fold(0.0_f64, |largest, value| largest.max(value.abs())));
+        Some(change / size)
     }
 }
 

@@ -135,13 +135,13 @@ pub fn sinc(x: f64) -> f64 {
 pub fn spherical_bessel(z: f64, count: usize) -> Vec<f64> {
     let orders = u32::try_from(count).unwrap_or(u32::MAX);
     let size = z.abs();
-    let sign = |n: u32| if z < 0.0 && !n.is_multiple_of(2) { -1.0 } else { 1.0 };
+    let odd_sign = if z < 0.0 { -1.0 } else { 1.0 };
     if size > f64::from(orders) {
         let (sin, cos) = libm::sincos(size);
         let (mut here, mut next) = (sin / size, (sin / size - cos) / size);
         let mut all = Vec::with_capacity(count);
         for n in 0..orders {
-            all.push(sign(n) * here);
+            all.push(if n.is_multiple_of(2) { here } else { odd_sign * here });
             (here, next) = (next, (2.0 * f64::from(n) + 3.0) / size * next - here);
         }
         return all;
@@ -163,9 +163,9 @@ pub fn spherical_bessel(z: f64, count: usize) -> Vec<f64> {
     let zeroth = if sin.abs() > 0.1 * size.min(1.0) { sin / size } else { -cos / (size * ratio - 1.0) };
     let mut value = zeroth;
     let mut all: Vec<f64> = vec![value];
-    for (n, ratio) in (1..).zip(ratios.iter().rev()) {
+    for (n, ratio) in (1_u32..).zip(ratios.iter().rev()) {
         value *= ratio;
-        all.push(sign(n) * value);
+        all.push(if n.is_multiple_of(2) { value } else { odd_sign * value });
     }
     all
 }

@@ -77,15 +77,16 @@ impl Outlier {
 #[must_use]
 pub fn ring(rows: &[(f64, f64)], rests: &[bool], period: f64) -> Vec<Sample> {
     let own = chain(rows, rests);
-    let shifted = |samples: &[Sample], by: f64| -> Vec<Sample> {
-        samples.iter().map(|sample| Sample { at: sample.at + by, row: None, ..*sample }).collect()
-    };
     let count = own.len();
     // The last row of a ring is its first.
     let inner = own.get(..count.saturating_sub(1)).unwrap_or_default();
     let before = inner.get(inner.len().saturating_sub(AROUND)..).unwrap_or_default();
     let after = inner.get(..AROUND.min(inner.len())).unwrap_or_default();
     [shifted(before, -period), inner.to_vec(), shifted(after, period)].concat()
+}
+
+fn shifted(samples: &[Sample], by: f64) -> Vec<Sample> {
+    samples.iter().map(|sample| Sample { at: sample.at + by, row: None, ..*sample }).collect()
 }
 
 /// Samples of rows, with more on each rest.
@@ -115,15 +116,17 @@ fn resting((from, to): (f64, f64), value: f64, spacing: f64) -> Vec<Sample> {
 /// A chain continued at a level before its first sample, or after its last.
 #[must_use]
 pub fn at_rest(samples: Vec<Sample>, spacing: f64, [before, after]: [bool; 2]) -> Vec<Sample> {
-    let steps = || (1..=u32::try_from(AROUND).unwrap_or(0)).map(f64::from);
-    let beside = |sample: Option<&Sample>, by: f64| -> Vec<Sample> {
-        let Some(sample) = sample else { return Vec::new() };
-        steps().map(|step| Sample { at: sample.at + by * step * spacing, value: sample.value, row: None }).collect()
-    };
-    let mut first = if before { beside(samples.first(), -1.0) } else { Vec::new() };
+    let mut first = level(samples.first().filter(|_| before), -1.0, spacing);
     first.reverse();
-    let last = if after { beside(samples.last(), 1.0) } else { Vec::new() };
+    let last = level(samples.last().filter(|_| after), 1.0, spacing);
     [first, samples, last].concat()
+}
+
+/// Samples of the value of one, continued from it forwards (1) or backwards (−1).
+fn level(sample: Option<&Sample>, direction: f64, spacing: f64) -> Vec<Sample> {
+    let Some(sample) = sample else { return Vec::new() };
+    let steps = (1..=u32::try_from(AROUND).unwrap_or(0)).map(f64::from);
+    steps.map(|step| Sample { at: sample.at + direction * step * spacing, value: sample.value, row: None }).collect()
 }
 
 /// Sensitivity to small errors.
@@ -200,7 +203,7 @@ impl<'a> Judge<'a> {
         let fine = self.many && self.is_even(index)?;
         let scatter = self.overall.max(self.scatter_near(index));
         let noise = if scatter > BEYOND_ROUNDING * self.rounding { OF_SCATTER * scatter } else { 0.0 };
-        let of_order = |order: usize| {
+        let both = (0..SIDES.len()).filter_map(|order| {
             let side = SIDES.get(order)?;
             let (first, last) = (index.checked_sub(2 * side + 1)?, index + 2 * side + 1);
             let around = self.samples.get(first..=last)?;
@@ -211,24 +214,24 @@ impl<'a> Judge<'a> {
             let shown =
                 others.windows(2 * side + 1).map(|window| Difference::of(window).value.abs()).fold(0.0, f64::max);
             let off = own.value / weight;
-            let is_corner = || self.jump(index, off).is_none_or(|jump| off.abs() <= jump);
-            let times = if fine && !is_corner() { FINE } else { COARSE };
+            let is_fine = fine && self.jump(index, off).is_some_and(|jump| !(off.abs() <= jump));
+            let times = if is_fine { FINE } else { COARSE };
             let allowed = (times.get(order)? * shown / weight.abs())
                 .max(noise * own.size / weight.abs())
                 .max(OF_ROUNDING * self.rounding)
                 .max(LEAST * self.range)
                 .max(f64::MIN_POSITIVE);
             Some(Outlier { row, off, allowed })
-        };
-        let both = (0..SIDES.len()).filter_map(of_order);
+        });
         both.reduce(|a, b| if b.share() > a.share() { b } else { a })
     }
 
     /// Whether the samples around one are evenly spaced.
     fn is_even(&self, index: usize) -> Option<bool> {
         let around = self.samples.get(index.checked_sub(AROUND)?..=index + AROUND)?;
-        let widths = || around.windows(2).filter_map(|pair| Some(pair.last()?.at - pair.first()?.at));
-        let (least, most) = (widths().fold(f64::INFINITY, f64::min), widths().fold(0.0, f64::max));
+        let widths = around.windows(2).filter_map(|pair| Some(pair.last()?.at - pair.first()?.at));
+        let (least, most) =
+            widths.fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), width| (least.min(width), most.max(width)));
         Some(most <= EVEN * least)
     }
 
@@ -255,9 +258,11 @@ impl<'a> Judge<'a> {
 
     /// Three samples on one side of a sample, beginning `from` samples away.
     fn three(&self, index: usize, from: usize, after: bool) -> Option<[Sample; 3]> {
-        let place = |by: usize| if after { Some(index + by) } else { index.checked_sub(by) };
-        let sample = |by: usize| self.samples.get(place(from + by)?).copied();
-        Some([sample(0)?, sample(1)?, sample(2)?])
+        let [first, second, third] = [from, from + 1, from + 2].map(|by| {
+            let place = if after { index + by } else { index.checked_sub(by)? };
+            self.samples.get(place).copied()
+        });
+        Some([first?, second?, third?])
     }
 }
 
@@ -288,11 +293,11 @@ struct Difference {
 
 impl Difference {
     fn of(samples: &[Sample]) -> Self {
-        let weight = |own: usize, at: f64| {
+        let weights = samples.iter().enumerate().map(|(own, sample)| {
             let others = samples.iter().enumerate().filter(|(other, _)| *other != own);
-            1.0 / others.map(|(_, other)| at - other.at).product::<f64>()
-        };
-        let weights: Vec<f64> = samples.iter().enumerate().map(|(own, sample)| weight(own, sample.at)).collect();
+            1.0 / others.map(|(_, other)| sample.at - other.at).product::<f64>()
+        });
+        let weights: Vec<f64> = weights.collect();
         let value = weights.iter().zip(samples).map(|(weight, sample)| weight * sample.value).sum();
         let size = weights.iter().map(|weight| weight * weight).sum::<f64>().sqrt();
         Self { value, weights, size }

@@ -25,13 +25,12 @@ struct Tableau {
 
 impl Tableau {
     fn new(costs: &[f64], rows: &[Inequality]) -> Self {
-        let slack = |row: usize| (0..rows.len()).map(move |other| if other == row { 1.0 } else { 0.0 });
+        let with_slacks = rows.iter().enumerate().map(|(index, row)| {
+            let slacks = (0..rows.len()).map(|other| if other == index { 1.0 } else { 0.0 });
+            row.coefficients.iter().copied().chain(slacks).chain([row.right]).collect()
+        });
         Self {
-            rows: rows
-                .iter()
-                .enumerate()
-                .map(|(index, row)| row.coefficients.iter().copied().chain(slack(index)).chain([row.right]).collect())
-                .collect(),
+            rows: with_slacks.collect(),
             costs: costs.iter().copied().chain(vec![0.0; rows.len() + 1]).collect(),
             basis: (0..rows.len()).map(|row| costs.len() + row).collect(),
         }
@@ -60,15 +59,9 @@ impl Tableau {
 
     /// Makes every right side positive in the rows that contain −1 in a column.
     fn relieve(&mut self, column: usize) {
-        let right = |row: &Vec<f64>| row.last().copied().unwrap_or(0.0);
-        let holds = |row: &Vec<f64>| row.get(column).is_some_and(|value| *value == -1.0);
-        let worst = self
-            .rows
-            .iter()
-            .enumerate()
-            .filter(|(_, row)| holds(row) && right(row) < 0.0)
-            .min_by(|(_, a), (_, b)| right(a).total_cmp(&right(b)));
-        if let Some(row) = worst.map(|(row, _)| row) {
+        let holding = self.rows.iter().enumerate().filter(|(_, row)| row.get(column).is_some_and(|c| *c == -1.0));
+        let negative = holding.map(|(index, row)| (index, right_side(row))).filter(|(_, right)| *right < 0.0);
+        if let Some((row, _)) = negative.min_by(|(_, a), (_, b)| a.total_cmp(b)) {
             self.pivot(row, column);
         }
     }
@@ -81,18 +74,16 @@ impl Tableau {
     }
 
     fn leaving(&self, column: usize) -> Option<usize> {
-        let ratio = |row: &Vec<f64>| {
+        let ratios = self.rows.iter().zip(&self.basis).enumerate().filter_map(|(index, (row, basic))| {
             let coefficient = row.get(column).copied().unwrap_or(0.0);
-            (coefficient > SMALL).then(|| row.last().copied().unwrap_or(0.0).max(0.0) / coefficient)
-        };
-        self.rows
-            .iter()
-            .zip(&self.basis)
-            .enumerate()
-            .filter_map(|(index, (row, basic))| Some((index, ratio(row)?, *basic)))
-            .min_by(|a, b| a.1.total_cmp(&b.1).then(a.2.cmp(&b.2)))
-            .map(|(index, ..)| index)
+            (coefficient > SMALL).then(|| (index, right_side(row).max(0.0) / coefficient, *basic))
+        });
+        ratios.min_by(|a, b| a.1.total_cmp(&b.1).then(a.2.cmp(&b.2))).map(|(index, ..)| index)
     }
+}
+
+fn right_side(row: &[f64]) -> f64 {
+    row.last().copied().unwrap_or(0.0)
 }
 
 /// The optimum of a linear program.

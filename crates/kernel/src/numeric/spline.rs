@@ -21,18 +21,14 @@ impl Spline {
     #[must_use]
     pub fn clamped(knots: &[f64], values: &[f64], ends: (f64, f64)) -> Self {
         let (h, d) = (widths(knots), slopes(knots, values));
-        let at = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(0.0);
         let last = h.len();
         // The first and the last row hold the slopes at the ends.
-        Self::with_second(
-            knots,
-            values,
-            &tridiagonal((0..=last).map(|i| match i {
-                0 => [0.0, 2.0 * at(&h, 0), at(&h, 0), 6.0 * (at(&d, 0) - ends.0)],
-                i if i == last => [at(&h, i - 1), 2.0 * at(&h, i - 1), 0.0, 6.0 * (ends.1 - at(&d, i - 1))],
-                i => inner_row(at(&h, i - 1), at(&h, i), at(&d, i) - at(&d, i - 1)),
-            })),
-        )
+        let rows = (0..=last).map(|i| match i {
+            0 => [0.0, 2.0 * entry(&h, 0), entry(&h, 0), 6.0 * (entry(&d, 0) - ends.0)],
+            i if i == last => [entry(&h, i - 1), 2.0 * entry(&h, i - 1), 0.0, 6.0 * (ends.1 - entry(&d, i - 1))],
+            i => inner_row(entry(&h, i - 1), entry(&h, i), entry(&d, i) - entry(&d, i - 1)),
+        });
+        Self::with_second(knots, values, &tridiagonal(rows))
     }
 
     /// Through `values` at `knots` over one period, the last value that of the first; three intervals or more.
@@ -77,8 +73,7 @@ impl Spline {
                 else {
                     return f64::NAN;
                 };
-                let knot = |n: usize| full.get(control + n).copied().unwrap_or(f64::NAN) - start;
-                let (a, b, c) = (knot(1), knot(2), knot(3));
+                let [a, b, c] = [1, 2, 3].map(|n| full.get(control + n).copied().unwrap_or(f64::NAN) - start);
                 c0 + c1 * (a + b + c) / 3.0 + c2 * (a * b + b * c + c * a) / 3.0 + c3 * a * b * c
             })
             .collect()
@@ -128,21 +123,20 @@ pub fn bspline_basis(knots: &[f64], x: f64) -> (usize, [f64; 4], [f64; 4]) {
     let span = knots.partition_point(|knot| *knot <= x).saturating_sub(1).clamp(3, last);
     // Three knots to either side of x.
     let near = knots.get(span - 2..).and_then(|knots| knots.first_chunk::<6>()).unwrap_or(&[f64::NAN; 6]);
-    let left = |j: usize| x - near[3 - j];
-    let right = |j: usize| near[2 + j] - x;
     let (mut basis, mut slopes) = ([1.0, 0.0, 0.0, 0.0], [0.0; 4]);
     for degree in 1..=3_usize {
         let (mut saved, mut lower) = (0.0, 0.0);
         for r in 0..degree {
-            let width = right(r + 1) + left(degree - r);
+            let (right, left) = (near[3 + r] - x, x - near[3 + r - degree]);
+            let width = right + left;
             let value = basis[r] / width;
             if degree == 3 {
                 // Slope 3 (Nᵢ/(tᵢ₊₃ − tᵢ) − Nᵢ₊₁/(tᵢ₊₄ − tᵢ₊₁)).
                 slopes[r] = 3.0 * (lower - value);
                 lower = value;
             }
-            basis[r] = saved + right(r + 1) * value;
-            saved = left(degree - r) * value;
+            basis[r] = saved + right * value;
+            saved = left * value;
         }
         basis[degree] = saved;
         slopes[3] = 3.0 * lower;
@@ -205,17 +199,32 @@ fn cyclic(h: &[f64], d: &[f64]) -> Vec<f64> {
             [if index == 0 { 0.0 } else { below }, diagonal, if index == end { 0.0 } else { above }, bend]
         })
         .collect();
-    let corner = |index: usize| match index {
-        0 => gamma,
-        index if index == end => last,
-        _ => 0.0,
-    };
     let solved = tridiagonal(rows.iter().copied());
-    let other = tridiagonal(rows.iter().enumerate().map(|(index, [a, b, c, _])| [*a, *b, *c, corner(index)]));
-    let along =
-        |list: &[f64]| list.first().copied().unwrap_or(0.0) + last * list.last().copied().unwrap_or(0.0) / gamma;
-    let factor = along(&solved) / (1.0 + along(&other));
+    let other = tridiagonal(rows.iter().enumerate().map(|(index, [a, b, c, _])| {
+        let corner = match index {
+            0 => gamma,
+            index if index == end => last,
+            _ => 0.0,
+        };
+        [*a, *b, *c, corner]
+    }));
+    let [along_solved, along_other] = [&solved, &other]
+        .map(|list| list.first().copied().unwrap_or(0.0) + last * list.last().copied().unwrap_or(0.0) / gamma);
+    let factor = along_solved / (1.0 + along_other);
     solved.iter().zip(&other).map(|(value, other)| value - factor * other).collect()
+}
+
+/// The second derivative at an end knot, from those at the two knots next to it and the two widths there.
+fn outer_second(second: [Option<&f64>; 2], widths: [Option<&f64>; 2]) -> f64 {
+    match (second, widths) {
+        ([Some(m1), Some(m2)], [Some(a), Some(b)]) => ((a + b) * m1 - a * m2) / b,
+        ([Some(m1), None], _) => *m1,
+        _ => 0.0,
+    }
+}
+
+fn entry(list: &[f64], index: usize) -> f64 {
+    list.get(index).copied().unwrap_or(0.0)
 }
 
 /// The second derivatives at the knots. With the end conditions M₀ = ((a+b) M₁ − a M₂)/b the outer unknowns are folded
@@ -223,10 +232,9 @@ fn cyclic(h: &[f64], d: &[f64]) -> Vec<f64> {
 fn second_derivatives(knots: &[f64], values: &[f64]) -> Vec<f64> {
     let (h, d) = (widths(knots), slopes(knots, values));
     let inner = knots.len().saturating_sub(2);
-    let at = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(0.0);
-    let row = |i: usize| {
-        let (a, b) = (at(&h, i), at(&h, i + 1));
-        let [mut below, mut diagonal, mut above, right] = inner_row(a, b, at(&d, i + 1) - at(&d, i));
+    let second = tridiagonal((0..inner).map(|i| {
+        let (a, b) = (entry(&h, i), entry(&h, i + 1));
+        let [mut below, mut diagonal, mut above, right] = inner_row(a, b, entry(&d, i + 1) - entry(&d, i));
         if inner == 1 {
             // Three knots: a parabola, one second derivative.
             return [0.0, 3.0 * (a + b), 0.0, right];
@@ -240,15 +248,9 @@ fn second_derivatives(knots: &[f64], values: &[f64]) -> Vec<f64> {
             below -= b * b / a;
         }
         [below, diagonal, above, right]
-    };
-    let second = tridiagonal((0..inner).map(row));
-    let end = |m1: Option<&f64>, m2: Option<&f64>, a: Option<&f64>, b: Option<&f64>| match (m1, m2, a, b) {
-        (Some(m1), Some(m2), Some(a), Some(b)) => ((a + b) * m1 - a * m2) / b,
-        (Some(m1), None, ..) => *m1,
-        _ => 0.0,
-    };
-    let first = end(second.first(), second.get(1), h.first(), h.get(1));
-    let last = end(second.last(), second.iter().nth_back(1), h.last(), h.iter().nth_back(1));
+    }));
+    let first = outer_second([second.first(), second.get(1)], [h.first(), h.get(1)]);
+    let last = outer_second([second.last(), second.iter().nth_back(1)], [h.last(), h.iter().nth_back(1)]);
     std::iter::once(first).chain(second).chain([last]).collect()
 }
 

@@ -72,13 +72,6 @@ pub fn of_cutter(curves: Curves<'_>, cutter_radius: f64) -> Result<Vec<BoundaryS
     let (pieces, period) = (curves.motion.pieces(), curves.motion.period());
     let corners = extremes::corners(curves);
     let parallel = Parallel { curves, distance };
-    let arc = |start: Vector2<f64>, end: Vector2<f64>, turn: f64| {
-        BoundaryStretch::of_segment(Segment {
-            start: start * MILLIMETRES,
-            end: end * MILLIMETRES,
-            bulge: libm::tan(0.25 * turn),
-        })
-    };
     let mut all = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
         let ranges = outline::parts(piece, &spans, period);
@@ -86,7 +79,7 @@ pub fn of_cutter(curves: Curves<'_>, cutter_radius: f64) -> Result<Vec<BoundaryS
             all.extend(cut(index, piece, *range, period.is_none()));
             if let Some(gap) = gaps.iter().find(|gap| gap.arc != 0.0 && outline::starts_at(gap, range.1, period)) {
                 let start = parallel.in_piece(index, range.1).point;
-                all.push(arc(start, parallel.at(gap.to, BreakSide::After).point, gap.arc));
+                all.push(arc_stretch(start, parallel.at(gap.to, BreakSide::After).point, gap.arc));
             }
         }
         let whole = ranges.last().is_some_and(|range| range.1 == piece.end);
@@ -96,10 +89,19 @@ pub fn of_cutter(curves: Curves<'_>, cutter_radius: f64) -> Result<Vec<BoundaryS
             && whole
         {
             let start = parallel.in_piece(index, piece.end).point;
-            all.push(arc(start, parallel.at(piece.end, BreakSide::After).point, corner.turn));
+            all.push(arc_stretch(start, parallel.at(piece.end, BreakSide::After).point, corner.turn));
         }
     }
     Ok(all)
+}
+
+/// An arc between two points (m) that turns by an angle (rad), in millimetres.
+fn arc_stretch(start: Vector2<f64>, end: Vector2<f64>, turn: f64) -> BoundaryStretch {
+    BoundaryStretch::of_segment(Segment {
+        start: start * MILLIMETRES,
+        end: end * MILLIMETRES,
+        bulge: libm::tan(0.25 * turn),
+    })
 }
 
 /// A range of a piece as stretches; the dwell of a cam without rotation is straight.

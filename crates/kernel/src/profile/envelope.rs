@@ -116,22 +116,22 @@ impl Parallel<'_> {
         self.in_piece(piece, inside)
     }
 
+    fn loop_of(&self, fold: (f64, f64)) -> Result<ParallelLoop, NoEnvelope> {
+        Branches::new(*self, fold).crossing().ok_or(NoEnvelope { parameter: fold.0 })
+    }
+
     /// Every loop of the curve, in the order of the parameter.
     pub(crate) fn loops(&self) -> Result<Vec<ParallelLoop>, NoEnvelope> {
         let mut found: Vec<((f64, f64), ParallelLoop)> = Vec::new();
         for mut fold in folds(*self) {
-            let loop_of = |fold: (f64, f64)| {
-                let loop_of = Branches::new(*self, fold).crossing();
-                loop_of.ok_or(NoEnvelope { parameter: fold.0 })
-            };
             if found.last().is_some_and(|(_, last)| fold.1 <= last.to) {
                 continue;
             }
-            let mut next = loop_of(fold)?;
+            let mut next = self.loop_of(fold)?;
             // Loops that overlap become one.
             while let Some((before, _)) = found.pop_if(|(_, last)| next.from < last.to) {
                 fold.0 = before.0;
-                next = loop_of(fold)?;
+                next = self.loop_of(fold)?;
             }
             found.push((fold, next));
         }
@@ -217,12 +217,12 @@ impl<'a> Branches<'a> {
     /// Where the branches cross.
     fn crossing(&self) -> Option<ParallelLoop> {
         let (low, high) = (self.step.dot(&self.along), 0.0);
-        let point = self.step.norm() <= POINT * self.origin.norm();
-        let as_point = || point.then_some(ParallelLoop { from: self.fold.0, to: self.fold.1 });
+        let is_point = self.step.norm() <= POINT * self.origin.norm();
+        let as_point = is_point.then_some(ParallelLoop { from: self.fold.0, to: self.fold.1 });
         if !(low < high) {
-            return as_point();
+            return as_point;
         }
-        let (Some(left), Some(right)) = (self.reach(-1.0, low), self.reach(1.0, high)) else { return as_point() };
+        let (Some(left), Some(right)) = (self.reach(-1.0, low), self.reach(1.0, high)) else { return as_point };
         let start = |place: f64| {
             root::bracketed(|at| self.before(at).dot(&self.along) - place, left, self.fold.0, 0.0).unwrap_or(f64::NAN)
         };
@@ -236,7 +236,7 @@ impl<'a> Branches<'a> {
             0.0,
         ) {
             Ok(place) => Some(ParallelLoop { from: start(place), to: end(place) }),
-            Err(_) => as_point(),
+            Err(_) => as_point,
         }
     }
 }
@@ -271,9 +271,10 @@ impl Parallel<'_> {
         let motion = self.curves.motion;
         let period = motion.period().unwrap_or(0.0);
         let corners = fold::corners(*self);
-        let turns = [-period, 0.0, period];
-        let within = |at: f64| turns.iter().any(|turn| fold.0 <= at + turn && at + turn <= fold.1);
-        let steps = corners.iter().filter(|corner| within(corner.at)).map(|corner| {
+        let inside = corners.iter().filter(|corner| {
+            [-period, 0.0, period].iter().any(|turn| fold.0 <= corner.at + turn && corner.at + turn <= fold.1)
+        });
+        let steps = inside.map(|corner| {
             let (before, after) = (self.at(corner.at, BreakSide::Before), self.at(corner.at, BreakSide::After));
             (before.outward() - after.outward()) * self.distance
         });
@@ -285,30 +286,33 @@ impl Parallel<'_> {
 fn loss(profile: Parallel<'_>, ParallelLoop { from, to }: ParallelLoop) -> UndercutLoss {
     let curves = profile.curves;
     let edge = profile.at(from, BreakSide::Before).point;
-    let lost = |parameter: f64| {
-        let (piece, inside) = curves.motion.locate(parameter);
-        let law = curves.motion.jet(piece, inside);
-        let contact = curves.follower.touch(inside, &law);
-        let away = contact.curve.point - edge;
-        match curves.element() {
-            Element::Roller { radius } => {
-                let along = away.dot(&contact.drive);
-                along - (along * along - away.norm_squared() + radius * radius).max(0.0).sqrt()
-            }
-            // A face on an arm swings until it lies on the edge.
-            Element::Face if curves.follower.quantity() == Quantity::Angle => {
-                let on_edge = face_lift(curves, inside, law, Guide::Circle(edge, 0.0)).unwrap_or(f64::NAN);
-                (law.s - on_edge) * curves.follower.leverage(&law)
-            }
-            // The face is at a height above the edge; it drops along its drive.
-            Element::Face => {
-                let normal = contact.curve.outward();
-                away.dot(&normal) / contact.drive.dot(&normal)
-            }
-        }
-    };
-    let worst = extremum::largest_without_slope(lost, (from, to), LOSS_CELLS, extremum::TO_ROUNDING);
+    let drop = |parameter: f64| drop_onto(curves, parameter, edge);
+    let worst = extremum::largest_without_slope(drop, (from, to), LOSS_CELLS, extremum::TO_ROUNDING);
     UndercutLoss { from, to, lost: worst.value.max(0.0), lost_at: worst.at }
+}
+
+/// How far the follower drops from its motion onto an edge at a parameter, m.
+fn drop_onto(curves: Curves<'_>, parameter: f64, edge: Vector2<f64>) -> f64 {
+    let (piece, inside) = curves.motion.locate(parameter);
+    let law = curves.motion.jet(piece, inside);
+    let contact = curves.follower.touch(inside, &law);
+    let away = contact.curve.point - edge;
+    match curves.element() {
+        Element::Roller { radius } => {
+            let along = away.dot(&contact.drive);
+            along - (along * along - away.norm_squared() + radius * radius).max(0.0).sqrt()
+        }
+        // A face on an arm swings until it lies on the edge.
+        Element::Face if curves.follower.quantity() == Quantity::Angle => {
+            let on_edge = face_lift(curves, inside, law, Guide::Circle(edge, 0.0)).unwrap_or(f64::NAN);
+            (law.s - on_edge) * curves.follower.leverage(&law)
+        }
+        // The face is at a height above the edge; it drops along its drive.
+        Element::Face => {
+            let normal = contact.curve.outward();
+            away.dot(&normal) / contact.drive.dot(&normal)
+        }
+    }
 }
 
 #[cfg(test)]

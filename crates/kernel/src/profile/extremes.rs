@@ -61,7 +61,8 @@ fn places_along(
     searched: impl Fn(usize) -> bool,
     quantity: impl Fn(usize, f64) -> (f64, f64, Vector2<f64>),
 ) -> Vec<(usize, Vec<extremum::ValueAndSlope>)> {
-    let in_piece = |(index, piece): (usize, &Piece)| {
+    let pieces = curves.motion.distinct().iter().enumerate().filter(|(index, _)| searched(*index));
+    let searched_pieces = pieces.map(|(index, piece)| {
         let at = |at: f64| {
             let (value, slope, direction) = quantity(index, at);
             (extremum::ValueAndSlope { at, value, slope }, direction)
@@ -77,9 +78,8 @@ fn places_along(
             before = Some(next);
         }
         (index, places)
-    };
-    let pieces = curves.motion.distinct().iter().enumerate().filter(|(index, _)| searched(*index));
-    pieces.map(in_piece).collect()
+    });
+    searched_pieces.collect()
 }
 
 /// Adds the places within a cell in which the curve turns much.
@@ -273,8 +273,9 @@ fn largest_curvature(curves: Curves<'_>, searched: impl Fn(usize) -> bool, sign:
         (sign * pitch.curvature, sign * pitch.curvature_slope * pitch.speed, pitch.tangent)
     };
     // Mirrored it is the same.
-    let repeated = |piece: usize| curves.follower.is_symmetric() && curves.motion.repeats(piece).0 != piece;
-    largest_beyond(&places_along(curves, |piece| searched(piece) && !repeated(piece), along), |piece, at| {
+    let symmetric = curves.follower.is_symmetric();
+    let is_first = |piece: usize| searched(piece) && !(symmetric && curves.motion.repeats(piece).0 != piece);
+    largest_beyond(&places_along(curves, is_first, along), |piece, at| {
         let (curvature, slope, _) = along(piece, at);
         (curvature, slope)
     })
@@ -315,11 +316,11 @@ pub fn places_on_face(curves: Curves<'_>) -> Option<[Extremum; 2]> {
 pub fn least_turn(curves: Curves<'_>) -> Option<Extremum> {
     curves.follower.on_face(&Jet::default())?;
     let backwards = largest(curves, everywhere, |piece, at| {
-        let jet = |ds: f64| Jet { ds, ..curves.motion.jet(piece, at) };
         let lift = curves.motion.jet(piece, at);
-        let turn = |ds: f64| curves.follower.on_face(&jet(ds)).map_or(f64::NAN, |face| face.turn);
         // Linear in the velocity.
-        (-turn(lift.ds), -(turn(1.0) - turn(0.0)) * lift.dds)
+        let [turn, at_one, at_rest] = [lift.ds, 1.0, 0.0]
+            .map(|ds| curves.follower.on_face(&Jet { ds, ..lift }).map_or(f64::NAN, |face| face.turn));
+        (-turn, -(at_one - at_rest) * lift.dds)
     });
     Some(Extremum { value: -backwards.value, ..backwards })
 }
@@ -342,14 +343,13 @@ const LEAST_FOLD: f64 = 1e-9;
 pub fn fold(curves: Curves<'_>) -> Option<Extremum> {
     curves.follower.on_face(&Jet::default())?;
     let pieces = curves.motion.pieces();
-    let step = |(index, before): (usize, &Piece)| {
+    let steps = pieces.iter().enumerate().filter_map(|(index, before)| {
         let next = (index + 1) % pieces.len();
         let left = curves.touch(index, before.end).curve;
         let right = curves.touch(next, pieces.get(next)?.start).curve;
         // At the seam the first piece begins a turn earlier.
         Some(Extremum { at: before.end, value: (right.point - left.point).dot(&left.tangent) })
-    };
-    let steps = pieces.iter().enumerate().filter_map(step);
+    });
     steps.filter(|step| step.value < -LEAST_FOLD).min_by(|a, b| a.value.total_cmp(&b.value))
 }
 

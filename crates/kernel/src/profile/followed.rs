@@ -51,6 +51,21 @@ pub(super) enum Guide {
     Curve(Edge),
 }
 
+impl Guide {
+    /// Distance of a point from a circle or line, and the normal there.
+    fn distance(self, point: Vector2<f64>) -> (f64, Vector2<f64>) {
+        match self {
+            Self::Circle(centre, radius) => {
+                let away = point - centre;
+                let distance = away.norm();
+                (distance - radius, away / distance)
+            }
+            Self::Line(on, normal) => ((point - on).dot(&normal), normal),
+            Self::Curve(_) => (f64::NAN, Vector2::zeros()),
+        }
+    }
+}
+
 /// A stretch of the motion over which the contact stays on one segment and the motion on one piece.
 #[derive(Debug, Clone, Copy)]
 struct ContactStretch {
@@ -121,27 +136,25 @@ impl<'a> FollowerOnChain<'a> {
         let mut runs: Vec<(f64, f64, Guide)> = Vec::with_capacity(edges.len());
         let mut last: Option<f64> = None;
         let mut first: Option<(f64, Vector2<f64>)> = None;
-        let corner = |from: f64, to: f64, point: Vector2<f64>| {
-            (from, to, Guide::Circle(point / MILLIMETRES, if face { out } else { out.abs() }))
-        };
+        // Radius at which the follower turns about an edge.
+        let corner_radius = if face { out } else { out.abs() };
         // A shorter segment has an arbitrary direction where its ends were rounded, and is skipped.
         for edge in edges.iter().filter(|edge| edge.length() > LEAST_EDGE) {
-            let near = |parameter: f64, to: f64| period.map_or(parameter, |period| nearest(parameter, to, period));
             let (start, tangent) = (edge.start(), edge.start_tangent());
             let goes_on = ended.filter(|(end, before, _)| *end == start && turn_is_below(SMOOTH, *before, tangent));
             let flat = ended.is_some_and(|(end, before, _)| end == start && turn_is_below(FLAT, before, tangent));
             let from = goes_on.map_or_else(|| parameter(start, tangent), |(.., at)| at);
             let to = parameter(edge.end(), edge.end_tangent());
             ended = Some((edge.end(), edge.end_tangent(), to));
-            let from = last.map_or(from, |last| near(from, last));
+            let from = last.map_or(from, |last| nearest(from, last, period));
             // An arc of a dwell may go round by more than half a turn.
-            let to = near(to, from + edge.turning());
+            let to = nearest(to, from + edge.turning(), period);
             if !(from.is_finite() && to.is_finite()) {
                 last = None;
                 continue;
             }
             first = first.or(Some((from, edge.start())));
-            let from = join(&mut runs, (last, from), flat, &corner, edge.start());
+            let from = join(&mut runs, (last, from), flat, Guide::Circle(edge.start() / MILLIMETRES, corner_radius));
             if let Some(guide) = guide(edge, out, face).filter(|_| to > from) {
                 runs.push((from, to, guide));
             }
@@ -152,7 +165,7 @@ impl<'a> FollowerOnChain<'a> {
         if let (true, Some(period), Some(last), Some((start, point))) = (closed, period, last, first) {
             let tangents = ends.map(|(first, last)| (last.end_tangent(), first.start_tangent()));
             let flat = tangents.is_some_and(|(before, after)| turn_is_below(FLAT, before, after));
-            join_round(&mut runs, (last, start, period), flat, &corner, point);
+            join_round(&mut runs, (last, start, period), flat, Guide::Circle(point / MILLIMETRES, corner_radius));
         }
         let mut stretches = Vec::with_capacity(runs.len() + curves.motion.pieces().len());
         for run in runs {
@@ -231,28 +244,25 @@ impl<'a> FollowerOnChain<'a> {
     pub fn lifts(&self, share: f64) -> Vec<Vec<(f64, Jet, Jet)>> {
         let (first, last) = self.curves.motion.range();
         let longest = (share * (last - first)).max(HAIR);
-        self.stretches
-            .iter()
-            .filter(|stretch| self.is_rolled(stretch))
-            .map(|stretch| {
-                let length = stretch.to - stretch.from;
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a few thousand")]
-                let steps = (length / longest).ceil().clamp(1.0, 1e5) as u32;
-                let place = |step: u32| stretch.from + length * (f64::from(step) / f64::from(steps));
-                (0..=steps)
-                    .map(place)
-                    .filter_map(|parameter| {
-                        let (speed, slowing) = self.curves.motion.pace(parameter + stretch.shift);
-                        let by_angle = |jet: Jet| Jet {
-                            ds: jet.ds * speed,
-                            dds: jet.dds * speed * speed + jet.ds * slowing,
-                            ..jet
-                        };
-                        self.cut(stretch, parameter).map(|(cut, law)| (parameter, by_angle(law), by_angle(cut)))
-                    })
-                    .collect()
-            })
-            .collect()
+        let rolled = self.stretches.iter().filter(|stretch| self.is_rolled(stretch));
+        let lifts = rolled.map(|stretch| {
+            let length = stretch.to - stretch.from;
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a few thousand")]
+            let steps = (length / longest).ceil().clamp(1.0, 1e5) as u32;
+            let places = (0..=steps).map(|step| stretch.from + length * (f64::from(step) / f64::from(steps)));
+            let jets = places.filter_map(|parameter| {
+                let (cut, law) = self.cut(stretch, parameter)?;
+                let (speed, slowing) = self.curves.motion.pace(parameter + stretch.shift);
+                let [law, cut] = [law, cut].map(|jet| Jet {
+                    ds: jet.ds * speed,
+                    dds: jet.dds * speed * speed + jet.ds * slowing,
+                    ..jet
+                });
+                Some((parameter, law, cut))
+            });
+            jets.collect()
+        });
+        lifts.collect()
     }
 
     /// Acceleration of the motion and as cut wherever the follower runs on the chain, by the angle of the shaft: parameter, motion, cut;
@@ -268,8 +278,10 @@ impl<'a> FollowerOnChain<'a> {
             loop {
                 let parameter = stretch.from + at;
                 let (speed, slowing) = self.curves.motion.pace(parameter + stretch.shift);
-                let by_angle = |jet: Jet| jet.dds * speed * speed + jet.ds * slowing;
-                points.extend(self.cut(stretch, parameter).map(|(cut, law)| [parameter, by_angle(law), by_angle(cut)]));
+                if let Some((cut, law)) = self.cut(stretch, parameter) {
+                    let [law, cut] = [law, cut].map(|jet| jet.dds * speed * speed + jet.ds * slowing);
+                    points.push([parameter, law, cut]);
+                }
                 if at >= length {
                     break;
                 }
@@ -287,17 +299,11 @@ fn turn_is_below(angle: f64, before: Vector2<f64>, after: Vector2<f64>) -> bool 
 
 /// Adds the run between the end of the last run and the start of the next, and returns where the next then starts: after a run about the
 /// edge between them, or, where they overlap or the kink is flat, at a common end in the middle, at which the contact jumps.
-fn join(
-    runs: &mut Vec<(f64, f64, Guide)>,
-    (last, from): (Option<f64>, f64),
-    flat: bool,
-    corner: &impl Fn(f64, f64, Vector2<f64>) -> (f64, f64, Guide),
-    point: Vector2<f64>,
-) -> f64 {
+fn join(runs: &mut Vec<(f64, f64, Guide)>, (last, from): (Option<f64>, f64), flat: bool, corner: Guide) -> f64 {
     let Some(last) = last else { return from };
     let turns = from > last && !(flat && from - last > HAIR);
     if turns {
-        runs.push(corner(last, from, point));
+        runs.push((last, from, corner));
     } else if let Some(run) = runs.last_mut() {
         run.1 = (0.5 * (last + from)).max(run.0);
         return if from > last { run.1 } else { run.1.max(from) };
@@ -306,22 +312,16 @@ fn join(
 }
 
 /// Joins the end of the last run to the start of the first, a period later.
-fn join_round(
-    runs: &mut Vec<(f64, f64, Guide)>,
-    (last, start, period): (f64, f64, f64),
-    flat: bool,
-    corner: &impl Fn(f64, f64, Vector2<f64>) -> (f64, f64, Guide),
-    point: Vector2<f64>,
-) {
-    let common = join(runs, (Some(last), start + period), flat, corner, point) - period;
+fn join_round(runs: &mut Vec<(f64, f64, Guide)>, (last, start, period): (f64, f64, f64), flat: bool, corner: Guide) {
+    let common = join(runs, (Some(last), start + period), flat, corner) - period;
     if let Some(run) = runs.first_mut().filter(|run| common < start && common < run.1) {
         run.0 = common;
     }
 }
 
-/// A parameter moved by whole periods to be as near as possible to another.
-pub(super) fn nearest(parameter: f64, to: f64, period: f64) -> f64 {
-    parameter + period * ((to - parameter) / period).round()
+/// A parameter moved by whole periods, if there is one, to be as near as possible to another.
+pub(super) fn nearest(parameter: f64, to: f64, period: Option<f64>) -> f64 {
+    period.map_or(parameter, |period| parameter + period * ((to - parameter) / period).round())
 }
 
 /// The guide along an edge; `None` under a face where no run of the motion belongs to the edge.
@@ -349,7 +349,7 @@ fn touching(curves: Curves<'_>, out: f64, edge: &Edge, parameter: f64) -> Option
         let (point, tangent) = edge.at(share);
         let normal = outward(tangent);
         let here = curves.follower.parameter_of((point + normal * reach) / MILLIMETRES, normal);
-        period.map_or(here, |period| nearest(here, parameter, period)) - parameter
+        nearest(here, parameter, period) - parameter
     };
     let share = if ahead(0.0) >= 0.0 {
         0.0
@@ -422,38 +422,25 @@ pub(super) fn jet_on_guide(curves: Curves<'_>, parameter: f64, law: Jet, guide: 
 /// By Newton's method: the centre moves by the leverage along the drive for a unit of lift, and C' and C'' change by as much for a
 /// unit of its first and second derivative.
 fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<Jet> {
-    // Distance of a point from the guide, and the normal of the guide there.
-    let off = |point: Vector2<f64>| match guide {
-        Guide::Circle(centre, radius) => {
-            let away = point - centre;
-            let distance = away.norm();
-            (distance - radius, away / distance)
-        }
-        Guide::Line(on, normal) => ((point - on).dot(&normal), normal),
-        Guide::Curve(_) => (f64::NAN, Vector2::zeros()),
-    };
+    let follower = curves.follower;
     let turned = libm::sincos(parameter);
-    let touch = |jet: &Jet| curves.follower.touch_turned(parameter, turned, jet).curve;
-    let place = |jet: &Jet| curves.follower.point_turned(parameter, turned, jet);
-    let along_normal =
-        |jet: &Jet, drive: Vector2<f64>, normal: Vector2<f64>| normal.dot(&drive) * curves.follower.leverage(jet);
-    let (mut jet, (mut point, mut drive)) = (law, place(&law));
+    let (mut jet, (mut point, mut drive)) = (law, follower.point_turned(parameter, turned, &law));
     let size = point.norm();
-    let (mut gap, mut normal) = off(point);
+    let (mut gap, mut normal) = guide.distance(point);
     for _ in 0..LIFT_STEPS {
         let last = gap.abs() <= SETTLED * size;
-        jet.s -= gap / along_normal(&jet, drive, normal);
-        (point, drive) = place(&jet);
-        (gap, normal) = off(point);
+        jet.s -= gap / (normal.dot(&drive) * follower.leverage(&jet));
+        (point, drive) = follower.point_turned(parameter, turned, &jet);
+        (gap, normal) = guide.distance(point);
         if last || !(gap.abs() > TOUCHING * size) {
             break;
         }
     }
-    let rate = along_normal(&jet, drive, normal);
-    let curve = touch(&jet);
+    let rate = normal.dot(&drive) * follower.leverage(&jet);
+    let curve = follower.touch_turned(parameter, turned, &jet).curve;
     jet.ds -= curve.speed * normal.dot(&curve.tangent) / rate;
     // C'' along the normal: κ ℓ² to the left of the tangent.
-    let curve = touch(&jet);
+    let curve = follower.touch_turned(parameter, turned, &jet).curve;
     let square = curve.speed * curve.speed;
     let wanted = match guide {
         Guide::Circle(_, radius) => -square / radius,
@@ -489,21 +476,17 @@ fn under_face(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Opt
 /// The lift at which a flat face touches an arc, starting from the law's.
 pub(super) fn face_lift(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<f64> {
     let Guide::Circle(centre, radius) = guide else { return None };
-    let touch = |s: f64| curves.follower.touch(parameter, &Jet { s, ..law }).curve;
     let along_normal = curves.follower.on_face(&law)?.along_normal;
-    let start = touch(law.s);
+    let start = curves.follower.touch(parameter, &law).curve;
     let missing = (centre - start.point).dot(&start.outward()) + radius;
     let mut lift = law.s + missing / along_normal;
     if curves.follower.quantity() == Quantity::Length {
         return Some(lift);
     }
-    let gap = |s: f64| {
-        let curve = touch(s);
-        (curve.point - centre).dot(&curve.outward()) - radius
-    };
     let (mut before, mut gap_before) = (law.s, -missing);
     for _ in 0..LIFT_STEPS {
-        let here = gap(lift);
+        let curve = curves.follower.touch(parameter, &Jet { s: lift, ..law }).curve;
+        let here = (curve.point - centre).dot(&curve.outward()) - radius;
         let step = here * (lift - before) / (here - gap_before);
         (before, gap_before) = (lift, here);
         if here.abs() <= TOUCHING * start.point.norm() || !step.is_finite() {
@@ -519,21 +502,14 @@ pub(super) fn face_lift(curves: Curves<'_>, parameter: f64, law: Jet, guide: Gui
 pub fn largest_rates(motion: &dyn Motion) -> [f64; 2] {
     if let Some(program) = motion.program() {
         // The motion knows the peaks of its segments, and its shaft turns evenly.
-        let peak = |index: usize| {
-            program
-                .segments()
-                .iter()
-                .map(|told| told.peaks.get(index).map_or(0.0, |(peak, _)| *peak))
-                .fold(0.0, f64::max)
-        };
-        return [peak(0), peak(1)];
+        let segments = program.segments();
+        return [0, 1].map(|order| segments.iter().map(|segment| segment.peaks[order].0).fold(0.0, f64::max));
     }
     let mut known = [SearchStart::nothing(0.0); 2];
     for (index, piece) in own_pieces(motion).filter(|(index, piece)| !piece.dwell && motion.is_rolled(*index)) {
         let range = (piece.start, piece.end);
-        let velocity = |at: f64| motion.jet(index, at).ds * motion.pace(at).0;
         let [v, a] = &mut known;
-        v.best = chebyshev::largest_size(velocity, range, *v);
+        v.best = chebyshev::largest_size(|at| motion.jet(index, at).ds * motion.pace(at).0, range, *v);
         a.best = chebyshev::largest_size(
             |at| {
                 let (jet, (first, second)) = (motion.jet(index, at), motion.pace(at));

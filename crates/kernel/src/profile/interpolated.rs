@@ -68,7 +68,7 @@ impl<'a> FollowerOnTable<'a> {
     /// This parameter, moved by whole periods to be as near as possible to another.
     fn parameter_near(&self, point: &CurvePoint, to: f64) -> f64 {
         let parameter = self.parameter(point);
-        self.curves.motion.period().map_or(parameter, |period| nearest(parameter, to, period))
+        nearest(parameter, to, self.curves.motion.period())
     }
 
     /// The guide of the follower's curve at a point; `None` where its parallel turns back.
@@ -139,18 +139,19 @@ impl<'a> FollowerOnTable<'a> {
     fn largest_of(&self, run: &IntervalRun<'_>, part: &PieceRange, range: (f64, f64), wanted: [bool; 2]) -> [f64; 2] {
         let places = [range.0, 0.5 * (range.0 + range.1), range.1];
         let seen = places.map(|at| self.off_at(run, part, at));
-        let rate = |index: usize| {
-            let of = |errors: &[f64; 2]| errors.get(index).copied().unwrap_or(0.0);
-            let seen = seen.iter().map(|errors| of(errors).abs()).fold(0.0, f64::max);
-            let negligible = (SHARE * seen).max(ROUNDING * of(&self.largest));
+        [0, 1].map(|kind: usize| {
+            if !wanted[kind] {
+                return 0.0;
+            }
+            let seen = seen.iter().map(|errors| errors[kind].abs()).fold(0.0, f64::max);
+            let negligible = (SHARE * seen).max(ROUNDING * self.largest[kind]);
             let known = SearchStart { best: Extremum { at: range.0, value: seen }, negligible };
             if seen.is_finite() {
-                chebyshev::largest_size(|at| of(&self.off_at(run, part, at)), range, known).value
+                chebyshev::largest_size(|at| self.off_at(run, part, at)[kind], range, known).value
             } else {
                 f64::INFINITY
             }
-        };
-        [if wanted[0] { rate(0) } else { 0.0 }, if wanted[1] { rate(1) } else { 0.0 }]
+        })
     }
 
     /// A flat face on a chord touches its ends only: at the heading of the chord the contact moves from one end to the other.
@@ -200,14 +201,13 @@ impl IntervalRun<'_> {
 
 /// The parts of an interval; a part at its end that is shorter than `least` is joined to its neighbour.
 fn own_parts(mut parts: Vec<PieceRange>, least: f64) -> Vec<PieceRange> {
-    let short = |part: Option<&PieceRange>| part.is_some_and(|part| part.to - part.from < least);
-    if parts.len() > 1 && short(parts.last()) {
+    if parts.len() > 1 && parts.last().is_some_and(|part| part.to - part.from < least) {
         let end = parts.pop().map(|part| part.to);
         if let (Some(part), Some(end)) = (parts.last_mut(), end) {
             part.to = end;
         }
     }
-    if parts.len() > 1 && short(parts.first()) {
+    if parts.len() > 1 && parts.first().is_some_and(|part| part.to - part.from < least) {
         let start = parts.remove(0).from;
         if let Some(part) = parts.first_mut() {
             part.from = start;
@@ -236,7 +236,7 @@ impl MotionErrors for FollowerOnTable<'_> {
 
     fn step(&self, at: &CurvePoint) -> f64 {
         let (motion, parameter) = (self.curves.motion, self.parameter(at));
-        let at_distance = |away: f64| {
+        let [after, before] = [ASIDE, -ASIDE].map(|away| {
             let (piece, inside) = motion.locate(parameter + away);
             let jet: Jet = motion
                 .pieces()
@@ -244,8 +244,8 @@ impl MotionErrors for FollowerOnTable<'_> {
                 .map_or_else(Jet::default, |own| motion.jet(piece, (inside - away).clamp(own.start, own.end)));
             let (first, second) = motion.pace(inside - away);
             jet.dds * first * first + jet.ds * second
-        };
-        (at_distance(ASIDE) - at_distance(-ASIDE)).abs()
+        });
+        (after - before).abs()
     }
 }
 

@@ -15,7 +15,7 @@ pub mod size;
 
 use crate::follower::{Element, Follower, Touch};
 use crate::geometry::CurvePoint;
-use crate::motion::{Jet, Motion, Piece, own_pieces};
+use crate::motion::{Jet, Motion, own_pieces};
 use crate::numeric::extremum;
 use nalgebra::Vector2;
 
@@ -160,7 +160,7 @@ const LIFT_CELLS: u32 = 64;
 /// Smallest and largest lift of a motion, m or rad.
 #[must_use]
 pub fn lifts(motion: &dyn Motion) -> (f64, f64) {
-    let of_piece = |(index, piece): (usize, &Piece)| {
+    let all = own_pieces(motion).map(|(index, piece)| {
         let [most, least] = extremum::largest_of_both_signs(
             |at| {
                 let jet = motion.jet(index, at);
@@ -170,8 +170,7 @@ pub fn lifts(motion: &dyn Motion) -> (f64, f64) {
             LIFT_CELLS,
         );
         (-least.value, most.value)
-    };
-    let all = own_pieces(motion).map(of_piece);
+    });
     all.fold((f64::INFINITY, 0.0), |(low, high), (least, top)| (low.min(least), high.max(top)))
 }
 

@@ -77,17 +77,16 @@ fn broken(
     let pieces = motion.distinct().iter().enumerate().filter(|(index, _)| motion.is_rolled(*index));
     pieces
         .filter_map(|(index, piece)| {
-            let plane = |at: f64| place.condition(&motion.jet(index, at), limit, falling);
             let cells = motion.cells(index);
             let Extremum { at, value } = extremum::largest_with_slope(
                 |at| {
-                    let plane = plane(at);
+                    let plane = place.condition(&motion.jet(index, at), limit, falling);
                     (plane.least - plane.normal.dot(&shaft), plane.least_slope - plane.normal_slope.dot(&shaft))
                 },
                 (piece.start, piece.end),
                 cells,
             );
-            let plane = plane(at);
+            let plane = place.condition(&motion.jet(index, at), limit, falling);
             (value > BROKEN * (size + plane.least.abs()))
                 .then_some(AngleCondition { plane, of: BindingPressureAngle { at, falling } })
         })
@@ -138,21 +137,23 @@ fn nearest_on_border(
             high = Some((at, *plane));
         }
     }
-    let crossing = |other: HalfPlane| {
-        let turn = border.normal.perp(&other.normal);
-        let x = border.least * other.normal.y - other.least * border.normal.y;
-        Vector2::new(x, border.normal.x * other.least - other.normal.x * border.least) / turn
-    };
     if let (Some((least, _)), Some((most, _))) = (low, high)
         && (least - most) * along.norm() > KEPT * (size + foot.norm())
     {
         return None;
     }
     Some(match (low, high) {
-        (Some((least, plane)), _) if least > 0.0 => crossing(plane),
-        (_, Some((most, plane))) if most < 0.0 => crossing(plane),
+        (Some((least, plane)), _) if least > 0.0 => crossing(border, &plane),
+        (_, Some((most, plane))) if most < 0.0 => crossing(border, &plane),
         _ => foot,
     })
+}
+
+/// Where the borders of two half-planes cross.
+fn crossing(border: &HalfPlane, other: &HalfPlane) -> Vector2<f64> {
+    let turn = border.normal.perp(&other.normal);
+    let x = border.least * other.normal.y - other.least * border.normal.y;
+    Vector2::new(x, border.normal.x * other.least - other.normal.x * border.least) / turn
 }
 
 fn found(place: FollowerPlacement, shaft: Vector2<f64>, held: &[AngleCondition]) -> SmallestShaftPlace {

@@ -113,8 +113,10 @@ fn sampled(motion: &dyn Motion, follower: &dyn Follower) -> Option<SizeSamples> 
     let pieces = motion.distinct().iter().enumerate().filter(|(index, _)| motion.is_rolled(*index));
     let lifts = pieces.flat_map(|(index, piece)| {
         let steps = if piece.dwell { 1 } else { SAMPLES };
-        let at = move |step: u32| piece.start + (piece.end - piece.start) * f64::from(step) / f64::from(steps);
-        (0..=steps).map(move |step| (at(step), motion.jet(index, at(step))))
+        (0..=steps).map(move |step| {
+            let at = piece.start + (piece.end - piece.start) * f64::from(step) / f64::from(steps);
+            (at, motion.jet(index, at))
+        })
     });
     Some(SizeSamples { lifts: lifts.collect(), place: follower.place().map(|place| (place, place.of(follower))) })
 }
@@ -157,16 +159,11 @@ impl SizeProblem<'_> {
     }
 
     fn sharpest_under_roller(&self, curves: Curves<'_>, roller: f64) -> Extremum {
-        let motion = curves.motion;
-        let sharpest = |rolled: bool, least_radius: f64| {
-            let sharpest = extremes::convex_curvature_on(curves, |piece| motion.is_rolled(piece) == rolled);
-            Extremum { at: sharpest.at, value: sharpest.value * least_radius - 1.0 }
-        };
-        let rolled = sharpest(true, self.required.convex_radius);
-        if motion.is_rolled_throughout() {
+        let rolled = sharpest(curves, true, self.required.convex_radius);
+        if curves.motion.is_rolled_throughout() {
             return rolled;
         }
-        let closing = sharpest(false, CLOSING_OVER_ROLLER * roller);
+        let closing = sharpest(curves, false, CLOSING_OVER_ROLLER * roller);
         if rolled.value > closing.value || rolled.value.is_nan() { rolled } else { closing }
     }
 
@@ -225,9 +222,9 @@ impl SizeProblem<'_> {
 
     /// The worse of both limits; only one where that is clearly violated at one of the sampled lifts.
     fn either(&self, radius: f64) -> f64 {
-        let clearly = |excess: Option<f64>| excess.filter(|excess| *excess > CLEARLY);
-        clearly(self.sampled_pressure(radius))
-            .or_else(|| clearly(self.sampled_sharpness(radius)))
+        self.sampled_pressure(radius)
+            .filter(|excess| *excess > CLEARLY)
+            .or_else(|| self.sampled_sharpness(radius).filter(|excess| *excess > CLEARLY))
             .unwrap_or_else(|| worse(self.pressure(radius), self.curvature(radius)))
     }
 
@@ -264,27 +261,25 @@ impl SizeProblem<'_> {
     fn by_pressure_angle(&self) -> Option<f64> {
         let place = self.follower.place().filter(|place| matches!(place, FollowerPlacement::Offset { .. }))?;
         let offset = place.of(self.follower);
-        let least_height = |(limit, falling): (f64, bool)| {
-            let pieces = self.motion.distinct().iter().enumerate().filter(|(index, _)| self.motion.is_rolled(*index));
-            pieces
-                .map(|(index, piece)| {
-                    let cells = self.motion.cells(index);
-                    extremum::largest_with_slope(
-                        |at| {
-                            let plane = place.condition(&self.motion.jet(index, at), limit, falling);
-                            let over = plane.normal.x;
-                            ((plane.least - plane.normal.y * offset) / over, plane.least_slope / over)
-                        },
-                        (piece.start, piece.end),
-                        cells,
-                    )
-                    .value
-                })
-                .fold(0.0, f64::max)
-        };
         let [most, least] = self.required.pressure_angles;
         let limits = [(most, false), (least, true)].into_iter().filter(|(limit, _)| limit.is_finite());
-        let height = limits.map(least_height).reduce(f64::max)?;
+        let heights = limits.map(|(limit, falling)| {
+            let pieces = self.motion.distinct().iter().enumerate().filter(|(index, _)| self.motion.is_rolled(*index));
+            let heights = pieces.map(|(index, piece)| {
+                let height = extremum::largest_with_slope(
+                    |at| {
+                        let plane = place.condition(&self.motion.jet(index, at), limit, falling);
+                        let over = plane.normal.x;
+                        ((plane.least - plane.normal.y * offset) / over, plane.least_slope / over)
+                    },
+                    (piece.start, piece.end),
+                    self.motion.cells(index),
+                );
+                height.value
+            });
+            heights.fold(0.0, f64::max)
+        });
+        let height = heights.reduce(f64::max)?;
         Some(libm::hypot(height, offset)).filter(|radius| radius.is_finite())
     }
 }
@@ -313,10 +308,15 @@ pub fn smallest(motion: &dyn Motion, follower: &dyn Follower, required: &SizeLim
     }
 }
 
+/// The sharpest convex curvature where a follower runs, or where none does, times a radius that it must allow, less 1.
+fn sharpest(curves: Curves<'_>, rolled: bool, least_radius: f64) -> Extremum {
+    let sharpest = extremes::convex_curvature_on(curves, |piece| curves.motion.is_rolled(piece) == rolled);
+    Extremum { at: sharpest.at, value: sharpest.value * least_radius - 1.0 }
+}
+
 /// Both the pressure angle and the curvature fall as the radius grows under a follower that reaches everywhere, so each limit
 /// is a root in the radius.
 fn first_of_falling(least: f64, sizing: &SizeProblem<'_>) -> Result<f64, NoRadius> {
-    let pressure = |radius: f64| sizing.pressure(radius);
     let by_angle = sizing.by_pressure_angle();
     let mut radius = by_angle.map_or(least, |by_angle| by_angle.max(least));
     if !(radius <= LARGEST) {
@@ -327,9 +327,9 @@ fn first_of_falling(least: f64, sizing: &SizeProblem<'_>) -> Result<f64, NoRadiu
         if by_angle.is_some_and(|by_angle| sharp_enough > by_angle * (1.0 + PRESSURE_NOISE)) {
             return Ok(sharp_enough);
         }
-        radius = match passing_just_above(sharp_enough, pressure) {
+        radius = match passing_just_above(sharp_enough, |radius| sizing.pressure(radius)) {
             Ok(passing) => passing,
-            Err(failing) => first_at_or_above(failing, pressure)?,
+            Err(failing) => first_at_or_above(failing, |radius| sizing.pressure(radius))?,
         };
         if radius == sharp_enough {
             return Ok(radius);
@@ -376,9 +376,8 @@ fn first_at_or_above(low: f64, excess: impl Fn(f64) -> f64) -> Result<f64, NoRad
 /// The first radius at which an excess is not positive that may fall and grow again: every radius in steps of a hundredth is tried, and
 /// between three of which the middle one is the best, the best of all.
 fn first_in_reach(least: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Result<f64, NoRadius> {
-    let passes = |radius: f64| excess(radius) <= 0.0;
-    let at = |radius: f64| (radius, excess(radius));
-    let (mut before, mut here) = (at(least), at(least));
+    let first = (least, excess(least));
+    let (mut before, mut here) = (first, first);
     loop {
         if here.1 <= 0.0 {
             return Ok(first_not_positive(before.0, here.0, &excess));
@@ -386,10 +385,10 @@ fn first_in_reach(least: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Resu
         if here.0 >= largest {
             return Err(NoRadius);
         }
-        let next = at((GROWTH_IN_REACH * here.0).min(largest));
+        let radius = (GROWTH_IN_REACH * here.0).min(largest);
+        let next = (radius, excess(radius));
         // The best of three; a radius out of reach is worse than any other.
-        let better = |one: f64, other: f64| one <= other || other.is_nan();
-        let is_best = !here.1.is_nan() && better(here.1, before.1) && better(here.1, next.1);
+        let is_best = !here.1.is_nan() && [before.1, next.1].iter().all(|other| here.1 <= *other || other.is_nan());
         if is_best && (next.1 > 0.0 || next.1.is_nan()) {
             let best = extremum::largest_without_slope(
                 |radius| Some(-excess(radius)).filter(|room| !room.is_nan()).unwrap_or(f64::NEG_INFINITY),
@@ -398,7 +397,7 @@ fn first_in_reach(least: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Resu
                 extremum::TO_ROUNDING,
             )
             .at;
-            if passes(best) {
+            if excess(best) <= 0.0 {
                 return Ok(first_not_positive(before.0, best, &excess));
             }
         }

@@ -73,24 +73,21 @@ fn renamed(name: &str, from: LengthUnit, to: LengthUnit) -> (Cow<'_, str>, i32) 
     }
     let mut power = 0;
     let mut found = false;
-    let renamed: Vec<String> = parts
-        .iter()
-        .enumerate()
-        .map(|(index, part)| {
-            let after = index.checked_sub(1).and_then(|before| parts.get(before)) == Some(&"per");
-            let is_unit = after || index + 1 == parts.len() || parts.get(index + 1) == Some(&"per");
-            let exponent = part.strip_prefix(from.symbol()).filter(|_| is_unit);
-            let size = match exponent {
-                Some("") => 1,
-                Some("2") => 2,
-                Some("3") => 3,
-                _ => return (*part).to_owned(),
-            };
-            found = true;
-            power += if after { -size } else { size };
-            format!("{}{}", to.symbol(), exponent.unwrap_or_default())
-        })
-        .collect();
+    let renamed = parts.iter().enumerate().map(|(index, part)| {
+        let after = index.checked_sub(1).and_then(|before| parts.get(before)) == Some(&"per");
+        let is_unit = after || index + 1 == parts.len() || parts.get(index + 1) == Some(&"per");
+        let exponent = part.strip_prefix(from.symbol()).filter(|_| is_unit);
+        let size = match exponent {
+            Some("") => 1,
+            Some("2") => 2,
+            Some("3") => 3,
+            _ => return (*part).to_owned(),
+        };
+        found = true;
+        power += if after { -size } else { size };
+        format!("{}{}", to.symbol(), exponent.unwrap_or_default())
+    });
+    let renamed: Vec<String> = renamed.collect();
     if found { (Cow::Owned(renamed.join("_")), power) } else { (Cow::Borrowed(name), 0) }
 }
 

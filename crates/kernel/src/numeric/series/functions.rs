@@ -70,14 +70,18 @@ impl ElementaryFunction {
                 ),
             }),
             Self::PowerLessOneOverAbscissa(exponent) => fill(out, from, |n, own| {
-                let shifted = |series: &[f64], k: usize, first: f64| k.checked_sub(1).map_or(first, |k| at(series, k));
-                power_of_complement(exponent, n + 1, |k| shifted(a, k, 0.0), |k| shifted(own, k, 1.0))
+                power_of_complement(
+                    exponent,
+                    n + 1,
+                    |k| k.checked_sub(1).map_or(0.0, |k| at(a, k)),
+                    |k| k.checked_sub(1).map_or(1.0, |k| at(own, k)),
+                )
             }),
         }
     }
 }
 
-fn at(series: &[f64], n: usize) -> f64 {
+pub(super) fn at(series: &[f64], n: usize) -> f64 {
     series.get(n).copied().unwrap_or(0.0)
 }
 

@@ -71,14 +71,16 @@ impl<const N: usize, T: SeriesCoefficient> PowerSeries<N, T> {
     #[must_use]
     pub fn cos_sin(angle: f64) -> (Self, Self) {
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-        let series = |turns: [f64; 4]| {
-            let mut factorial = 1.0;
-            Self(array::from_fn(|n| {
-                factorial *= number(n.max(1));
-                T::constant(turns[n % 4] / factorial)
-            }))
-        };
-        (series([cos, -sin, -cos, sin]), series([sin, cos, -sin, -cos]))
+        (Self::from_derivatives([cos, -sin, -cos, sin]), Self::from_derivatives([sin, cos, -sin, -cos]))
+    }
+
+    /// The series of a function whose derivatives repeat after four orders.
+    fn from_derivatives(cycle: [f64; 4]) -> Self {
+        let mut factorial = 1.0;
+        Self(array::from_fn(|n| {
+            factorial *= number(n.max(1));
+            T::constant(cycle[n % 4] / factorial)
+        }))
     }
 
     /// Coefficients computed one by one, each from its index and those before it.

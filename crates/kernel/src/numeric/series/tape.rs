@@ -2,7 +2,7 @@
 
 pub use super::functions::ElementaryFunction;
 
-use super::functions::{fill, quotient};
+use super::functions::{at, fill, quotient};
 use super::product;
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Range, Sub};
@@ -64,8 +64,9 @@ impl Tape {
     /// A function of x and y.
     pub fn recorded(function: impl for<'t> FnOnce(TapeNumber<'t>, TapeNumber<'t>) -> TapeNumber<'t>) -> Self {
         let tape = RefCell::default();
-        let begin = |operation| TapeNumber { tape: &tape, term: tape.borrow_mut().push(operation) };
-        let result = function(begin(TapeOperation::Abscissa), begin(TapeOperation::State)).term;
+        let [x, y] = [TapeOperation::Abscissa, TapeOperation::State]
+            .map(|operation| TapeNumber { tape: &tape, term: tape.borrow_mut().push(operation) });
+        let result = function(x, y).term;
         Self { result: Some(result), ..tape.into_inner() }
     }
 
@@ -160,7 +161,6 @@ impl<'t> SeriesRows<'t> {
             let (done, rest) = self.all.split_at_mut(index * count);
             let Some(out) = rest.get_mut(..range.end) else { return };
             let row = |term: TapeTerm| done.get(term.0 * count..term.0 * count + range.end).unwrap_or_default();
-            let at = |series: &[f64], n: usize| series.get(n).copied().unwrap_or(f64::NAN);
             match *operation {
                 TapeOperation::Constant(value) => fill(out, from, |n, _| if n == 0 { value } else { 0.0 }),
                 TapeOperation::Abscissa => fill(out, from, |n, _| [self.place, 1.0].get(n).copied().unwrap_or(0.0)),

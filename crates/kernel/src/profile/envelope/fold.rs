@@ -73,24 +73,19 @@ fn forward(parallel: Parallel<'_>, piece: usize, parameter: f64) -> (f64, f64) {
 /// The folds of a piece, cut off at its ends.
 fn in_piece(parallel: Parallel<'_>, index: usize, piece: &Piece) -> Vec<(f64, f64)> {
     let at = |parameter: f64| forward(parallel, index, parameter);
-    // Written so that a NaN counts as backwards.
-    let backwards = |(value, _): (f64, f64)| !(value > 0.0);
     let cusp = |low: f64, high: f64| root::bracketed(|p| at(p).0, low, high, 0.0).unwrap_or(high);
     let cells = if piece.dwell { 1 } else { CELLS };
-    let place = |cell: u32| {
-        if cell == cells {
+    let mut folds = Vec::new();
+    let (mut left, mut there) = (piece.start, at(piece.start));
+    let mut from = is_backwards(there).then_some(left);
+    for cell in 1..=cells {
+        let right = if cell == cells {
             piece.end
         } else {
             piece.start + (piece.end - piece.start) / f64::from(cells) * f64::from(cell)
-        }
-    };
-    let mut folds = Vec::new();
-    let (mut left, mut there) = (piece.start, at(piece.start));
-    let mut from = backwards(there).then_some(left);
-    for cell in 1..=cells {
-        let right = place(cell);
+        };
         let here = at(right);
-        match (from, backwards(here)) {
+        match (from, is_backwards(here)) {
             (None, true) => from = Some(cusp(left, right)),
             (Some(start), false) => {
                 folds.push((start, cusp(left, right)));
@@ -99,7 +94,7 @@ fn in_piece(parallel: Parallel<'_>, index: usize, piece: &Piece) -> Vec<(f64, f6
             // A fold within a cell shows at its sharpest place.
             (None, false) if there.1 < 0.0 && here.1 > 0.0 => {
                 if let Ok(sharpest) = root::bracketed(|p| at(p).1, left, right, 0.0)
-                    && backwards(at(sharpest))
+                    && is_backwards(at(sharpest))
                 {
                     folds.push((cusp(left, sharpest), cusp(sharpest, right)));
                 }
@@ -110,4 +105,9 @@ fn in_piece(parallel: Parallel<'_>, index: usize, piece: &Piece) -> Vec<(f64, f6
     }
     folds.extend(from.map(|start| (start, piece.end)));
     folds
+}
+
+/// Written so that a NaN counts as backwards.
+fn is_backwards((value, _): (f64, f64)) -> bool {
+    !(value > 0.0)
 }

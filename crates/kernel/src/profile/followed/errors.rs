@@ -145,8 +145,8 @@ impl FollowerOnChain<'_> {
     #[must_use]
     pub fn errors(&self) -> ErrorsOnChain {
         let mut known = None;
-        let places = |stretch| (stretch, self.places_off(stretch, &mut known));
-        let all: Vec<(&ContactStretch, Vec<PlaceErrors>)> = self.stretches.iter().map(places).collect();
+        let all: Vec<(&ContactStretch, Vec<PlaceErrors>)> =
+            self.stretches.iter().map(|stretch| (stretch, self.places_off(stretch, &mut known))).collect();
         let mut errors = ErrorsOnChain::NONE;
         for (stretch, places) in &all {
             for off in places {

@@ -4,7 +4,7 @@ use super::{Fit, MOST_EDGES, MotionTolerance, Outline, OutlineError, SegmentKind
 use crate::follower::Element;
 use crate::geometry::arcs::{self, ANY_NUMBER};
 use crate::geometry::contour::{Bend, Edge, Vertex};
-use crate::geometry::{ChainTolerance, CurvePoint, MILLIMETRES, cubics};
+use crate::geometry::{ChainTolerance, CurvePoint, MILLIMETRES, cubics, rotated};
 use crate::motion::Motion;
 use crate::profile::Curves;
 use crate::profile::followed::FollowerOnChain;
@@ -92,39 +92,30 @@ impl Strip {
     /// The strip turned about the shaft by an angle, rad.
     fn turned(&self, angle: f64) -> Self {
         let (sin, cos) = libm::sincos(angle);
-        let place = |p: Vector2<f64>| Vector2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
-        let bend = |bend: Bend| match bend {
-            Bend::Arc(bulge) => Bend::Arc(bulge),
-            Bend::Cubic(inner) => Bend::Cubic(inner.map(place)),
-        };
-        Self {
-            vertices: self
-                .vertices
-                .iter()
-                .map(|vertex| Vertex { point: place(vertex.point), bend: bend(vertex.bend) })
-                .collect(),
-            ..*self
-        }
+        let vertices = self.vertices.iter().map(|vertex| Vertex {
+            point: rotated(vertex.point, sin, cos),
+            bend: match vertex.bend {
+                Bend::Arc(bulge) => Bend::Arc(bulge),
+                Bend::Cubic(inner) => Bend::Cubic(inner.map(|point| rotated(point, sin, cos))),
+            },
+        });
+        Self { vertices: vertices.collect(), ..*self }
     }
 
     /// The strip mirrored, from its end to its start: the line through the shaft whose direction is half this angle, rad.
     fn in_mirror(&self, end: Vector2<f64>, angle: f64) -> Self {
         let (sin, cos) = libm::sincos(angle);
-        let place = |p: Vector2<f64>| Vector2::new(cos * p.x + sin * p.y, sin * p.x - cos * p.y);
-        // A left turn stays one: mirroring and the reversed direction cancel.
-        let bend = |bend: Bend| match bend {
-            Bend::Arc(bulge) => Bend::Arc(bulge),
-            Bend::Cubic([leaves, arrives]) => Bend::Cubic([place(arrives), place(leaves)]),
-        };
-        Self {
-            vertices: self
-                .edges(end)
-                .iter()
-                .rev()
-                .map(|edge| Vertex { point: place(edge.end()), bend: bend(edge.bend()) })
-                .collect(),
-            ..*self
-        }
+        let mirrored = |p: Vector2<f64>| Vector2::new(cos * p.x + sin * p.y, sin * p.x - cos * p.y);
+        let edges = self.edges(end);
+        let vertices = edges.iter().rev().map(|edge| Vertex {
+            point: mirrored(edge.end()),
+            bend: match edge.bend() {
+                // A left turn stays one: mirroring and the reversed direction cancel.
+                Bend::Arc(bulge) => Bend::Arc(bulge),
+                Bend::Cubic([leaves, arrives]) => Bend::Cubic([mirrored(arrives), mirrored(leaves)]),
+            },
+        });
+        Self { vertices: vertices.collect(), ..*self }
     }
 }
 
@@ -148,16 +139,17 @@ impl OutlineStrips {
         let pieces = curves.motion.pieces();
         let (first, in_mirror) = curves.motion.repeats(piece);
         let span = pieces.get(piece)?;
-        let same = |a: f64, b: f64| (a - b).abs() <= SAME_PLACE;
         self.0.iter().find_map(|done| {
             let (other, other_in_mirror) = curves.motion.repeats(done.piece);
             let own = pieces.get(done.piece).filter(|_| other == first)?;
             let (start, end) = done.range;
             if in_mirror == other_in_mirror {
-                let turned = same(from - span.start, start - own.start) && same(span.end - to, own.end - end);
+                let turned =
+                    is_same_place(from - span.start, start - own.start) && is_same_place(span.end - to, own.end - end);
                 return turned.then(|| done.strip.turned(from - start));
             }
-            let mirrored = same(from - span.start, own.end - end) && same(span.end - to, start - own.start);
+            let mirrored =
+                is_same_place(from - span.start, own.end - end) && is_same_place(span.end - to, start - own.start);
             (mirrored && curves.follower.is_symmetric()).then(|| done.strip.in_mirror(done.end, from + end))
         })
     }
@@ -211,7 +203,7 @@ impl Outline {
 }
 
 /// A parallel of the follower's curve at a distance inwards (m), in millimetres.
-fn frame(curves: Curves<'_>, (piece, at): (usize, f64), distance: f64) -> CurvePoint {
+pub(super) fn frame(curves: Curves<'_>, (piece, at): (usize, f64), distance: f64) -> CurvePoint {
     curves.touch(piece, at).curve.offset_inward(distance).scaled(MILLIMETRES)
 }
 
@@ -224,20 +216,19 @@ fn motion_strip(
     fit: &Fit,
 ) -> Result<Strip, OutlineError> {
     let (piece, distance, _) = place;
-    let by_distance = || {
-        let fit = Fit { motion: MotionTolerance::ANY, ..*fit };
-        Strip::along(
-            |at| (frame(curves, (piece, at), distance), ChainTolerance::ANY),
-            range,
-            MILLIMETRES * fit.tolerance,
-            (&fit, ANY_NUMBER),
-        )
-    };
-    if fit.motion == MotionTolerance::ANY || !curves.motion.is_rolled(piece) {
-        return by_distance();
+    if fit.motion != MotionTolerance::ANY
+        && curves.motion.is_rolled(piece)
+        && let Some(found) = keeping_motion(curves, place, range, (fit, ANY_NUMBER))
+    {
+        return Ok(fewest(curves, place, range, (fit, found)).1);
     }
-    let found = keeping_motion(curves, place, range, (fit, ANY_NUMBER));
-    found.map(|found| fewest(curves, place, range, (fit, found))).map_or_else(by_distance, |(_, strip)| Ok(strip))
+    let fit = Fit { motion: MotionTolerance::ANY, ..*fit };
+    Strip::along(
+        |at| (frame(curves, (piece, at), distance), ChainTolerance::ANY),
+        range,
+        MILLIMETRES * fit.tolerance,
+        (&fit, ANY_NUMBER),
+    )
 }
 
 /// Under a face of the strips within finer and finer distances the one of fewest arcs, so that a coarser request never takes more arcs than
@@ -377,24 +368,19 @@ pub fn allowed(frame: &CurvePoint, along_normal: f64, pace: f64, motion: MotionT
 pub fn too_many_arcs(curves: Curves<'_>, tolerance: MotionTolerance) -> Option<f64> {
     let motion = curves.motion;
     let rolled = motion.pieces().iter().enumerate().filter(|(piece, span)| motion.is_rolled(*piece) && !span.dwell);
-    Some(
-        rolled
-            .map(|(piece, span)| {
-                let arcs = |places: u32| {
-                    variation(motion, piece, (span.start, span.end), places) / (2.0 * tolerance.acceleration)
-                };
-                // A piece may have many waves.
-                let mut places = PLACES;
-                let (mut before, mut here) = (0.0, arcs(places));
-                while here > SETTLED * before && places < MOST_PLACES {
-                    places *= 2;
-                    (before, here) = (here, arcs(places));
-                }
-                here
-            })
-            .sum(),
-    )
-    .filter(|arcs| *arcs > f64::from(MOST_EDGES))
+    let arcs = rolled.map(|(piece, span)| {
+        let arcs =
+            |places: u32| variation(motion, piece, (span.start, span.end), places) / (2.0 * tolerance.acceleration);
+        // A piece may have many waves.
+        let mut places = PLACES;
+        let (mut before, mut here) = (0.0, arcs(places));
+        while here > SETTLED * before && places < MOST_PLACES {
+            places *= 2;
+            (before, here) = (here, arcs(places));
+        }
+        here
+    });
+    Some(arcs.sum()).filter(|arcs| *arcs > f64::from(MOST_EDGES))
 }
 
 /// A fit without the tolerances of the motion where they cannot be kept: the check reports that they are not.
@@ -406,10 +392,15 @@ pub(super) fn within_reach(curves: Curves<'_>, fit: &Fit) -> Fit {
 /// The total variation of the acceleration over a range of a piece, by the angle of the shaft, estimated from so many places. It varies by
 /// twice the allowed error along an arc.
 fn variation(motion: &dyn Motion, piece: usize, (from, to): (f64, f64), places: u32) -> f64 {
-    let at = |i: u32| {
+    let accelerations = (0..=places).map(|i| {
         let place = from + (to - from) * f64::from(i) / f64::from(places);
         let (jet, (first, second)) = (motion.jet(piece, place), motion.pace(place));
         jet.dds * first * first + jet.ds * second
-    };
-    (0..places).map(|i| (at(i + 1) - at(i)).abs()).sum()
+    });
+    let accelerations: Vec<f64> = accelerations.collect();
+    accelerations.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum()
+}
+
+fn is_same_place(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME_PLACE
 }

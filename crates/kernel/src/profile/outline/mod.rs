@@ -274,19 +274,19 @@ fn turns_too_tightly(path: &Contour, metal_side: f64, radius: f64) -> bool {
 
 /// Refuses a cutter (radius in m) that does not get into a concave part.
 pub(super) fn check_cutter_fits(curves: Curves<'_>, cutter_radius: f64) -> Result<(), Refusal> {
-    let refusal = |at: f64| {
-        Refusal::new("the cutter cannot follow the profile, whose concave radius is smaller than that of the cutter")
-            .at(format!("{:.3} deg", at.to_degrees()))
-    };
     let corner = extremes::corners(curves).into_iter().find(|corner| corner.turn < 0.0);
-    if let Some(corner) = corner.filter(|_| cutter_radius > curves.offset()) {
-        return Err(refusal(corner.at));
-    }
-    let concave = extremes::concave_profile_curvature(curves);
-    if concave.value * cutter_radius >= 1.0 {
-        return Err(refusal(concave.at));
-    }
-    Ok(())
+    let concave = match corner.filter(|_| cutter_radius > curves.offset()) {
+        Some(corner) => corner.at,
+        None => {
+            let concave = extremes::concave_profile_curvature(curves);
+            if !(concave.value * cutter_radius >= 1.0) {
+                return Ok(());
+            }
+            concave.at
+        }
+    };
+    Err(Refusal::new("the cutter cannot follow the profile, whose concave radius is smaller than that of the cutter")
+        .at(format!("{:.3} deg", concave.to_degrees())))
 }
 
 /// Least convex radius of the profile, m; infinite where a sharp edge remains of it anyway.
@@ -344,24 +344,21 @@ pub(crate) struct UndrawnStretch {
 
 /// The gaps of a parallel of the follower's curve at a distance inwards, m.
 pub(super) fn undrawn_stretches(curves: Curves<'_>, distance: f64) -> Result<Vec<UndrawnStretch>, NoEnvelope> {
-    let loops_at = |distance: f64| Parallel { curves, distance }.loops();
+    let parallel = Parallel { curves, distance };
     let (mut edges, mut sharp) = (Vec::new(), Vec::new());
     if distance < curves.offset() {
-        edges = loops_at(curves.offset())?;
+        edges = Parallel { curves, distance: curves.offset() }.loops()?;
     }
     if distance < 0.0 || distance >= curves.offset() {
-        sharp = loops_at(distance)?;
+        sharp = parallel.loops()?;
     }
-    let turn = |found: &ParallelLoop| {
-        let tangent = |at, side| Parallel { curves, distance }.at(at, side).tangent;
-        let (before, after) = (tangent(found.from, BreakSide::Before), tangent(found.to, BreakSide::After));
-        libm::atan2(before.perp(&after), before.dot(&after))
-    };
-    let rounded =
-        edges.iter().map(|found| UndrawnStretch { from: found.from, to: found.to, edge: 0.0, arc: turn(found) });
-    let kept =
-        sharp.iter().map(|found| UndrawnStretch { from: found.from, to: found.to, edge: turn(found).abs(), arc: 0.0 });
-    let mut gaps: Vec<UndrawnStretch> = rounded.chain(kept).collect();
+    let mut gaps = Vec::with_capacity(edges.len() + sharp.len());
+    for ParallelLoop { from, to } in edges {
+        gaps.push(UndrawnStretch { from, to, edge: 0.0, arc: turn_over(parallel, from, to) });
+    }
+    for ParallelLoop { from, to } in sharp {
+        gaps.push(UndrawnStretch { from, to, edge: turn_over(parallel, from, to).abs(), arc: 0.0 });
+    }
     gaps.sort_by(|a, b| a.from.total_cmp(&b.from));
     Ok(gaps)
 }
@@ -382,17 +379,24 @@ pub fn pitch_within(curves: Curves<'_>, tolerance: f64) -> Result<Outline, Outli
     parallel(curves, (0.0, 0.0), &Fit::from(tolerance), &[])
 }
 
+/// The angle by which a parallel turns from before a loop to after it, rad.
+fn turn_over(parallel: Parallel<'_>, from: f64, to: f64) -> f64 {
+    let before = parallel.at(from, BreakSide::Before).tangent;
+    let after = parallel.at(to, BreakSide::After).tangent;
+    libm::atan2(before.perp(&after), before.dot(&after))
+}
+
 /// Refuses a curve too large for a drawing; `frame` gives its points in millimetres.
 ///
 /// # Errors
 /// [`Refusal`] with how far it would reach.
 pub fn check_drawing_size(pieces: &[Piece], frame: impl Fn(usize, f64) -> CurvePoint) -> Result<(), Refusal> {
-    let place = |piece: &Piece, part: u32| piece.start + (piece.end - piece.start) * f64::from(part) / f64::from(LOOKS);
-    let radius_mm = pieces
-        .iter()
-        .enumerate()
-        .map(|(index, piece)| (0..LOOKS).map(|part| frame(index, place(piece, part)).point.norm()).fold(0.0, f64::max))
-        .fold(0.0, f64::max);
+    let radii = pieces.iter().enumerate().flat_map(|(index, piece)| {
+        let places =
+            (0..LOOKS).map(|part| piece.start + (piece.end - piece.start) * f64::from(part) / f64::from(LOOKS));
+        places.map(move |place| (index, place))
+    });
+    let radius_mm = radii.map(|(index, place)| frame(index, place).point.norm()).fold(0.0, f64::max);
     if radius_mm <= LARGEST_COORDINATE {
         return Ok(());
     }
@@ -412,10 +416,7 @@ fn parallel(
 ) -> Result<Outline, OutlineError> {
     let period = curves.motion.period();
     let pieces = curves.motion.pieces();
-    let frame = |piece: usize, angle: f64| -> CurvePoint {
-        curves.touch(piece, angle).curve.offset_inward(distance).scaled(MILLIMETRES)
-    };
-    check_drawing_size(pieces, frame)?;
+    check_drawing_size(pieces, |piece, angle| laying::frame(curves, (piece, angle), distance))?;
     let fit = &laying::within_reach(curves, fit);
     let corners = extremes::corners(curves);
     let spans: Vec<(f64, f64)> = gaps.iter().map(|gap| (gap.from, gap.to)).collect();
@@ -429,7 +430,8 @@ fn parallel(
             if piece.dwell {
                 // A circle about the shaft, also for an offset follower: one true arc. On a plate a straight line.
                 let bulge = period.map_or(0.0, |_| libm::tan(0.25 * (range.1 - range.0)));
-                outline.contour.vertices.push(Vertex::new(frame(index, range.0).point, bulge));
+                let start = laying::frame(curves, (index, range.0), distance).point;
+                outline.contour.vertices.push(Vertex::new(start, bulge));
             } else {
                 let fitted =
                     outline.add_repeatable_piece(&mut strips, curves, (index, distance, stands_for), range, fit);
@@ -440,23 +442,24 @@ fn parallel(
                 }
             }
             // Readers drop shorter arcs.
-            let long = |gap: &UndrawnStretch| MILLIMETRES * gap.arc.abs() * (curves.offset() - distance) > SHORTEST_ARC;
-            if let Some(gap) = gaps.iter().find(|gap| long(gap) && starts_at(gap, range.1, period)) {
-                let bulge = libm::tan(0.25 * gap.arc);
-                outline.contour.vertices.push(Vertex::new(frame(index, range.1).point, bulge));
+            let mut long =
+                gaps.iter().filter(|gap| MILLIMETRES * gap.arc.abs() * (curves.offset() - distance) > SHORTEST_ARC);
+            if let Some(gap) = long.find(|gap| starts_at(gap, range.1, period)) {
+                let start = laying::frame(curves, (index, range.1), distance).point;
+                outline.contour.vertices.push(Vertex::new(start, libm::tan(0.25 * gap.arc)));
             }
         }
         let whole = ranges.last().is_some_and(|range| range.1 == piece.end);
+        let end = laying::frame(curves, (index, piece.end), distance).point;
         // At a concave corner of the pitch curve the roller turns in place: an arc of its own radius.
         if let Some(corner) = corners.iter().find(|corner| corner.turn < 0.0 && corner.at == piece.end)
             && MILLIMETRES * corner.turn.abs() * distance > SHORTEST_ARC
             && whole
         {
-            let bulge = libm::tan(0.25 * corner.turn);
-            outline.contour.vertices.push(Vertex::new(frame(index, piece.end).point, bulge));
+            outline.contour.vertices.push(Vertex::new(end, libm::tan(0.25 * corner.turn)));
         }
         if whole && steps_forward(curves, index) {
-            outline.contour.vertices.push(Vertex::new(frame(index, piece.end).point, 0.0));
+            outline.contour.vertices.push(Vertex::new(end, 0.0));
         }
     }
     Ok(outline)
