@@ -46,6 +46,13 @@ fn add(
     add(curve, (middle, to), (tolerance, left), found)
 }
 
+/// The bulge of an arc with a chord that leads from a direction to another, neither of unit length; 0 where it is as good as straight.
+fn bulge(from: Vector2<f64>, to: Vector2<f64>, chord: Vector2<f64>) -> f64 {
+    let bulge = libm::tan(0.5 * libm::atan2(from.perp(&to), from.dot(&to)));
+    let flat = 0.5 * bulge.abs() * from.norm().max(to.norm()) < FLAT;
+    if flat || chord.norm() > 4.0 * bulge.abs() * LARGEST_RADIUS { 0.0 } else { bulge }
+}
+
 /// The two arcs between two places with their tangents, or the line where both lie on it.
 fn between(
     (start, leaves): (Vector2<f64>, Vector2<f64>),
@@ -60,14 +67,9 @@ fn between(
         ((along * along + 2.0 * apart * chord.norm_squared()).sqrt() - along) / (2.0 * apart)
     };
     let joint = 0.5 * (start + end + (leaves - arrives) * length);
-    let turn = |from: Vector2<f64>, to: Vector2<f64>, chord: Vector2<f64>| {
-        let bulge = libm::tan(0.5 * libm::atan2(from.perp(&to), from.dot(&to)));
-        let flat = 0.5 * bulge.abs() * from.norm().max(to.norm()) < FLAT;
-        if flat || chord.norm() > 4.0 * bulge.abs() * LARGEST_RADIUS { 0.0 } else { bulge }
-    };
     let (to_joint, from_joint) = (joint - start, end - joint);
-    let first = Segment { start, end: joint, bulge: turn(leaves, to_joint, to_joint) };
-    let second = Segment { start: joint, end, bulge: turn(from_joint, arrives, from_joint) };
+    let first = Segment { start, end: joint, bulge: bulge(leaves, to_joint, to_joint) };
+    let second = Segment { start: joint, end, bulge: bulge(from_joint, arrives, from_joint) };
     if first.bulge == 0.0 && second.bulge == 0.0 {
         vec![Segment { start, end, bulge: 0.0 }]
     } else {

@@ -124,15 +124,17 @@ impl Grid {
         let around = self.point(exact);
         let steps = [0.0, -self.step(), self.step()];
         let places = steps.iter().flat_map(|x| steps.iter().map(move |y| around + Vector2::new(*x, *y)));
-        let worse = |centre: &Vector2<f64>| {
-            let radii = (arc.start - centre).norm() - (arc.end - centre).norm();
-            // How far the middle of the arc moves.
-            let radius = 0.5 * ((arc.start - centre).norm() + (arc.end - centre).norm());
-            let middle = arc.middle() - centre;
-            radii.abs() + 0.5 * (middle.norm() - radius).abs()
-        };
-        places.min_by(|a, b| worse(a).total_cmp(&worse(b))).map_or(around, |centre| self.point(centre))
+        let best = places.min_by(|a, b| error_about(arc, *a).total_cmp(&error_about(arc, *b)));
+        best.map_or(around, |centre| self.point(centre))
     }
+}
+
+/// How far a centre moves an arc with given ends: the difference of its radii, and how far its middle moves, mm.
+fn error_about(arc: &Segment, centre: Vector2<f64>) -> f64 {
+    let radii = (arc.start - centre).norm() - (arc.end - centre).norm();
+    let radius = 0.5 * ((arc.start - centre).norm() + (arc.end - centre).norm());
+    let middle = arc.middle() - centre;
+    radii.abs() + 0.5 * (middle.norm() - radius).abs()
 }
 
 #[cfg(test)]

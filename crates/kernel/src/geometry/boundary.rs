@@ -74,7 +74,6 @@ impl BoundaryStretch {
     /// Its mirror image about X, in the opposite sense.
     #[must_use]
     pub fn mirrored(&self) -> Self {
-        let flip = |point: Vector2<f64>| Vector2::new(point.x, -point.y);
         match self.kind {
             StretchKind::Curve { piece } => {
                 Self { kind: StretchKind::Mirrored { piece }, from: -self.to, to: -self.from }
@@ -82,9 +81,7 @@ impl BoundaryStretch {
             StretchKind::Mirrored { piece } => {
                 Self { kind: StretchKind::Curve { piece }, from: -self.to, to: -self.from }
             }
-            StretchKind::Segment(s) => {
-                Self::of_segment(Segment { start: flip(s.end), end: flip(s.start), bulge: s.bulge })
-            }
+            StretchKind::Segment(segment) => Self::of_segment(segment.mirrored_about_x()),
         }
     }
 }
@@ -155,8 +152,9 @@ impl<'a> Boundary<'a> {
         }
         let halfway = 0.5 * (stretch.from + stretch.to);
         let middle = self.on(&stretch, halfway);
-        let rate = |point: &CurvePoint| (point.speed * point.curvature).abs();
-        let most = ends.iter().map(rate).fold(rate(&middle), f64::max);
+        let [at_middle, at_start, at_end] =
+            [middle, ends[0], ends[1]].map(|point| (point.speed * point.curvature).abs());
+        let most = at_middle.max(at_start).max(at_end);
         let [first, between, last] = [ends[0], middle, ends[1]].map(|point| point.tangent);
         let cosines = [first.dot(&between), between.dot(&last), first.dot(&last)];
         let little =

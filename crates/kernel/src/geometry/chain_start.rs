@@ -15,20 +15,18 @@ impl Contour {
     #[must_use]
     pub fn started_near(&self, point: Vector2<f64>) -> Self {
         let mut edges: Vec<Edge> = self.edges().collect();
-        let away = |edge: &Edge| (edge.nearest(point).foot - point).norm();
-        let nearest = (0..edges.len()).min_by(|a, b| away(&edges[*a]).total_cmp(&away(&edges[*b])));
-        let Some(index) = nearest else { return self.clone() };
+        let feet = edges.iter().map(|edge| edge.nearest(point).foot).enumerate();
+        let nearest = feet.min_by(|(_, a), (_, b)| (a - point).norm().total_cmp(&(b - point).norm()));
+        let Some((index, foot)) = nearest else { return self.clone() };
         let edge = edges[index];
-        let foot = edge.nearest(point).foot;
-        let to = |end: Vector2<f64>| (end - foot).norm() < SHORTEST;
-        let first = match (to(edge.start()), to(edge.end())) {
-            (true, _) => index,
-            (false, true) => index + 1,
-            (false, false) => {
+        let first = if (edge.start() - foot).norm() < SHORTEST {
+            index
+        } else {
+            if !((edge.end() - foot).norm() < SHORTEST) {
                 let (before, after) = edge.divided_near(foot);
                 edges.splice(index..=index, [before, after]);
-                index + 1
             }
+            index + 1
         };
         let count = edges.len();
         edges.rotate_left(first % count);
@@ -41,16 +39,13 @@ impl Contour {
     pub fn started_where_flattest(&self) -> Self {
         let edges: Vec<Edge> = self.edges().collect();
         let count = edges.len();
-        let bend = |index: usize| {
-            let (before, after) = (edges[(index + count - 1) % count], edges[index]);
-            before.curvature(1.0).abs().max(after.curvature(0.0).abs())
-        };
-        let inside = |index: usize| {
-            matches!((edges[(index + count - 1) % count], edges[index]), (Edge::Cubic(_), Edge::Cubic(_)))
-        };
         let turns = self.tangent_breaks();
-        let joints = (0..count).filter(|index| turns[*index].abs() <= SMOOTH && !inside(*index));
-        let Some(flattest) = joints.min_by(|a, b| bend(*a).total_cmp(&bend(*b))) else { return self.clone() };
+        let joints = (0..count).filter(|index| turns[*index].abs() <= SMOOTH).filter_map(|index| {
+            let (before, after) = (edges[(index + count - 1) % count], edges[index]);
+            let inside = matches!((before, after), (Edge::Cubic(_), Edge::Cubic(_)));
+            (!inside).then(|| (index, before.curvature(1.0).abs().max(after.curvature(0.0).abs())))
+        });
+        let Some((flattest, _)) = joints.min_by(|(_, a), (_, b)| a.total_cmp(b)) else { return self.clone() };
         let mut vertices: Vec<Vertex> = self.vertices.clone();
         vertices.rotate_left(flattest);
         Self { vertices }
@@ -63,10 +58,10 @@ impl Edge {
         match self {
             Edge::Segment(whole) => {
                 let share = whole.share_of(point);
-                let part = |share: f64| libm::tan(libm::atan(whole.bulge) * share);
                 let at = whole.at(share).0;
-                let before = Segment { start: whole.start, end: at, bulge: part(share) };
-                let after = Segment { start: at, end: whole.end, bulge: part(1.0 - share) };
+                let quarter_sweep = libm::atan(whole.bulge);
+                let before = Segment { start: whole.start, end: at, bulge: libm::tan(quarter_sweep * share) };
+                let after = Segment { start: at, end: whole.end, bulge: libm::tan(quarter_sweep * (1.0 - share)) };
                 (Edge::Segment(before), Edge::Segment(after))
             }
             Edge::Cubic(cubic) => {

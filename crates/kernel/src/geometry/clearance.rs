@@ -43,27 +43,17 @@ pub fn between(one: &Contour, other: &Contour) -> Option<Clearance> {
 /// Each chain with the side on which it lies of the other one.
 fn least((first, of_second): (&Contour, Side), (second, of_first): (&Contour, Side)) -> Option<Clearance> {
     let (outer, inner) = (EdgeTree::new(first), EdgeTree::new(second));
-    let distance = |tree: &EdgeTree, side: Side, point: Vector2<f64>| {
-        // To the left of a counter-clockwise chain is its inside.
-        let left = tree.nearest(point).map_or(f64::NAN, |nearest| nearest.left);
-        if side == Side::Inside { left } else { -left }
-    };
     let from_second = |point: Vector2<f64>| distance(&inner, of_second, point);
-    let mut best: Option<Clearance> = None;
-    let mut take = |clearance: Clearance| {
-        if best.is_none_or(|best| clearance.distance < best.distance) {
-            best = Some(clearance);
-        }
-    };
+    let mut found: Vec<Clearance> = Vec::new();
     for vertex in &second.vertices {
         let at = outer.nearest(vertex.point).map_or(vertex.point, |nearest| nearest.foot);
-        take(Clearance { distance: distance(&outer, of_first, vertex.point), at });
+        found.push(Clearance { distance: distance(&outer, of_first, vertex.point), at });
     }
     let mut least = f64::INFINITY;
     for vertex in &first.vertices {
         let distance = from_second(vertex.point);
         least = least.min(distance);
-        take(Clearance { distance, at: vertex.point });
+        found.push(Clearance { distance, at: vertex.point });
     }
     for edge in outer.edges() {
         // A distance changes no faster than the place.
@@ -74,10 +64,18 @@ fn least((first, of_second): (&Contour, Side), (second, of_first): (&Contour, Si
         for at in places_on(edge, inner.edges(), &from_second) {
             let distance = from_second(at);
             least = least.min(distance);
-            take(Clearance { distance, at });
+            found.push(Clearance { distance, at });
         }
     }
+    let best = found.into_iter().reduce(|best, next| if next.distance < best.distance { next } else { best });
     best.filter(|best| best.distance.is_finite())
+}
+
+/// The distance of a point from a chain, positive on a side of it, mm.
+fn distance(tree: &EdgeTree, side: Side, point: Vector2<f64>) -> f64 {
+    // To the left of a counter-clockwise chain is its inside.
+    let left = tree.nearest(point).map_or(f64::NAN, |nearest| nearest.left);
+    if side == Side::Inside { left } else { -left }
 }
 
 /// The places between the ends of an edge that may be nearest to other edges.

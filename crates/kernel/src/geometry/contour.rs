@@ -91,8 +91,7 @@ impl Contour {
     #[must_use]
     pub fn circle(centre: Vector2<f64>, radius: f64) -> Self {
         let right = Vector2::new(radius, 0.0);
-        let half = |point| Vertex::new(point, 1.0);
-        Self { vertices: vec![half(centre + right), half(centre - right)] }
+        Self { vertices: vec![Vertex::new(centre + right, 1.0), Vertex::new(centre - right, 1.0)] }
     }
 
     /// The chain of these edges, each starting where the one before ends.
@@ -145,19 +144,18 @@ impl Contour {
     /// on each edge, which is exact to rounding for arcs up to half a turn.
     #[must_use]
     pub fn polar_moment(&self) -> f64 {
-        self.edges()
-            .map(|edge| {
-                let across = |share: f64| {
-                    let (point, direction) = edge.at(share);
-                    let speed = match edge {
-                        Edge::Segment(segment) => segment.length(),
-                        Edge::Cubic(cubic) => cubic.derivatives(share)[1].norm(),
-                    };
-                    point.norm_squared() * point.perp(&direction) * speed
+        let moments = self.edges().map(|edge| {
+            let across = |share: f64| {
+                let (point, direction) = edge.at(share);
+                let speed = match edge {
+                    Edge::Segment(segment) => segment.length(),
+                    Edge::Cubic(cubic) => cubic.derivatives(share)[1].norm(),
                 };
-                0.25 * quadrature::integrate(across, (0.0, 1.0), PANELS)
-            })
-            .sum()
+                point.norm_squared() * point.perp(&direction) * speed
+            };
+            0.25 * quadrature::integrate(across, (0.0, 1.0), PANELS)
+        });
+        moments.sum()
     }
 
     /// Length of the whole chain, mm.

@@ -20,6 +20,16 @@ pub struct Cubic {
     pub points: [Vector2<f64>; 4],
 }
 
+/// The point at a share of the way between two.
+#[inline]
+fn between(a: Vector2<f64>, b: Vector2<f64>, t: f64) -> Vector2<f64> {
+    a + (b - a) * t
+}
+
+fn range(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
+}
+
 impl Cubic {
     /// Point, first and second derivative by the parameter, 0 at the start and 1 at the end.
     #[must_use]
@@ -80,10 +90,9 @@ impl Cubic {
     #[must_use]
     pub fn split(&self, t: f64) -> (Self, Self) {
         let [p, q, r, s] = self.points;
-        let on = |a: Vector2<f64>, b: Vector2<f64>| a + (b - a) * t;
-        let (a, b, c) = (on(p, q), on(q, r), on(r, s));
-        let (d, e) = (on(a, b), on(b, c));
-        let middle = on(d, e);
+        let (a, b, c) = (between(p, q, t), between(q, r, t), between(r, s, t));
+        let (d, e) = (between(a, b, t), between(b, c, t));
+        let middle = between(d, e, t);
         (Self { points: [p, a, d, middle] }, Self { points: [middle, e, c, s] })
     }
 
@@ -92,13 +101,11 @@ impl Cubic {
     #[must_use]
     pub fn part(&self, from: f64, to: f64) -> Self {
         let [p, q, r, s] = self.points;
-        let on = |a: Vector2<f64>, b: Vector2<f64>, t: f64| a + (b - a) * t;
-        Self {
-            points: [[from; 3], [from, from, to], [from, to, to], [to; 3]].map(|[x, y, z]| {
-                let (a, b, c) = (on(p, q, x), on(q, r, x), on(r, s, x));
-                on(on(a, b, y), on(b, c, y), z)
-            }),
-        }
+        let points = [[from; 3], [from, from, to], [from, to, to], [to; 3]].map(|[x, y, z]| {
+            let (a, b, c) = (between(p, q, x), between(q, r, x), between(r, s, x));
+            between(between(a, b, y), between(b, c, y), z)
+        });
+        Self { points }
     }
 
     /// The curve in the opposite sense.
@@ -218,8 +225,10 @@ impl Cubic {
     #[must_use]
     pub fn nearest_parameter(&self, point: Vector2<f64>) -> f64 {
         let places = [0.0, 1.0].into_iter().chain(self.stationary(point));
-        let away = |t: f64| (self.derivatives(t)[0] - point).norm_squared();
-        places.map(|t| (away(t), t)).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, t)| t)
+        places
+            .map(|t| ((self.derivatives(t)[0] - point).norm_squared(), t))
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map_or(0.0, |(_, t)| t)
     }
 
     /// The point nearest to a given one.
@@ -249,22 +258,18 @@ impl Cubic {
     /// By Green ½∫(x dy − y dx) and ⅓∫(x, y)(x dy − y dx): polynomials of degree 5 and 8, for which eight points are exact.
     #[must_use]
     pub fn area_and_moments(&self) -> (f64, Vector2<f64>) {
-        let swept = |t: f64| {
-            let [point, first, _] = self.derivatives(t);
-            (point, point.perp(&first))
-        };
-        let integral = |of: &dyn Fn(Vector2<f64>) -> f64| {
+        let functions: [fn(Vector2<f64>) -> f64; 3] = [|_| 1.0, |point| point.x, |point| point.y];
+        let [area, x, y] = functions.map(|function| {
             quadrature::integrate(
                 |t| {
-                    let (point, rate) = swept(t);
-                    of(point) * rate
+                    let [point, first, _] = self.derivatives(t);
+                    function(point) * point.perp(&first)
                 },
                 (0.0, 1.0),
                 1,
             )
-        };
-        let moment = Vector2::new(integral(&|p| p.x), integral(&|p| p.y)) / 3.0;
-        (0.5 * integral(&|_| 1.0), moment)
+        });
+        (0.5 * area, Vector2::new(x, y) / 3.0)
     }
 
     /// The interval of its curvature between two parameters, 1/mm; infinite where its speed may be 0.
@@ -273,24 +278,20 @@ impl Cubic {
     #[must_use]
     pub fn curvature_between(&self, from: f64, to: f64) -> (f64, f64) {
         let [a, b, c] = self.legs();
-        let on = |p: Vector2<f64>, q: Vector2<f64>, t: f64| p + (q - p) * t;
         // B'/3 and B''/6 on the range, by their blossoms: without differences of near points.
-        let slope = |s: f64, t: f64| on(on(a, b, s), on(b, c, s), t);
-        let [p, q, r] = [slope(from, from), slope(from, to), slope(to, to)];
-        let [e, f] = [on(b - a, c - b, from), on(b - a, c - b, to)];
+        let [p, q, r] =
+            [(from, from), (from, to), (to, to)].map(|(s, t)| between(between(a, b, s), between(b, c, s), t));
+        let [e, f] = [from, to].map(|t| between(b - a, c - b, t));
         let turns =
             [p.perp(&e), (p.perp(&f) + 2.0 * q.perp(&e)) / 3.0, (2.0 * q.perp(&f) + r.perp(&e)) / 3.0, r.perp(&f)];
         let squares =
             [p.norm_squared(), p.dot(&q), (2.0 * q.norm_squared() + p.dot(&r)) / 3.0, q.dot(&r), r.norm_squared()];
-        let range = |values: &[f64]| {
-            values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
-        };
         let ((low, high), (slowest, fastest)) = (range(&turns), range(&squares));
         if !(slowest > 0.0 && low.is_finite() && high.is_finite()) {
             return (f64::NEG_INFINITY, f64::INFINITY);
         }
-        let over = |turn: f64, square: f64| 2.0 / 3.0 * turn / (square * square.sqrt());
-        let all = [over(low, slowest), over(low, fastest), over(high, slowest), over(high, fastest)];
+        let all = [(low, slowest), (low, fastest), (high, slowest), (high, fastest)]
+            .map(|(turn, square)| 2.0 / 3.0 * turn / (square * square.sqrt()));
         range(&all)
     }
 }

@@ -72,8 +72,7 @@ impl CubicPath {
     pub(super) fn hit(&self, point: Vector2<f64>, direction: Vector2<f64>) -> Option<(f64, f64)> {
         // Ahead of the line the product with its left is positive.
         let left = Vector2::new(-direction.y, direction.x);
-        let ahead = |t: f64| (self.cubic.derivatives(t)[0] - point).dot(&left);
-        let (first, last) = (ahead(0.0), ahead(1.0));
+        let [first, last] = [0.0, 1.0].map(|t| (self.cubic.derivatives(t)[0] - point).dot(&left));
         let mut t = (first / (first - last)).clamp(-BEYOND, 1.0 + BEYOND);
         for _ in 0..STEPS {
             let [place, slope, _] = self.cubic.derivatives(t);

@@ -189,10 +189,9 @@ impl Edge {
     /// Mirrored about the X axis and reversed: the same side stays on its left.
     #[must_use]
     pub fn mirrored_about_x(&self) -> Self {
-        let flip = |point: Vector2<f64>| Vector2::new(point.x, -point.y);
         match self {
-            Edge::Segment(s) => Edge::Segment(Segment { start: flip(s.end), end: flip(s.start), bulge: s.bulge }),
-            Edge::Cubic(cubic) => Edge::Cubic(cubic.reversed().mapped(flip)),
+            Edge::Segment(segment) => Edge::Segment(segment.mirrored_about_x()),
+            Edge::Cubic(cubic) => Edge::Cubic(cubic.reversed().mapped(|point| Vector2::new(point.x, -point.y))),
         }
     }
 
@@ -200,10 +199,11 @@ impl Edge {
     #[must_use]
     pub fn is_finite(&self) -> bool {
         // So that distances are finite too.
-        let finite = |point: &Vector2<f64>| point.norm_squared().is_finite();
         match self {
-            Edge::Segment(s) => finite(&s.start) && finite(&s.end) && s.bulge.is_finite(),
-            Edge::Cubic(cubic) => cubic.points.iter().all(finite),
+            Edge::Segment(s) => {
+                [s.start, s.end].iter().all(|point| point.norm_squared().is_finite()) && s.bulge.is_finite()
+            }
+            Edge::Cubic(cubic) => cubic.points.iter().all(|point| point.norm_squared().is_finite()),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::cubic_path::CubicPath;
 use super::edge::Edge;
+use super::rotated;
 use super::segment::Segment;
 use nalgebra::Vector2;
 use std::f64::consts::PI;
@@ -130,9 +131,8 @@ impl ArcPath {
         // The angle between the chord and the heading at the start is half the sweep of the arc.
         let half = 0.5 * self.curvature * length;
         let (sin, cos) = (libm::sin(half), libm::cos(half));
-        let turned = |v: Vector2<f64>| Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
-        let along = turned(self.heading);
-        (self.start + along * (2.0 * sin / self.curvature), turned(along))
+        let along = rotated(self.heading, sin, cos);
+        (self.start + along * (2.0 * sin / self.curvature), rotated(along, sin, cos))
     }
 
     /// Where the circle or line of the segment crosses the straight line through a point along a unit vector from its right to

@@ -137,15 +137,15 @@ impl EdgeTree {
     /// The nearest of the edges that are nearer than `most`, except some that are known.
     fn nearer_than(&self, point: Vector2<f64>, most: f64, known: &[usize]) -> Option<(usize, NearestOnSegment)> {
         let from = parry(point);
-        let distance = |leaf: u32, _: f64| {
-            if known.contains(&(leaf as usize)) {
-                return None;
-            }
-            let nearest = self.edges.get(leaf as usize)?.nearest(point);
-            Some((nearest.left.abs(), (leaf as usize, nearest)))
-        };
-        let (_, (_, found)) =
-            self.tree.find_best(most, |node, _| node.aabb().distance_to_local_point(from, true), distance)?;
+        let (_, (_, found)) = self.tree.find_best(
+            most,
+            |node, _| node.aabb().distance_to_local_point(from, true),
+            |leaf, _| {
+                let index = leaf as usize;
+                let nearest = self.edges.get(index).filter(|_| !known.contains(&index))?.nearest(point);
+                Some((nearest.left.abs(), (index, nearest)))
+            },
+        )?;
         Some(found)
     }
 
@@ -173,12 +173,13 @@ impl EdgeTree {
     #[must_use]
     pub fn farthest(&self, direction: Vector2<f64>) -> Option<f64> {
         // No box reaches farther than its corner, and the search skips boxes that cannot win.
-        let corner = |low: f64, high: f64, along: f64| if along > 0.0 { high * along } else { low * along };
         let (_, least) = self.tree.find_best(
             f64::MAX,
             |node, _| {
                 let (low, high) = (node.aabb().mins, node.aabb().maxs);
-                -corner(low.x, high.x, direction.x) - corner(low.y, high.y, direction.y)
+                let x = if direction.x > 0.0 { high.x } else { low.x };
+                let y = if direction.y > 0.0 { high.y } else { low.y };
+                -(x * direction.x) - y * direction.y
             },
             |leaf, _| Some(-self.edges.get(leaf as usize)?.farthest(direction)),
         )?;
@@ -305,16 +306,14 @@ impl Chords {
     fn nearer_than(&self, from: Vector, most: f64) -> Option<NearestChord> {
         let mut nearest: Option<NearestChord> = None;
         for (number, larger) in self.larger.iter().enumerate() {
-            let farther = |about: &Aabb, nearest: &Option<NearestChord>| {
-                let least = nearest.as_ref().map_or(most, |near| near.distance);
-                square_of_distance(about, from) >= least * least
-            };
-            if farther(larger, &nearest) {
+            let least = nearest.as_ref().map_or(most, |near| near.distance);
+            if square_of_distance(larger, from) >= least * least {
                 continue;
             }
             let first = TO_A_BOX * number;
             for (number, about) in (first..).zip(self.boxes.iter().skip(first).take(TO_A_BOX)) {
-                if farther(about, &nearest) {
+                let least = nearest.as_ref().map_or(most, |near| near.distance);
+                if square_of_distance(about, from) >= least * least {
                     continue;
                 }
                 let first = TO_A_BOX * number;
@@ -339,31 +338,37 @@ impl Chords {
 
     /// A vector out of the metal on a chord, or at a joint one between those of its two chords.
     fn outward(&self, index: usize, place: SegmentPointLocation) -> Vector {
-        let of = |index: usize| {
-            let along = self.segment(index % self.count).map(|segment| segment.b - segment.a).unwrap_or_default();
-            Vector::new(along.y, -along.x) / along.length()
-        };
         match place {
-            SegmentPointLocation::OnEdge(_) => of(index),
-            SegmentPointLocation::OnVertex(0) => of(index) + of(index + self.count - 1),
-            SegmentPointLocation::OnVertex(_) => of(index) + of(index + 1),
+            SegmentPointLocation::OnEdge(_) => self.normal(index),
+            SegmentPointLocation::OnVertex(0) => self.normal(index) + self.normal(index + self.count - 1),
+            SegmentPointLocation::OnVertex(_) => self.normal(index) + self.normal(index + 1),
         }
+    }
+
+    /// The unit normal of a chord out of the metal.
+    fn normal(&self, index: usize) -> Vector {
+        let along = self.segment(index % self.count).map(|segment| segment.b - segment.a).unwrap_or_default();
+        Vector::new(along.y, -along.x) / along.length()
     }
 }
 
 /// The square of the distance of a point from a box; 0 within.
 fn square_of_distance(about: &Aabb, from: Vector) -> f64 {
-    let outside = |low: f64, high: f64, at: f64| {
-        if at < low {
-            low - at
-        } else if at > high {
-            at - high
-        } else {
-            0.0
-        }
-    };
-    let (x, y) = (outside(about.mins.x, about.maxs.x, from.x), outside(about.mins.y, about.maxs.y, from.y));
+    let x = outside(about.mins.x, about.maxs.x, from.x);
+    let y = outside(about.mins.y, about.maxs.y, from.y);
     x * x + y * y
+}
+
+/// The distance of a number from an interval; 0 within.
+#[inline]
+fn outside(low: f64, high: f64, at: f64) -> f64 {
+    if at < low {
+        low - at
+    } else if at > high {
+        at - high
+    } else {
+        0.0
+    }
 }
 
 /// The nearest chord to a point.

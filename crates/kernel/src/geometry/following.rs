@@ -446,13 +446,12 @@ impl ChainWalk<'_, '_> {
     fn leaves(&mut self, path: &EdgePath, (from, to): (f64, f64)) -> Result<Option<ChainFoot>, FollowingError> {
         let (begin, (target, tangent)) = (path.at(from).0, path.at(to));
         let corner = self.ends(target)?[0];
-        let ahead = |point: Vector2<f64>| (point - corner.point).dot(&corner.tangent);
-        if ahead(target) <= NEAR || tangent.dot(&corner.tangent) < ACROSS {
+        if (target - corner.point).dot(&corner.tangent) <= NEAR || tangent.dot(&corner.tangent) < ACROSS {
             self.record(path.farthest_from(corner.point, (from, to)), target);
             return Ok(None);
         }
         let parameter = self.parameters().0;
-        if ahead(begin) > 0.0 {
+        if (begin - corner.point).dot(&corner.tangent) > 0.0 {
             let (foot, parameter) = self.foot(corner, parameter, begin)?;
             let node = self.node(path, from, foot, parameter)?;
             self.sliver(&node, corner.point);

@@ -3,6 +3,7 @@
 use super::contour::Contour;
 use super::edge::Edge;
 use super::edge_tree::EdgeTree;
+use super::left_of;
 use super::segment::Segment;
 use crate::document::NamedChoice;
 use nalgebra::Vector2;
@@ -77,17 +78,16 @@ pub fn depth_of_disc(tree: &EdgeTree, edge: &Edge, radius: f64, fine: f64) -> f6
 /// and ends beside it, on the left if `side` is 1, on the right if it is −1. The others are parallels.
 #[must_use]
 pub fn path_of_centre(way: &[Segment], side: f64, radius: f64) -> Vec<Segment> {
-    let offset = |tangent: Vector2<f64>| Vector2::new(-tangent.y, tangent.x) * (side * radius);
+    let away = side * radius;
     let Some((first, rest)) = way.split_first() else { return Vec::new() };
     let next = rest.first().map_or_else(|| first.end_tangent(), Segment::start_tangent);
-    let taken_up = Segment { end: first.end + offset(next), bulge: 0.0, ..*first };
-    std::iter::once(taken_up)
-        .chain(rest.iter().map(|segment| Segment {
-            start: segment.start + offset(segment.start_tangent()),
-            end: segment.end + offset(segment.end_tangent()),
-            bulge: segment.bulge,
-        }))
-        .collect()
+    let mut path = vec![Segment { end: first.end + left_of(next) * away, bulge: 0.0, ..*first }];
+    path.extend(rest.iter().map(|segment| Segment {
+        start: segment.start + left_of(segment.start_tangent()) * away,
+        end: segment.end + left_of(segment.end_tangent()) * away,
+        bulge: segment.bulge,
+    }));
+    path
 }
 
 /// A way in the other sense.

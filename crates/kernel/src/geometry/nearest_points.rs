@@ -19,12 +19,15 @@ fn parry(point: &Vector2<f64>) -> Vector {
 }
 
 fn distance_to_others(tree: &Bvh, points: &[Vector2<f64>], (index, point): (usize, &Vector2<f64>)) -> f64 {
-    let distance = |leaf: u32, _: f64| {
-        let other = points.get(leaf as usize).filter(|_| leaf as usize != index)?;
-        Some((other - point).norm())
-    };
-    tree.find_best(f64::MAX, |node, _| node.aabb().distance_to_local_point(parry(point), true), distance)
-        .map_or(f64::INFINITY, |(_, distance)| distance)
+    let nearest = tree.find_best(
+        f64::MAX,
+        |node, _| node.aabb().distance_to_local_point(parry(point), true),
+        |leaf, _| {
+            let other = points.get(leaf as usize).filter(|_| leaf as usize != index)?;
+            Some((other - point).norm())
+        },
+    );
+    nearest.map_or(f64::INFINITY, |(_, distance)| distance)
 }
 
 #[cfg(test)]

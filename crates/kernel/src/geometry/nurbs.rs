@@ -23,20 +23,25 @@ impl Knots {
         let rising =
             self.values.windows(2).all(|pair| matches!(pair, [a, b] if a <= b && b.is_finite() && a.is_finite()));
         let (first, last) = self.range();
-        let often = |times: usize| self.values.windows(times).filter_map(|row| Some((row.first()?, row.last()?)));
         let fits = (1..=HIGHEST_DEGREE).contains(&self.degree)
             && controls > self.degree
             && self.values.len() == controls + self.degree + 1
             && rising
             && first < last;
-        fits && !often(self.degree + 1).any(|(a, b)| a == b && first < *a && *a < last)
+        fits && !self
+            .values
+            .windows(self.degree + 1)
+            .any(|repeated| matches!(repeated, [a, .., b] if a == b && first < *a && *a < last))
     }
 
     /// First and last value of the parameter.
     #[must_use]
     pub fn range(&self) -> (f64, f64) {
-        let at = |index: usize| self.values.get(index).copied().unwrap_or(f64::NAN);
-        (at(self.degree), at(self.values.len().saturating_sub(self.degree + 1)))
+        (self.knot(self.degree), self.knot(self.values.len().saturating_sub(self.degree + 1)))
+    }
+
+    fn knot(&self, index: usize) -> f64 {
+        self.values.get(index).copied().unwrap_or(f64::NAN)
     }
 
     /// The spans, on each of which it is one polynomial.
@@ -49,14 +54,12 @@ impl Knots {
 
     /// The functions that do not vanish at `x`, their slopes, and the index of the first.
     fn basis(&self, x: f64) -> (usize, [f64; HIGHEST_DEGREE + 1], [f64; HIGHEST_DEGREE + 1]) {
-        let at = |index: usize| self.values.get(index).copied().unwrap_or(f64::NAN);
         let last = self.values.len().saturating_sub(self.degree + 2).max(self.degree);
         let mut span = self.values.partition_point(|knot| *knot <= x).saturating_sub(1).clamp(self.degree, last);
         // The end of the range belongs to the last span with a width above 0.
-        while span > self.degree && at(span) == at(span + 1) {
+        while span > self.degree && self.knot(span) == self.knot(span + 1) {
             span -= 1;
         }
-        let (left, right) = (|j: usize| x - at(span + 1 - j), |j: usize| at(span + j) - x);
         let (mut basis, mut slopes) = ([0.0; HIGHEST_DEGREE + 1], [0.0; HIGHEST_DEGREE + 1]);
         basis[0] = 1.0;
         for degree in 1..=self.degree.min(HIGHEST_DEGREE) {
@@ -64,13 +67,14 @@ impl Knots {
             #[expect(clippy::cast_precision_loss, reason = "at most 25")]
             let factor = degree as f64;
             for r in 0..degree {
-                let value = basis.get(r).copied().unwrap_or(0.0) / (right(r + 1) + left(degree - r));
+                let (right, left) = (self.knot(span + r + 1) - x, x - self.knot(span + 1 + r - degree));
+                let value = basis.get(r).copied().unwrap_or(0.0) / (right + left);
                 if let (Some(function), Some(slope)) = (basis.get_mut(r), slopes.get_mut(r)) {
                     *slope = factor * (lower - value);
-                    *function = saved + right(r + 1) * value;
+                    *function = saved + right * value;
                 }
                 lower = value;
-                saved = left(degree - r) * value;
+                saved = left * value;
             }
             if let (Some(function), Some(slope)) = (basis.get_mut(degree), slopes.get_mut(degree)) {
                 *slope = factor * lower;
@@ -136,9 +140,12 @@ impl NurbsCurve {
         for span in degree..poles.len() {
             let (Some(&low), Some(&high)) = (knots.get(span), knots.get(span + 1)) else { continue };
             if high > low {
-                let pole = |at_high: usize| blossom(degree, span, knots, &poles, (low, high, at_high));
-                let row: Option<Vec<_>> =
-                    (0..=degree).map(|i| pole(i).map(|[x, y, z, _]| Vector3::new(x, y, z))).collect();
+                let row: Option<Vec<_>> = (0..=degree)
+                    .map(|at_high| {
+                        let [x, y, z, _] = blossom(degree, span, knots, &poles, (low, high, at_high))?;
+                        Some(Vector3::new(x, y, z))
+                    })
+                    .collect();
                 parted(row?, within, most, &mut found)?;
             }
         }
@@ -158,24 +165,26 @@ impl NurbsCurve {
     #[must_use]
     pub fn farthest(&self, other: &Self) -> f64 {
         let (mine, others) = (self.knots.range(), other.knots.range());
-        let share = |knot: f64, range: (f64, f64)| (knot - range.0) / (range.1 - range.0);
         let pairs = self.knots.values.iter().zip(&other.knots.values);
         // Rounding of a knot moves a point by a comparable amount.
         let alike = self.knots.degree == other.knots.degree
             && self.knots.values.len() == other.knots.values.len()
-            && pairs.clone().all(|(a, b)| (share(*a, mine) - share(*b, others)).abs() <= SAME_KNOT);
+            && pairs.clone().all(|(a, b)| {
+                let (a, b) = ((a - mine.0) / (mine.1 - mine.0), (b - others.0) / (others.1 - others.0));
+                (a - b).abs() <= SAME_KNOT
+            });
         let weights = self.controls.iter().chain(&other.controls).map(|control| control.w);
         let plain = weights.clone().all(|weight| weight == 1.0);
         if alike && plain {
             let apart = self.controls.iter().zip(&other.controls).map(|(a, b)| (a - b).norm());
             return apart.fold(0.0, f64::max);
         }
-        let at = |range: (f64, f64), share: f64| range.0 + (range.1 - range.0) * share;
         let steps =
             SAMPLES * u32::try_from(self.controls.len().max(other.controls.len())).unwrap_or(u32::MAX).min(4096);
         let apart = (0..=steps).map(|i| {
             let share = f64::from(i) / f64::from(steps);
-            (self.at(at(mine, share)).0 - other.at(at(others, share)).0).norm()
+            let (here, there) = (mine.0 + (mine.1 - mine.0) * share, others.0 + (others.1 - others.0) * share);
+            (self.at(here).0 - other.at(there).0).norm()
         });
         apart.fold(0.0, |most, next| if next <= most { most } else { next })
     }

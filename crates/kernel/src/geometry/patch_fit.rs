@@ -73,18 +73,16 @@ impl FlankStretch<'_> {
         let count = acrosses.len() + 2;
         let mut controls = vec![vec![Point3::new(0.0, 0.0, 0.0); count]; alongs.len() + 2];
         for axis in 0..3 {
-            let outwards = |values: Vec<f64>| Spline::not_a_knot(&acrosses, &values).controls();
-            let component = |vector: &Vector3<f64>| vector.get(axis).copied().unwrap_or(f64::NAN);
+            let points = columns.iter().map(|column| column.iter().map(|[point, _]| point[axis]).collect::<Vec<_>>());
             let points: Vec<Vec<f64>> =
-                columns.iter().map(|column| outwards(column.iter().map(|[p, _]| component(p)).collect())).collect();
-            let slopes = |column: Option<&Vec<[Vector3<f64>; 2]>>| {
-                outwards(column.into_iter().flatten().map(|[_, slope]| component(slope)).collect())
-            };
-            let (first, last) = (slopes(columns.first()), slopes(columns.last()));
+                points.map(|values| Spline::not_a_knot(&acrosses, &values).controls()).collect();
+            let [first, last] = [columns.first(), columns.last()].map(|column| {
+                let slopes: Vec<f64> = column.into_iter().flatten().map(|[_, slope]| slope[axis]).collect();
+                Spline::not_a_knot(&acrosses, &slopes).controls()
+            });
             for v in 0..count {
-                let of = |list: &Vec<f64>| list.get(v).copied().unwrap_or(f64::NAN);
-                let row: Vec<f64> = points.iter().map(of).collect();
-                let along = Spline::clamped(&alongs, &row, (of(&first), of(&last))).controls();
+                let row: Vec<f64> = points.iter().map(|column| column[v]).collect();
+                let along = Spline::clamped(&alongs, &row, (first[v], last[v])).controls();
                 for (u, value) in along.into_iter().enumerate() {
                     if let Some(point) = controls.get_mut(u).and_then(|row| row.get_mut(v)) {
                         match axis {
@@ -101,21 +99,12 @@ impl FlankStretch<'_> {
 
     /// What a patch misses at the middles of its spans, along on the rings, and between the rings, mm.
     fn missed(&self, patch: &SplineSurface, spans: u32, (across, rings): ((f64, f64), u32)) -> [f64; 2] {
-        let off = |i: f64, j: f64| {
+        let along = (0..spans).flat_map(|i| (0..=rings).map(move |j| (f64::from(i) + 0.5, f64::from(j))));
+        let between = (0..=spans).flat_map(|i| (0..rings).map(move |j| (f64::from(i), f64::from(j) + 0.5)));
+        let off = |(i, j): (f64, f64)| {
             let (u, v) = (at(self.along, i, spans), at(across, j, rings));
             (patch.at(u, v)[0] - (self.place)(u, v)[0]).norm()
         };
-        let mut missed = [0.0_f64; 2];
-        for i in 0..spans {
-            for j in 0..=rings {
-                missed[0] = larger(missed[0], off(f64::from(i) + 0.5, f64::from(j)));
-            }
-        }
-        for i in 0..=spans {
-            for j in 0..rings {
-                missed[1] = larger(missed[1], off(f64::from(i), f64::from(j) + 0.5));
-            }
-        }
-        missed
+        [along.map(off).fold(0.0, larger), between.map(off).fold(0.0, larger)]
     }
 }

@@ -16,14 +16,14 @@ pub fn crossing(
     [at_a, at_b]: [Vector2<f64>; 2],
     direction: Vector2<f64>,
 ) -> Option<f64> {
-    let left = |point: Vector2<f64>| direction.perp(&point) >= 0.0;
-    if left(at_a) == left(at_b) || direction.dot(&(at_a + at_b)) <= 0.0 {
+    let starts_left = direction.perp(&at_a) >= 0.0;
+    if starts_left == (direction.perp(&at_b) >= 0.0) || direction.dot(&(at_a + at_b)) <= 0.0 {
         return None;
     }
     let (mut from, mut to) = (a, b);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (from + to);
-        if left(point(middle)) == left(at_a) {
+        if (direction.perp(&point(middle)) >= 0.0) == starts_left {
             from = middle;
         } else {
             to = middle;
@@ -47,19 +47,15 @@ pub fn outermost(contour: &Contour, directions: &[Vector2<f64>]) -> Vec<Option<f
 }
 
 fn of_edge(edge: &Edge, direction: Vector2<f64>) -> Option<f64> {
-    let at = |share: f64| edge.at(share).0;
-    // The ends of neighbours are the same to the last digit: a ray through a vertex crosses one of them.
-    let end = |index: u32| match index {
-        0 => edge.start(),
-        PARTS => edge.end(),
-        _ => at(f64::from(index) / f64::from(PARTS)),
-    };
-    (0..PARTS)
-        .filter_map(|index| {
-            let shares = [index, index + 1].map(|end| f64::from(end) / f64::from(PARTS));
-            crossing(at, shares, [end(index), end(index + 1)], direction).map(|share| direction.dot(&at(share)))
-        })
-        .reduce(f64::max)
+    let crossings = (0..PARTS).filter_map(|index| {
+        let shares = [index, index + 1].map(|end| f64::from(end) / f64::from(PARTS));
+        // The ends of neighbours are the same to the last digit: a ray through a vertex crosses one of them.
+        let start = if index == 0 { edge.start() } else { edge.at(shares[0]).0 };
+        let end = if index + 1 == PARTS { edge.end() } else { edge.at(shares[1]).0 };
+        let share = crossing(|share| edge.at(share).0, shares, [start, end], direction)?;
+        Some(direction.dot(&edge.at(share).0))
+    });
+    crossings.reduce(f64::max)
 }
 
 #[cfg(test)]

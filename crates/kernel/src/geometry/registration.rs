@@ -107,12 +107,11 @@ impl RegistrationOutline {
         if !(length.is_finite() && length > 0.0 && area.is_finite() && area > 0.0) {
             return None;
         }
-        let points = |count| along(contour, length, count);
         Some(Self {
             tree: EdgeTree::new(contour),
-            looked: points(LOOKED),
-            fitted: points(FITTED),
-            measured: points(MEASURED),
+            looked: along(contour, length, LOOKED),
+            fitted: along(contour, length, FITTED),
+            measured: along(contour, length, MEASURED),
             area,
             centroid,
             length,
@@ -175,24 +174,27 @@ fn mean_square(model: &RegistrationOutline, points: &[Vector2<f64>], registratio
 fn starts(model: &RegistrationOutline, found: &RegistrationOutline, free: FreeParameters) -> Vec<Registration> {
     let scale = if free.scale { (found.area / model.area).sqrt() } else { 1.0 };
     let offset = if free.offset && !free.scale { (found.area - model.area) / model.length } else { 0.0 };
-    let at = |turn: f64| {
+    let turns = (0..if free.turn { ANGLES } else { 1 }).map(|step| TAU * f64::from(step) / f64::from(ANGLES));
+    let starts = turns.map(|turn| {
         let unshifted = Registration { turn, shift: Vector2::zeros(), scale, offset };
         let shift = if free.shift { found.centroid - unshifted.moved(model.centroid) } else { Vector2::zeros() };
         Registration { shift, ..unshifted }
-    };
+    });
+    let starts: Vec<Registration> = starts.collect();
     if !free.turn {
-        return vec![at(0.0)];
+        return starts;
     }
-    let angle = |step: u32| TAU * f64::from(step) / f64::from(ANGLES);
-    let looks: Vec<f64> = (0..ANGLES).map(|step| mean_square(model, &found.looked, &at(angle(step)))).collect();
-    let ring = |index: usize| looks.get(index % looks.len()).copied().unwrap_or(f64::INFINITY);
-    let mut lowest: Vec<(f64, u32)> = (0..ANGLES)
-        .zip(0..looks.len())
-        .filter(|(_, i)| ring(*i) <= ring(i + 1) && ring(*i) <= ring(i + looks.len() - 1))
-        .map(|(step, i)| (ring(i), step))
-        .collect();
+    let looks: Vec<f64> = starts.iter().map(|start| mean_square(model, &found.looked, start)).collect();
+    let before = looks.iter().cycle().skip(looks.len() - 1);
+    let after = looks.iter().cycle().skip(1);
+    let mut lowest: Vec<(f64, Registration)> = Vec::new();
+    for (((look, before), after), start) in looks.iter().zip(before).zip(after).zip(starts) {
+        if look <= after && look <= before {
+            lowest.push((*look, start));
+        }
+    }
     lowest.sort_by(|a, b| a.0.total_cmp(&b.0));
-    lowest.into_iter().take(FOLLOWED).map(|(_, step)| at(angle(step))).collect()
+    lowest.into_iter().take(FOLLOWED).map(|(_, start)| start).collect()
 }
 
 type NormalEquations = (SMatrix<f64, 5, 5>, SVector<f64, 5>);

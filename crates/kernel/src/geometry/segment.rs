@@ -1,5 +1,6 @@
 //! A circular arc or a straight line by its ends and its bulge, millimetres.
 
+use super::{left_of, rotated};
 use nalgebra::Vector2;
 
 /// A point counts as near the centre of an arc when the square of its distance from there, over the radius, is less.
@@ -40,16 +41,14 @@ impl Segment {
         let step = sweep / count;
         let handle = 4.0 / 3.0 * libm::tan(0.25 * step);
         let from = self.start - centre;
-        let on = |turn: f64| {
-            let (sin, cos) = libm::sincos(turn);
-            Vector2::new(cos * from.x - sin * from.y, sin * from.x + cos * from.y)
-        };
-        let across = |at: Vector2<f64>| Vector2::new(-at.y, at.x) * handle;
         let (mut found, mut number) = (Vec::new(), 0.0);
         while number < count {
-            let [start, end] = [on(number * step), on((number + 1.0) * step)];
+            let [start, end] = [number * step, (number + 1.0) * step].map(|turn| {
+                let (sin, cos) = libm::sincos(turn);
+                rotated(from, sin, cos)
+            });
             let last = if number + 1.0 < count { centre + end } else { self.end };
-            found.push([centre + start + across(start), centre + end - across(end), last]);
+            found.push([centre + start + left_of(start) * handle, centre + end - left_of(end) * handle, last]);
             number += 1.0;
         }
         found
@@ -64,15 +63,20 @@ impl Segment {
         (self.start + self.end) * 0.5 + left * ((1.0 - self.bulge * self.bulge) / (4.0 * self.bulge))
     }
 
+    /// Mirrored about the X axis and reversed: the same side stays on its left.
+    #[must_use]
+    pub fn mirrored_about_x(&self) -> Self {
+        let [start, end] = [self.end, self.start].map(|point| Vector2::new(point.x, -point.y));
+        Self { start, end, bulge: self.bulge }
+    }
+
     /// Angles of the radii of an arc to its ends, degrees, in the order in which it is run counter-clockwise.
     #[must_use]
     pub fn angles(&self) -> (f64, f64) {
         let centre = self.centre();
-        let of = |point: Vector2<f64>| {
-            let away = point - centre;
-            libm::atan2(away.y, away.x).to_degrees()
-        };
-        if self.bulge > 0.0 { (of(self.start), of(self.end)) } else { (of(self.end), of(self.start)) }
+        let [start, end] =
+            [self.start - centre, self.end - centre].map(|away| libm::atan2(away.y, away.x).to_degrees());
+        if self.bulge > 0.0 { (start, end) } else { (end, start) }
     }
 
     /// Middle of the segment, mm: off the chord by the sagitta, half the chord times the bulge, to the right.
@@ -96,9 +100,8 @@ impl Segment {
         move |share: f64| {
             let Some((radius, sweep)) = arc else { return (start + chord * share, tangent) };
             let (sin, cos) = libm::sincos(0.5 * sweep * share);
-            let turned = |v: Vector2<f64>| Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
-            let along = turned(tangent);
-            (start + along * (2.0 * radius * sin), turned(along))
+            let along = rotated(tangent, sin, cos);
+            (start + along * (2.0 * radius * sin), rotated(along, sin, cos))
         }
     }
 

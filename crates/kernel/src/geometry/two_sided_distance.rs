@@ -32,10 +32,12 @@ pub fn two_sided_distance(contour: &Contour, boundary: &Boundary<'_>) -> Deviati
 fn arcs(boundary: &Boundary<'_>) -> Contour {
     let mut vertices = Vec::new();
     for (index, stretch) in boundary.stretches().iter().enumerate() {
-        let at = |step: u32| {
+        let places = (0..=ARCS).map(|step| {
             boundary.at(index, stretch.from + (stretch.to - stretch.from) * f64::from(step) / f64::from(ARCS))
-        };
-        for (a, b) in (0..ARCS).filter_map(|step| at(step).zip(at(step + 1))) {
+        });
+        let places: Vec<_> = places.collect();
+        for pair in places.windows(2) {
+            let [Some(a), Some(b)] = pair else { continue };
             let turn = libm::atan2(a.tangent.perp(&b.tangent), a.tangent.dot(&b.tangent));
             vertices.push(Vertex::new(a.point, libm::tan(0.25 * turn)));
         }
@@ -66,7 +68,7 @@ fn farthest(chain: &Contour, other: &EdgeTree) -> Deviation {
     // Most paths start where the one before ended.
     let mut last = (Vector2::repeat(f64::NAN), f64::NAN);
     for path in &paths {
-        let mut end = |length: f64| {
+        let [from, to] = [0.0, path.length()].map(|length| {
             let at = path.at(length).0;
             if at != last.0 {
                 last = (at, away(at));
@@ -75,8 +77,7 @@ fn farthest(chain: &Contour, other: &EdgeTree) -> Deviation {
                 best = Deviation { distance: last.1, at };
             }
             (length, last.1)
-        };
-        let (from, to) = (end(0.0), end(path.length()));
+        });
         parts.push(SegmentPart { path, from, to });
     }
     let mut left = MOST_PARTS;

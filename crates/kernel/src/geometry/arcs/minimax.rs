@@ -406,17 +406,13 @@ impl MinimaxProgram {
     /// multiplier to aim at.
     fn slacks(&mut self, level: f64, arcs: usize) -> (f64, f64) {
         let mut product = 0.0;
-        let mut slacken = |off: f64, sides: &mut [Slack; 2]| {
+        let samples = self.samples.iter_mut().map(|sample| (sample.off, &mut sample.sides));
+        let ends = self.ends.iter_mut().flatten().map(|end| (end.off, &mut end.sides));
+        for (off, sides) in samples.chain(ends) {
             for (side, distance) in sides.iter_mut().zip([level - off, level + off]) {
                 side.distance = distance;
                 product += distance * side.multiplier;
             }
-        };
-        for sample in &mut self.samples {
-            slacken(sample.off, &mut sample.sides);
-        }
-        for end in self.ends.iter_mut().flatten() {
-            slacken(end.off, &mut end.sides);
         }
         #[expect(clippy::cast_precision_loss, reason = "below the largest number of nodes")]
         let (arcs, count) =
@@ -467,31 +463,26 @@ impl MinimaxProgram {
 
     /// Changes the multipliers by a share of the changes stored with the samples.
     fn press_on(&mut self, share: f64) {
-        let press = |sides: &mut [Slack; 2]| {
-            for side in sides {
-                side.multiplier += share * side.change;
-            }
-        };
-        self.samples.iter_mut().for_each(|sample| press(&mut sample.sides));
-        self.ends.iter_mut().flatten().for_each(|end| press(&mut end.sides));
+        let samples = self.samples.iter_mut().map(|sample| &mut sample.sides);
+        let ends = self.ends.iter_mut().flatten().map(|end| &mut end.sides);
+        for side in samples.chain(ends).flatten() {
+            side.multiplier += share * side.change;
+        }
     }
 
     /// Shares of a step that slacks and multipliers allow; the changes of the multipliers are stored with the samples.
     fn shares(&mut self, trial: &ArcTrial, step: &ChainStep, rise: f64, aim: f64) -> (f64, f64) {
         let (mut primal, mut dual) = (1.0_f64, 1.0_f64);
-        let least = |share: &mut f64, most: f64| {
-            if most < *share {
-                *share = most;
-            }
-        };
         let mut allow = |sides: &mut [Slack; 2], off: f64| {
             for (side, moved) in sides.iter_mut().zip([rise - off, rise + off]) {
                 side.change = (aim - side.multiplier * moved) / side.distance - side.multiplier;
                 if moved < 0.0 {
-                    least(&mut primal, -BOUNDARY * side.distance / moved);
+                    let most = -BOUNDARY * side.distance / moved;
+                    primal = if most < primal { most } else { primal };
                 }
                 if side.change < 0.0 {
-                    least(&mut dual, -BOUNDARY * side.multiplier / side.change);
+                    let most = -BOUNDARY * side.multiplier / side.change;
+                    dual = if most < dual { most } else { dual };
                 }
             }
         };

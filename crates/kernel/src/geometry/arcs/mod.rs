@@ -145,8 +145,7 @@ pub enum FitError {
 /// # Errors
 /// [`FitError`] when the curve is not smooth or the tolerance cannot be kept.
 pub fn fit(curve: impl Fn(f64) -> CurvePoint, range: (f64, f64), tolerance: f64) -> Result<ArcChain, FitError> {
-    let anything = |parameter: f64| (curve(parameter), ChainTolerance::ANY);
-    fit_within(&anything, &curve, range, tolerance, ANY_NUMBER)
+    fit_within(&|parameter| (curve(parameter), ChainTolerance::ANY), &curve, range, tolerance, ANY_NUMBER)
 }
 
 /// As [`fit`], for a curve that also gives the allowed errors in addition to the distance at a parameter. The curvature is kept at
@@ -319,8 +318,14 @@ fn check(
     }
     for (arc, along) in &looks {
         for (before, after) in along.iter().zip(along.iter().skip(1)) {
-            let mut on_arc = |place| compared(arc, place, &curve(place));
-            worst = larger(worst, between(&mut on_arc, *before, *after, (tolerance, worst), HALVINGS));
+            let found = between(
+                &mut |place| compared(arc, place, &curve(place)),
+                *before,
+                *after,
+                (tolerance, worst),
+                HALVINGS,
+            );
+            worst = larger(worst, found);
         }
     }
     (worst, beyond)

@@ -281,10 +281,9 @@ impl ArcCountIntegral {
             }
             let [low, high, ..] = cells else { return None };
             let within = ((wanted - position(low)) / (position(high) - position(low))).clamp(0.0, 1.0);
-            let between = |a: f64, b: f64| a + within * (b - a);
-            let parameter = if index == count { *last } else { between(low.0, high.0) };
+            let parameter = if index == count { *last } else { low.0 + within * (high.0 - low.0) };
             // A circle has I₃ = 0; its nodes count as one arc.
-            let share = if self.total > 0.0 { between(low.1, high.1) / size } else { wanted };
+            let share = if self.total > 0.0 { (low.1 + within * (high.1 - low.1)) / size } else { wanted };
             places.push((parameter, share));
             index += 1.0;
         }

@@ -38,8 +38,8 @@ struct CurvatureStretch {
 impl CurvatureStretch {
     /// How much its ends take in addition to its whole arcs, in arcs.
     fn taken(&self) -> f64 {
-        let end = |clamped| if clamped { -CLAMPED } else { HALF_OVER };
-        end(self.clamped.0) + end(self.clamped.1)
+        let [first, last] = [self.clamped.0, self.clamped.1].map(|clamped| if clamped { -CLAMPED } else { HALF_OVER });
+        first + last
     }
 
     /// Shares per arc.
@@ -105,24 +105,24 @@ impl ArcSpacing {
     /// Every joint, on the curve with the heading of the best chain; at the ends with that of the curve.
     pub(super) fn places(&self, nodes: &[CurveSample]) -> Vec<JointPlace> {
         let mut pairs = nodes.iter().zip(nodes.iter().skip(1)).peekable();
-        let mut place = |(share, scale): (f64, f64)| {
-            while pairs.next_if(|(_, after)| after.share < share).is_some() {}
-            let (before, after) = pairs.peek()?;
-            let part = ((share - before.share) / (after.share - before.share).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-            let between = |a: f64, b: f64| a + part * (b - a);
-            Some(JointPlace {
-                parameter: between(before.parameter, after.parameter),
-                offset: 0.0,
-                slope: (between(before.best_heading, after.best_heading) * scale * scale).clamp(-STEEPEST, STEEPEST),
-            })
-        };
         let mut places: Vec<JointPlace> = nodes.iter().take(1).map(JointPlace::at).collect();
         for stretch in &self.0 {
             let scale = stretch.scale();
             let first = if stretch.clamped.0 { -CLAMPED } else { HALF_OVER };
             let (skip, most) = (u32::from(stretch.clamped.0), stretch.arcs + u32::from(!stretch.clamped.1));
-            let joints = (skip..most).map(|arc| (stretch.from + (first + f64::from(arc)) * scale, scale));
-            places.extend(joints.filter_map(&mut place));
+            for arc in skip..most {
+                let share = stretch.from + (first + f64::from(arc)) * scale;
+                while pairs.next_if(|(_, after)| after.share < share).is_some() {}
+                let Some((before, after)) = pairs.peek() else { break };
+                let part =
+                    ((share - before.share) / (after.share - before.share).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+                let heading = before.best_heading + part * (after.best_heading - before.best_heading);
+                places.push(JointPlace {
+                    parameter: before.parameter + part * (after.parameter - before.parameter),
+                    offset: 0.0,
+                    slope: (heading * scale * scale).clamp(-STEEPEST, STEEPEST),
+                });
+            }
         }
         places.extend(nodes.last().map(JointPlace::at));
         within_half_circles(places, nodes)
@@ -138,9 +138,10 @@ fn within_half_circles(places: Vec<JointPlace>, nodes: &[CurveSample]) -> Vec<Jo
         if let (Some(from), Some(to)) = (result.last().and_then(node_at), node_at(&place))
             && from.tangent.dot(&to.tangent) < SHARPEST
         {
-            let middle = |part: f64| from.parameter + part * (to.parameter - from.parameter);
-            let further = [0.25, 0.5, 0.75].map(|part| JointPlace { parameter: middle(part), offset: 0.0, slope: 0.0 });
-            result.extend(further);
+            for part in [0.25, 0.5, 0.75] {
+                let parameter = from.parameter + part * (to.parameter - from.parameter);
+                result.push(JointPlace { parameter, offset: 0.0, slope: 0.0 });
+            }
         }
         result.push(place);
     }

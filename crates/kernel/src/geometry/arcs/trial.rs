@@ -246,20 +246,28 @@ impl ArcTrial {
 
     /// The chain made tangent by the least change of its freedoms; `None` where that is impossible.
     pub(super) fn closed(&self, target: &impl FitTarget, tolerance: f64) -> Option<Self> {
-        let close = |trial: &Self| Self::new(target, &trial.moved(&trial.closing_step(), 1.0, tolerance), tolerance);
-        let off = |trial: &Self| {
-            // The heading of a chord that is short relative to its coordinates is rounding.
-            let rounding = |link: &ChainArc| ROUNDINGS * f64::EPSILON * link.arc.start.norm() / link.chord;
-            trial.links.iter().map(|link| (link.open * tolerance / link.chord).abs() - rounding(link)).fold(0.0, larger)
-        };
-        let mut closed = close(self)?;
+        let mut closed = self.closer(target, tolerance)?;
         for _ in 1..CLOSING_STEPS {
-            if off(&closed) <= ROUNDING {
+            if closed.largest_corner(tolerance) <= ROUNDING {
                 break;
             }
-            closed = close(&closed)?;
+            closed = closed.closer(target, tolerance)?;
         }
-        (off(&closed) <= CLOSED).then_some(closed)
+        (closed.largest_corner(tolerance) <= CLOSED).then_some(closed)
+    }
+
+    fn closer(&self, target: &impl FitTarget, tolerance: f64) -> Option<Self> {
+        Self::new(target, &self.moved(&self.closing_step(), 1.0, tolerance), tolerance)
+    }
+
+    /// The largest corner between two arcs beyond rounding.
+    fn largest_corner(&self, tolerance: f64) -> f64 {
+        let corners = self.links.iter().map(|link| {
+            // The heading of a chord that is short relative to its coordinates is rounding.
+            let rounding = ROUNDINGS * f64::EPSILON * link.arc.start.norm() / link.chord;
+            (link.open * tolerance / link.chord).abs() - rounding
+        });
+        corners.fold(0.0, larger)
     }
 
     /// The shortest step x with c + A x = 0: x = Aᵀ y, A Aᵀ y = −c, a tridiagonal system.

@@ -48,12 +48,12 @@ impl CubicBSpline {
     /// Its polynomials as cubic Bézier curves: start, the two inner control points, end.
     #[must_use]
     pub fn pieces(&self) -> Vec<[Vector2<f64>; 4]> {
-        let piece = |span: SplineSpan| {
+        let pieces = self.polynomials().into_iter().map(|span| {
             let third = (span.to - span.from) / 3.0;
             let ([start, leaves, ..], [end, arrives, ..]) = (span.at(span.from), span.at(span.to));
             [start, start + leaves * third, end - arrives * third, end]
-        };
-        let mut pieces: Vec<[Vector2<f64>; 4]> = self.polynomials().into_iter().map(piece).collect();
+        });
+        let mut pieces: Vec<[Vector2<f64>; 4]> = pieces.collect();
         // Adjacent ones share a point, and at the ends it is the control point itself.
         if let (Some(first), Some(start)) = (pieces.first_mut(), self.controls.first()) {
             first[0] = *start;
@@ -108,8 +108,8 @@ impl SpanBasis {
     /// Cox and de Boor's recursion, and the differences of the lower degrees (Piegl, Tiller, The NURBS Book, (2.5), (2.7)).
     pub(super) fn new(knots: &[f64], span: usize, x: f64) -> Self {
         // Knots t₋₂ … t₃ about the span [t₀, t₁].
-        let t = |offset: usize| knots.get(span + 1 + offset).copied().unwrap_or(f64::NAN);
-        let [a, b, c, d, e, f] = [t(0), t(1), t(2), t(3), t(4), t(5)];
+        let [a, b, c, d, e, f] =
+            [0, 1, 2, 3, 4, 5].map(|offset| knots.get(span + 1 + offset).copied().unwrap_or(f64::NAN));
         let share = |low: f64, high: f64| (x - low) / (high - low);
         // Degree 1, 2 and 3: each function rises over its first part and falls over its last.
         let one = [1.0 - share(c, d), share(c, d)];
@@ -119,8 +119,7 @@ impl SpanBasis {
         let three = [two[0] * (1.0 - r), two[0] * r + two[1] * (1.0 - s), two[1] * s + two[2] * (1.0 - u), two[2] * u];
         // Slope of a function of degree 3: 3 (N₂ before over its support − N₂ after over its own), and so on down.
         let differ = |lower: [f64; 3], widths: [f64; 3], degree: f64| {
-            let [x, y, z] = [0, 1, 2]
-                .map(|i: usize| degree * lower.get(i).copied().unwrap_or(0.0) / widths.get(i).copied().unwrap_or(1.0));
+            let [x, y, z] = [0, 1, 2].map(|i: usize| degree * lower[i] / widths[i]);
             [-x, x - y, y - z, z]
         };
         let wide = [d - a, e - b, f - c];

@@ -109,25 +109,19 @@ fn free(nodes: &[SplineNode], knots: &[f64]) -> Option<Vec<ControlFreedom>> {
 pub(super) fn solve(nodes: &[SplineNode], knots: &[f64], tolerance: f64) -> Option<SplineTrial> {
     let mut controls = free(nodes, knots)?;
     let mut seen: Vec<f64> = nodes.iter().map(|node| node.length).collect();
-    let spline_of = |controls: &[ControlFreedom]| CubicBSpline {
-        knots: knots.to_vec(),
-        controls: controls.iter().map(|control| control.base).collect(),
-    };
     for round in 0..ROUNDS {
         let along = if round == 0 { 1.0 } else { ALONG };
         step(nodes, knots, &seen, &mut controls, along, tolerance);
-        look(nodes, &spline_of(&controls).polynomials(), &mut seen)?;
+        look(nodes, &spline_of(knots, &controls).polynomials(), &mut seen)?;
     }
-    let forwards = |pair: Option<&[ControlFreedom]>, tangent: Vector2<f64>| match pair {
-        Some([a, b]) => (b.base - a.base).dot(&tangent) > 0.0,
-        _ => false,
-    };
     let (start, end) = (nodes.first()?.frame.tangent, nodes.last()?.frame.tangent);
-    if !forwards(controls.get(..2), start) || !forwards(controls.get(controls.len() - 2..), end) {
-        return None;
-    }
-    let spline = spline_of(&controls);
-    judged(nodes, spline, seen, tolerance)
+    let [first, second, .., before, last] = controls.as_slice() else { return None };
+    let forwards = (second.base - first.base).dot(&start) > 0.0 && (last.base - before.base).dot(&end) > 0.0;
+    forwards.then(|| judged(nodes, spline_of(knots, &controls), seen, tolerance))?
+}
+
+fn spline_of(knots: &[f64], controls: &[ControlFreedom]) -> CubicBSpline {
+    CubicBSpline { knots: knots.to_vec(), controls: controls.iter().map(|control| control.base).collect() }
 }
 
 /// The errors of a spline at the nodes; `None` where one is not a number.

@@ -62,11 +62,10 @@ impl Interpolant {
                 [0, 1].map(|axis: usize| rows.iter().map(|row| if axis == 0 { row[0] } else { row[1] }).collect())
             }
         };
-        let cubics = |values: &[f64]| match between {
-            PointInterpolation::Linear => linear(&knots, values),
-            PointInterpolation::Cubic => cubic(&knots, values, &runs(rows), closed),
-        };
-        let (first, second) = (cubics(&first), cubics(&second));
+        let [first, second] = [first, second].map(|values: Vec<f64>| match between {
+            PointInterpolation::Linear => linear(&knots, &values),
+            PointInterpolation::Cubic => cubic(&knots, &values, &runs(rows), closed),
+        });
         let ranges = knots.iter().zip(knots.iter().skip(1));
         let intervals = ranges
             .zip(first.into_iter().zip(second))
@@ -78,24 +77,24 @@ impl Interpolant {
     /// Its intervals as lines and cubic curves; `None` in polar coordinates, where they are of another kind.
     #[must_use]
     pub fn edges(&self) -> Option<Vec<Edge>> {
+        if self.form != PointCoordinates::Plane {
+            return None;
+        }
         // The two rows of a double row have no interval between them.
-        let long = || self.intervals.iter().filter(|interval| interval.from < interval.to);
-        (self.form == PointCoordinates::Plane).then(|| {
-            long()
-                .map(|interval| {
-                    let length = interval.to - interval.from;
-                    let at = |t: f64| Vector2::new(jet(interval.first, t)[0], jet(interval.second, t)[0]);
-                    let slope =
-                        |t: f64| Vector2::new(jet(interval.first, t)[1], jet(interval.second, t)[1]) * (length / 3.0);
-                    let (start, end) = (at(0.0), at(length));
-                    if self.straight {
-                        Edge::Segment(Segment { start, end, bulge: 0.0 })
-                    } else {
-                        Edge::Cubic(Cubic { points: [start, start + slope(0.0), end - slope(length), end] })
-                    }
-                })
-                .collect()
-        })
+        let long = self.intervals.iter().filter(|interval| interval.from < interval.to);
+        let edges = long.map(|interval| {
+            let length = interval.to - interval.from;
+            let [(start, leaves), (end, arrives)] = [0.0, length].map(|t| {
+                let (x, y) = (jet(interval.first, t), jet(interval.second, t));
+                (Vector2::new(x[0], y[0]), Vector2::new(x[1], y[1]) * (length / 3.0))
+            });
+            if self.straight {
+                Edge::Segment(Segment { start, end, bulge: 0.0 })
+            } else {
+                Edge::Cubic(Cubic { points: [start, start + leaves, end - arrives, end] })
+            }
+        });
+        Some(edges.collect())
     }
 
     /// The number of its intervals: one less than the table has rows.

@@ -228,14 +228,11 @@ impl<'a> ExactPath<'a> {
             return self.places_along(&(0..=curve.count()).filter_map(point).collect::<Vec<_>>());
         }
         self.check_goes_round()?;
-        let row = |index: usize| {
-            let at = point(index)?;
-            self.on_ray(libm::atan2(at.y, at.x)).map(|(length, _)| length)
-        };
         let mut places: Vec<f64> = Vec::with_capacity(curve.count() + 1);
         for index in 0..=curve.count() {
-            let mut length =
-                row(index).ok_or_else(|| Refusal::new(format!("row {} does not lie beside the curve", index + 1)))?;
+            let on_ray = point(index).and_then(|row| self.on_ray(libm::atan2(row.y, row.x)));
+            let (mut length, _) =
+                on_ray.ok_or_else(|| Refusal::new(format!("row {} does not lie beside the curve", index + 1)))?;
             if let Some(last) = places.last() {
                 // Beyond the end of the curve it goes on with its start.
                 if length + 0.5 * self.length < *last {
@@ -307,11 +304,9 @@ impl<'a> ExactPath<'a> {
         let around = [found, found + 1, (found + self.parts.len()).saturating_sub(1)];
         for index in around.map(|index| index % self.parts.len()) {
             let part = self.parts.get(index)?;
-            let point = |at: f64| self.boundary.at(part.index, at).map(|point| point.point);
-            if let Ok(parameter) =
-                root::bracketed(|at| point(at).map_or(f64::NAN, |point| ray.perp(&point)), part.from, part.to, 0.0)
-            {
-                let away = point(parameter)?.dot(&ray);
+            let across = |at: f64| self.boundary.at(part.index, at).map_or(f64::NAN, |point| ray.perp(&point.point));
+            if let Ok(parameter) = root::bracketed(across, part.from, part.to, 0.0) {
+                let away = self.boundary.at(part.index, parameter)?.point.dot(&ray);
                 return Some((self.length_at(PathPlace { part: index, parameter }), away)).filter(|_| away > 0.0);
             }
         }

@@ -118,11 +118,10 @@ impl PlacingGoal<'_, '_> {
 
     /// The factor by which an interval is to be divided to keep all limits, by its distance and its errors of motion.
     fn part(&self, distance: f64, motion: [f64; 2]) -> f64 {
-        let power = |share: f64, order: f64| if share.is_finite() { libm::pow(share, 1.0 / order) } else { LOST };
-        let own = power(distance / self.wish.tolerance, self.wish.between.order());
+        let own = times_divided(distance / self.wish.tolerance, self.wish.between.order());
         let Some(MotionLimit { allowed, .. }) = self.motion else { return own };
         let [heading, curvature] = self.wish.between.orders();
-        own.max(power(motion[0] / allowed[0], heading)).max(power(motion[1] / allowed[1], curvature))
+        own.max(times_divided(motion[0] / allowed[0], heading)).max(times_divided(motion[1] / allowed[1], curvature))
     }
 
     /// The breaks of the curve at which rows are required: the one at its start, and the others, in order.
@@ -268,6 +267,16 @@ fn around(angle: f64) -> f64 {
     if angle < 0.0 { angle + TAU } else { angle }
 }
 
+/// How far from the least number of points a number may be: by none while there are few.
+fn nearly(count: usize) -> usize {
+    if count <= EXACTLY { 1 } else { scaled(count, NEARLY).max(1) }
+}
+
+/// Into how many parts an interval must be divided whose error, of an order, is this share of what is allowed.
+fn times_divided(share: f64, order: f64) -> f64 {
+    if share.is_finite() { libm::pow(share, 1.0 / order) } else { LOST }
+}
+
 /// The places at equal angles from a place at which something may break, and the breaks between them.
 fn even(
     path: &ExactPath<'_>,
@@ -316,9 +325,8 @@ fn by_angle(goal: &PlacingGoal<'_, '_>) -> Result<PointRows, Refusal> {
             Some(tried) if tried.keeps => enough = Some((count, tried)),
             _ => too_few = too_few.max(count),
         }
-        let least_apart = |count: usize| if count <= EXACTLY { 1 } else { scaled(count, NEARLY).max(1) };
         count = match &enough {
-            Some((count, _)) if count - too_few <= least_apart(*count) => break,
+            Some((count, _)) if count - too_few <= nearly(*count) => break,
             Some((most, _)) => {
                 let wanted = scaled(count, missing).clamp(too_few + 1, most - 1);
                 let middle = too_few + (most - too_few) / 2;
@@ -419,17 +427,13 @@ fn sections(goal: &PlacingGoal<'_, '_>) -> Vec<PlacingSection> {
     let start = if path.is_closed() { path.on_ray(0.0).map_or(0.0, |(place, _)| place) } else { 0.0 };
     let end = start + path.length();
     let (at_start, breaks) = goal.breaks(start);
-    let any = |place: f64| RowPlace { place, degrees: f64::NAN, kind: BreakKind::Plain };
-    let mut spots = vec![RowPlace { degrees: 0.0, kind: at_start, ..any(start) }];
+    let mut spots = vec![RowPlace { place: start, degrees: 0.0, kind: at_start }];
     spots.extend(breaks);
-    spots.extend(
-        path.joints(wish.between == PointInterpolation::Cubic)
-            .1
-            .into_iter()
-            .map(|place| if place < start { place + path.length() } else { place })
-            .map(any),
-    );
-    spots.push(RowPlace { degrees: 360.0, kind: at_start, ..any(end) });
+    for joint in path.joints(wish.between == PointInterpolation::Cubic).1 {
+        let place = if joint < start { joint + path.length() } else { joint };
+        spots.push(RowPlace { place, degrees: f64::NAN, kind: BreakKind::Plain });
+    }
+    spots.push(RowPlace { place: end, degrees: 360.0, kind: at_start });
     spots.sort_by(|a, b| a.place.total_cmp(&b.place));
     // A joint at the start is the start.
     let near = 1e-9 * path.length();
@@ -519,13 +523,12 @@ fn with_least(section: &PlacingSection, parts: &[f64], between: PointInterpolati
     let (length, total): (f64, f64) = (widths.iter().sum(), parts.iter().sum());
     let floor = (LEAST_DENSITY * total / length).max(f64::MIN_POSITIVE);
     let density: Vec<f64> = parts.iter().zip(&widths).map(|(part, width)| part / width + floor).collect();
-    let smooth = |index: usize| {
-        let at = |index: usize| density.get(index).copied();
-        let here = at(index).unwrap_or(floor);
-        let (left, right) = (index.checked_sub(1).and_then(at).unwrap_or(here), at(index + 1).unwrap_or(here));
-        if between == PointInterpolation::Cubic { 0.25 * (left + 2.0 * here + right) } else { here }
-    };
-    widths.iter().enumerate().map(|(index, width)| smooth(index) * width).collect()
+    let smoothed = density.iter().enumerate().map(|(index, here)| {
+        let [left, right] = [index.checked_sub(1), Some(index + 1)]
+            .map(|index| *index.and_then(|index| density.get(index)).unwrap_or(here));
+        if between == PointInterpolation::Cubic { 0.25 * (left + 2.0 * here + right) } else { *here }
+    });
+    smoothed.zip(&widths).map(|(density, width)| density * width).collect()
 }
 
 fn spots(sections: &[PlacingSection]) -> Vec<RowPlace> {

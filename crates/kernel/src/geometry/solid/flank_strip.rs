@@ -77,17 +77,15 @@ impl ShellFlank {
 
     fn add_patch(&self, walls: &mut ShellBuilder, (k, patch): (usize, &SplineSurface), side: f64) {
         let first = patch.controls.first().cloned().unwrap_or_default();
-        let row = |end: fn(&[Point3]) -> Option<&Point3>| -> Vec<Point3> {
-            patch.controls.iter().filter_map(|row| end(row).copied()).collect()
-        };
         walls.shell.vertices.extend(first.first().into_iter().chain(first.last()).map(|point| SolidVertex(*point)));
-        let along = |vertices: (usize, usize), knots: &[f64], controls: Vec<Point3>| CompressedEdge {
-            vertices,
-            curve: EdgeCurve::Spline(SplineCurve { knots: knots.to_vec(), controls }),
-        };
-        walls.shell.edges.push(along((self.floor(k), self.floor(k + 1)), &patch.u, row(<[Point3]>::first)));
-        walls.shell.edges.push(along((self.outer(k), self.outer(k + 1)), &patch.u, row(<[Point3]>::last)));
-        walls.shell.edges.push(along((self.floor(k), self.outer(k)), &patch.v, first));
+        for (vertices, knots, controls) in [
+            ((self.floor(k), self.floor(k + 1)), &patch.u, patch.first_column()),
+            ((self.outer(k), self.outer(k + 1)), &patch.u, patch.last_column()),
+            ((self.floor(k), self.outer(k)), &patch.v, first),
+        ] {
+            let curve = EdgeCurve::Spline(SplineCurve { knots: knots.clone(), controls });
+            walls.shell.edges.push(CompressedEdge { vertices, curve });
+        }
         let [floor, outer] = [0, 1].map(|kind| self.edges + 3 * self.station(k) + kind);
         let (start, end) = (self.outwards(k), self.outwards(k + 1));
         // Counter-clockwise about the normal out of the metal: of u by v it points down.
@@ -141,6 +139,14 @@ impl ShellBuilder {
 
 impl SplineSurface {
     /// The patch with its parameters exchanged.
+    pub(super) fn first_column(&self) -> Vec<Point3> {
+        self.controls.iter().filter_map(|row| row.first().copied()).collect()
+    }
+
+    pub(super) fn last_column(&self) -> Vec<Point3> {
+        self.controls.iter().filter_map(|row| row.last().copied()).collect()
+    }
+
     pub(super) fn transposed(&self) -> Self {
         let columns = self.controls.first().map_or(0, Vec::len);
         Self {

@@ -229,8 +229,7 @@ fn turned(used: CompressedEdgeIndex) -> CompressedEdgeIndex {
 
 /// A line on a torus between two places, along which the polar angle and that about the tube grow evenly: at one polar angle the arc of the tube.
 fn tube_line([from, to]: [Point3; 2], (major, minor): (f64, f64)) -> SplineCurve {
-    let about = |place: Point3| libm::atan2(place.z, major - libm::hypot(place.x, place.y));
-    let (start, end) = (about(from), about(to));
+    let [start, end] = [from, to].map(|place| libm::atan2(place.z, major - libm::hypot(place.x, place.y)));
     let (first, turn) = (polar(from), signed_turn(polar(to) - polar(from)));
     let mut spans = 2.0;
     while (end - start).abs().max(turn.abs()) / spans > ARC_SPAN {
@@ -251,9 +250,8 @@ fn tube_line([from, to]: [Point3; 2], (major, minor): (f64, f64)) -> SplineCurve
         (place, [by * cos - radius * sin * turn, by * sin + radius * cos * turn, minor * c * (end - start)])
     };
     let [x, y, z] = [0, 1, 2].map(|axis| {
-        let of = |vector: [f64; 3]| vector.get(axis).copied().unwrap_or(f64::NAN);
-        let values: Vec<f64> = shares.iter().map(|share| of(along(*share).0)).collect();
-        Spline::clamped(&shares, &values, (of(along(0.0).1), of(along(1.0).1))).controls()
+        let values: Vec<f64> = shares.iter().map(|share| along(*share).0[axis]).collect();
+        Spline::clamped(&shares, &values, (along(0.0).1[axis], along(1.0).1[axis])).controls()
     });
     let mut controls: Vec<Point3> = x.into_iter().zip(y).zip(z).map(|((x, y), z)| Point3::new(x, y, z)).collect();
     // The ends are the vertices themselves.
@@ -265,7 +263,6 @@ fn tube_line([from, to]: [Point3; 2], (major, minor): (f64, f64)) -> SplineCurve
 
 /// The mirror image about the plane of x and z.
 fn mirrored(mut boundary: TruckBoundary) -> TruckBoundary {
-    let flip = |point: Point3| Point3::new(point.x, -point.y + 0.0, point.z);
     for shell in &mut boundary.boundaries {
         for vertex in &mut shell.vertices {
             *vertex = SolidVertex(flip(vertex.0));
@@ -301,4 +298,8 @@ fn mirrored(mut boundary: TruckBoundary) -> TruckBoundary {
         }
     }
     boundary
+}
+
+fn flip(point: Point3) -> Point3 {
+    Point3::new(point.x, -point.y + 0.0, point.z)
 }

@@ -141,9 +141,6 @@ impl SplineSurface {
     /// ∬ z (x_u y_v − y_u x_v) du dv, mm³, exactly.
     #[must_use]
     pub fn lifted_volume(&self) -> f64 {
-        let spans = |knots: &[f64]| -> Vec<(f64, f64)> {
-            knots.iter().zip(knots.iter().skip(1)).filter(|(a, b)| a < b).map(|(a, b)| (*a, b - a)).collect()
-        };
         let mut volume = 0.0;
         for (u, width) in spans(&self.u) {
             for (v, height) in spans(&self.v) {
@@ -157,4 +154,9 @@ impl SplineSurface {
         }
         volume
     }
+}
+
+/// The spans of a knot vector with their widths.
+fn spans(knots: &[f64]) -> impl Iterator<Item = (f64, f64)> {
+    knots.iter().zip(knots.iter().skip(1)).filter(|(a, b)| a < b).map(|(a, b)| (*a, b - a))
 }

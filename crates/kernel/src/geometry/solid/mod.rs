@@ -160,10 +160,11 @@ pub fn pocketed(
     flanks: &[Contour],
     (thickness, depth): (f64, f64),
 ) -> Result<CheckedSolid, Refusal> {
-    let area = |contours: &[Contour]| contours.iter().map(|contour| contour.area_and_centroid().0).sum::<f64>();
+    let [outer, grooves] =
+        [through, flanks].map(|contours| contours.iter().map(|contour| contour.area_and_centroid().0).sum::<f64>());
     let boundary = ShellBuilder::grooved(through, flanks, (thickness, depth));
     check_closed(&boundary)?;
-    as_drawn(boundary, area(through) * thickness + area(flanks) * depth)
+    as_drawn(boundary, outer * thickness + grooves * depth)
 }
 
 /// Refuses a boundary that is not one closed shell by the rules of truck.
@@ -242,10 +243,7 @@ impl ShellBuilder {
         let (mut vertices, mut edges, mut faces) = (Vec::new(), Vec::new(), Vec::new());
         for (i, patch) in patches.iter().enumerate() {
             let first = patch.controls.first().cloned().unwrap_or_default();
-            let row = |end: fn(&[Point3]) -> Option<&Point3>| -> Vec<Point3> {
-                patch.controls.iter().filter_map(|row| end(row).copied()).collect()
-            };
-            for (top, controls) in [(0, row(<[Point3]>::first)), (1, row(<[Point3]>::last))] {
+            for (top, controls) in [(0, patch.first_column()), (1, patch.last_column())] {
                 vertices.extend(controls.first().copied().map(SolidVertex));
                 let ends = (self.vertex(n, i, top), self.vertex(n, i + 1, top));
                 let curve = EdgeCurve::Spline(SplineCurve { knots: patch.u.clone(), controls });
