@@ -77,8 +77,9 @@ impl FileRow {
     fn with_decimals_joined(&self, width: usize) -> Self {
         let mut cells: Vec<String> = Vec::new();
         for cell in &self.cells {
-            let digit = |letter: Option<char>| letter.is_some_and(|letter| letter.is_ascii_digit());
-            match cells.last_mut().filter(|before| digit(before.chars().last()) && digit(cell.chars().next())) {
+            let begins_with_digit = cell.starts_with(|c: char| c.is_ascii_digit());
+            let before = cells.last_mut().filter(|before| before.ends_with(|c: char| c.is_ascii_digit()));
+            match before.filter(|_| begins_with_digit) {
                 Some(before) if self.width() > width => *before = format!("{before},{cell}"),
                 _ => cells.push(cell.clone()),
             }
@@ -190,27 +191,30 @@ impl Columns {
 /// Most lines above the first row.
 const MOST_ABOVE: usize = 50;
 
+/// Cells without quotes, and without empty ones at the end.
+fn kept(cells: &[&str]) -> Vec<String> {
+    let mut cells: Vec<String> = cells.iter().map(|cell| unquoted(cell.trim()).trim().to_owned()).collect();
+    while cells.last().is_some_and(String::is_empty) {
+        cells.pop();
+    }
+    cells
+}
+
 /// The cells of a line: between semicolons, tabulators or commas, or else between blanks. Commas are decimal where blanks, tabulators or
 /// semicolons separate the cells.
 fn cells(line: &str) -> Vec<String> {
-    let kept = |cells: Vec<&str>| {
-        let mut cells: Vec<String> = cells.iter().map(|cell| unquoted(cell.trim()).trim().to_owned()).collect();
-        while cells.last().is_some_and(String::is_empty) {
-            cells.pop();
-        }
-        cells
-    };
     if line.contains(';') {
-        return kept(parts(line, ';'));
+        return kept(&parts(line, ';'));
     }
     if line.contains('\t') {
-        return kept(parts(line, '\t').into_iter().map(|cell| cell.trim().trim_end_matches(',')).collect());
+        let cells = parts(line, '\t').into_iter().map(|cell| cell.trim().trim_end_matches(','));
+        return kept(&cells.collect::<Vec<_>>());
     }
     let blanks: Vec<&str> = line.split_whitespace().collect();
     if line.contains(',') {
         let any = blanks.iter().any(|cell| cell.contains(','));
         if !(blanks.len() > 1 && any && blanks.iter().all(|cell| number(cell).is_some())) {
-            return kept(parts(line, ','));
+            return kept(&parts(line, ','));
         }
     }
     // What stands in brackets belongs to the word before it.

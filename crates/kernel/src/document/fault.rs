@@ -112,7 +112,7 @@ pub(super) fn nearest<'k>(path: &str, known: &'k [KnownKey]) -> Vec<&'k str> {
     }
     let path = &folded(path);
     let (table, name) = (table_of(path), last(path));
-    let distance = |key: &'k KnownKey| {
+    let distances = known.iter().map(|key| {
         let (whole, other) = (edit_distance(path, &key.named), last(&key.named));
         let by_letters = mistakes(name, other);
         let by_word = by_letters > 1 && (is_word_of(name, other) || is_word_of(other, name));
@@ -125,13 +125,12 @@ pub(super) fn nearest<'k>(path: &str, known: &'k [KnownKey]) -> Vec<&'k str> {
             (false, false) => NOT_IN_FILE,
         };
         (key.path.as_str(), whole, wrong, elsewhere, by_word)
-    };
-    let distances: Vec<_> = known.iter().map(distance).collect();
-    let cost = |(_, whole, wrong, elsewhere, _): &(&str, usize, usize, usize, bool)| {
-        (((wrong + elsewhere) * 2).min(whole * 2 + 1), *whole)
-    };
-    let Some(best) = distances.iter().min_by_key(|key| cost(key)) else { return Vec::new() };
-    let (nearest, whole, wrong, elsewhere, by_word) = *best;
+    });
+    let distances: Vec<_> = distances.collect();
+    let best = distances
+        .iter()
+        .min_by_key(|(_, whole, wrong, elsewhere, _)| (((wrong + elsewhere) * 2).min(whole * 2 + 1), *whole));
+    let Some(&(nearest, whole, wrong, elsewhere, by_word)) = best else { return Vec::new() };
     if wrong * 2 > name.chars().count() && whole * 3 > path.chars().count() {
         return Vec::new();
     }
@@ -201,9 +200,10 @@ fn mistakes(a: &str, b: &str) -> usize {
 }
 
 fn word_mistakes(a: &str, b: &str) -> usize {
-    let begins = |short: &str, long: &str| short.len() >= SHORTEST_ABBREVIATION && long.starts_with(short);
     let by_letters = letter_mistakes(a, b);
-    if by_letters > 1 && (begins(a, b) || begins(b, a)) { 1 } else { by_letters }
+    let abbreviates =
+        [(a, b), (b, a)].iter().any(|(short, long)| short.len() >= SHORTEST_ABBREVIATION && long.starts_with(short));
+    if by_letters > 1 && abbreviates { 1 } else { by_letters }
 }
 
 /// Shortest accepted abbreviation of a word.
@@ -211,13 +211,13 @@ const SHORTEST_ABBREVIATION: usize = 3;
 
 /// Levenshtein distance; two swapped letters are a single mistake.
 fn letter_mistakes(a: &str, b: &str) -> usize {
-    let letters = |text: &str| {
+    let distance = edit_distance(a, b);
+    let [letters, others] = [a, b].map(|text| {
         let mut letters: Vec<char> = text.chars().collect();
         letters.sort_unstable();
         letters
-    };
-    let distance = edit_distance(a, b);
-    if distance == 2 && letters(a) == letters(b) { 1 } else { distance }
+    });
+    if distance == 2 && letters == others { 1 } else { distance }
 }
 
 /// The shortest beginning that is accepted for a whole word.

@@ -200,11 +200,10 @@ impl HeadingUnit {
         let last = words.len().saturating_sub(1);
         // A single letter is a unit only where nothing else is in it: the `s` of `s (mm)` is a name; the `in` of `in metres` is a
         // preposition.
-        let is_unit = |at: usize, word: &str| match word {
-            "m" | "in" | "In" => at == last,
-            _ => word.chars().count() > 1 || words.len() == 1 || !word.chars().all(char::is_alphabetic),
-        };
-        let mut found = words.iter().enumerate().rev().filter(|(at, word)| is_unit(*at, word));
+        let mut found = words.iter().enumerate().rev().filter(|(at, word)| match **word {
+            "m" | "in" | "In" => *at == last,
+            word => word.chars().count() > 1 || words.len() == 1 || !word.chars().all(char::is_alphabetic),
+        });
         found.find_map(|(_, word)| Self::of_word(word).or_else(|| Self::of_quotient(word)))
     }
 

@@ -163,8 +163,8 @@ impl KeySection {
 
 /// Whether a section adds keys to the table of the one before it.
 pub(super) fn continues(sections: &[&KeySection], index: usize) -> bool {
-    let path = |index: usize| sections.get(index).map(|section| section.path);
-    index.checked_sub(1).is_some_and(|before| path(before) == path(index))
+    let before = index.checked_sub(1).and_then(|before| sections.get(before));
+    before.zip(sections.get(index)).is_some_and(|(before, own)| before.path == own.path)
 }
 
 /// The key at a path, indices left open, with its table.
@@ -239,6 +239,45 @@ impl LengthOrAngle {
             LengthOrAngle::Length(_) => self.canonical(),
             LengthOrAngle::Angle(angle) => exact(angle),
         }
+    }
+}
+
+/// What a field reads of a value of its form; `None` of another form.
+impl KeyValue {
+    fn text(&self) -> Option<String> {
+        if let Self::Text(text) = self { Some(text.clone()) } else { None }
+    }
+
+    fn boolean(&self) -> Option<bool> {
+        if let Self::Boolean(truth) = self { Some(*truth) } else { None }
+    }
+
+    fn texts(&self) -> Option<Vec<String>> {
+        if let Self::Texts(texts) = self { Some(texts.clone()) } else { None }
+    }
+
+    fn length_or_angle(&self) -> Option<LengthOrAngle> {
+        if let Self::LengthOrAngle(either) = self { Some(*either) } else { None }
+    }
+
+    fn length_angle_or_share(&self) -> Option<LengthAngleOrShare> {
+        match self {
+            Self::LengthOrAngle(either) => Some(LengthAngleOrShare::Size(*either)),
+            Self::Share(share) => Some(LengthAngleOrShare::Share(*share)),
+            _ => None,
+        }
+    }
+
+    fn band(&self) -> Option<(f64, f64)> {
+        if let Self::Band(low, high) = self { Some((*low, *high)) } else { None }
+    }
+
+    fn pair(&self) -> Option<[f64; 2]> {
+        if let Self::Pair(pair) = self { Some(*pair) } else { None }
+    }
+
+    fn points(&self) -> Option<PointList> {
+        if let Self::Points(points) = self { Some(points.clone()) } else { None }
     }
 }
 
@@ -404,8 +443,7 @@ impl Field<String> {
     /// A key for a text.
     #[must_use]
     pub const fn text(name: &'static str, about: &'static str, presence: Presence) -> Self {
-        let convert = |value: &KeyValue| if let KeyValue::Text(text) = value { Some(text.clone()) } else { None };
-        Self::new(name, about, presence, KeyForm::Text, Convert::Plain(convert))
+        Self::new(name, about, presence, KeyForm::Text, Convert::Plain(KeyValue::text))
     }
 
     /// A key for a text that may be a number, which needs no quotes then.
@@ -420,8 +458,7 @@ impl Field<bool> {
     /// A key that is true or false.
     #[must_use]
     pub const fn boolean(name: &'static str, about: &'static str, presence: Presence) -> Self {
-        let convert = |value: &KeyValue| if let KeyValue::Boolean(truth) = value { Some(*truth) } else { None };
-        Self::new(name, about, presence, KeyForm::Boolean, Convert::Plain(convert))
+        Self::new(name, about, presence, KeyForm::Boolean, Convert::Plain(KeyValue::boolean))
     }
 }
 
@@ -469,8 +506,7 @@ impl Field<Vec<String>> {
     /// A key for a list of texts or numbers. The example is as in TOML.
     #[must_use]
     pub const fn texts(name: &'static str, about: &'static str, presence: Presence) -> Self {
-        let convert = |value: &KeyValue| if let KeyValue::Texts(texts) = value { Some(texts.clone()) } else { None };
-        Self::new(name, about, presence, KeyForm::Texts, Convert::Plain(convert))
+        Self::new(name, about, presence, KeyForm::Texts, Convert::Plain(KeyValue::texts))
     }
 }
 
@@ -484,8 +520,8 @@ impl Field<LengthOrAngle> {
         length: Bounds,
         angle: Bounds,
     ) -> Self {
-        let convert = |value: &KeyValue| if let KeyValue::LengthOrAngle(either) = value { Some(*either) } else { None };
-        Self::new(name, about, presence, KeyForm::LengthOrAngle(length, angle), Convert::Plain(convert))
+        let form = KeyForm::LengthOrAngle(length, angle);
+        Self::new(name, about, presence, form, Convert::Plain(KeyValue::length_or_angle))
     }
 
     /// A key for an angle, or in its place a length.
@@ -512,13 +548,8 @@ impl Field<LengthAngleOrShare> {
         (length, angle): (Bounds, Bounds),
         share: Bounds,
     ) -> Self {
-        let convert = |value: &KeyValue| match value {
-            KeyValue::LengthOrAngle(either) => Some(LengthAngleOrShare::Size(*either)),
-            KeyValue::Share(share) => Some(LengthAngleOrShare::Share(*share)),
-            _ => None,
-        };
         let form = KeyForm::LengthAngleOrShare(length, angle, share);
-        Self::new(name, about, presence, form, Convert::Plain(convert))
+        Self::new(name, about, presence, form, Convert::Plain(KeyValue::length_angle_or_share))
     }
 }
 
@@ -548,8 +579,7 @@ impl Field<(f64, f64)> {
         dimension: Dimension,
         bounds: Bounds,
     ) -> Self {
-        let convert = |value: &KeyValue| if let KeyValue::Band(low, high) = value { Some((*low, *high)) } else { None };
-        Self::new(name, about, presence, KeyForm::Band(dimension, bounds), Convert::Plain(convert))
+        Self::new(name, about, presence, KeyForm::Band(dimension, bounds), Convert::Plain(KeyValue::band))
     }
 }
 
@@ -563,8 +593,7 @@ impl Field<[f64; 2]> {
         dimension: Dimension,
         bounds: Bounds,
     ) -> Self {
-        let convert = |value: &KeyValue| if let KeyValue::Pair(pair) = value { Some(*pair) } else { None };
-        Self::new(name, about, presence, KeyForm::Pair(dimension, bounds), Convert::Plain(convert))
+        Self::new(name, about, presence, KeyForm::Pair(dimension, bounds), Convert::Plain(KeyValue::pair))
     }
 }
 
@@ -582,8 +611,7 @@ impl Field<PointList> {
         place: (Bounds, Bounds),
         position: (Bounds, Bounds),
     ) -> Self {
-        let convert = |value: &KeyValue| if let KeyValue::Points(points) = value { Some(points.clone()) } else { None };
-        Self::new(name, about, presence, KeyForm::Points(place, position), Convert::Plain(convert))
+        Self::new(name, about, presence, KeyForm::Points(place, position), Convert::Plain(KeyValue::points))
     }
 }
 

@@ -35,9 +35,6 @@ pub(super) fn fault_of(why: &str, line: &str, repeated: impl Fn(&str) -> bool) -
     if line.starts_with("//") || line.starts_with(';') || line.starts_with("/*") {
         return fault("a comment begins with #".into(), format!("# {}", line.trim_start_matches(['/', ';', '*', ' '])));
     }
-    let is_name = |text: &str| {
-        !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.'))
-    };
     if let Some((name, value)) = line.split_once('=') {
         let (name, value) = (name.trim(), value.split('#').next().unwrap_or_default().trim());
         if why.contains("duplicate") {
@@ -57,6 +54,10 @@ pub(super) fn fault_of(why: &str, line: &str, repeated: impl Fn(&str) -> bool) -
             _ => None,
         },
     }
+}
+
+fn is_name(text: &str) -> bool {
+    !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.'))
 }
 
 /// The fault of a value without quotes.

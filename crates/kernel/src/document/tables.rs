@@ -89,12 +89,11 @@ impl Tables {
     /// The kinds that a list of kinds and classes names.
     #[must_use]
     pub fn listed<'c>(&self, cams: &[&'c str]) -> Vec<&'c str> {
-        cams.iter()
-            .flat_map(|cam| -> Vec<&'c str> {
-                let members = self.kinds.iter().filter(|kind| kind.classes.contains(cam));
-                let members: Vec<&'c str> = members.map(|kind| kind.name).collect();
-                if members.is_empty() { vec![*cam] } else { members }
-            })
-            .collect()
+        let listed = cams.iter().flat_map(|cam| -> Vec<&'c str> {
+            let members = self.kinds.iter().filter(|kind| kind.classes.contains(cam));
+            let members: Vec<&'c str> = members.map(|kind| kind.name).collect();
+            if members.is_empty() { vec![*cam] } else { members }
+        });
+        listed.collect()
     }
 }

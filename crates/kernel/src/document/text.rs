@@ -325,8 +325,8 @@ impl<'a> Document<'a> {
             _ => false,
         };
         let value = self.entries.iter().find(|(_, entry)| holds(&entry.key) || holds(&entry.at)).map(|(path, _)| path);
-        let table = || self.tables.iter().find(|(_, span)| *place == TextPlace::File((*span).clone()));
-        value.or_else(|| table().map(|(path, _)| path)).cloned()
+        let mut tables = self.tables.iter().filter(|(_, span)| *place == TextPlace::File((*span).clone()));
+        value.or_else(|| tables.next().map(|(path, _)| path)).cloned()
     }
 
     /// The place of one character, from 1, of a text at a place, where it is written without escapes.
@@ -337,9 +337,8 @@ impl<'a> Document<'a> {
             }
             TextPlace::File(span) => {
                 let written = self.text.get(span.clone()).unwrap_or_default();
-                let quote = |text: &str| ['"', '\''].into_iter().any(|quote| text.starts_with(quote));
                 let inner = written.get(1..).unwrap_or_default();
-                if !quote(written) || quote(inner) || written.contains('\\') {
+                if !written.starts_with(['"', '\'']) || inner.starts_with(['"', '\'']) || written.contains('\\') {
                     return place;
                 }
                 let found = inner.char_indices().nth(character - 1).map(|(at, c)| (at, c.len_utf8()));
@@ -363,14 +362,13 @@ impl<'a> Document<'a> {
     fn excerpt_of_file(&self, span: &Range<usize>) -> Excerpt {
         let at = span.start.min(self.text.len());
         let (before, after) = self.text.as_bytes().split_at(at);
-        let is_break = |byte: &u8| *byte == b'\n';
-        let line = before.iter().filter(|byte| is_break(byte)).count() + 1;
-        let start = before.iter().rposition(is_break).map_or(0, |last| last + 1);
-        let end = at + after.iter().position(is_break).unwrap_or(after.len());
-        let part = |from: usize, to: usize| self.text.get(from..to).unwrap_or_default();
-        let column = part(start, at).chars().count() + 1;
-        let marked = part(at, span.end.clamp(at, end.max(at))).chars().count();
-        Excerpt::of(self.source, line, part(start, end).trim_end(), (column, marked))
+        let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
+        let start = before.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
+        let end = at + after.iter().position(|byte| *byte == b'\n').unwrap_or(after.len());
+        let [whole, left, marked] = [start..end, start..at, at..span.end.clamp(at, end.max(at))]
+            .map(|range| self.text.get(range).unwrap_or_default());
+        let (column, width) = (left.chars().count() + 1, marked.chars().count());
+        Excerpt::of(self.source, line, whole.trim_end(), (column, width))
     }
 }
 
@@ -394,8 +392,8 @@ fn not_a_name(name: &str, depth: usize) -> Option<(String, Option<String>)> {
         return Some((format!("unknown key `{}`", shown(name, LONGEST_NAME / 4)), None));
     }
     // A quoted key with a dot or bracket is not the path that it looks like.
-    let help = || Some("write the dotted path without quotes".into());
-    name.contains(['.', '[', ']']).then(|| (format!("unknown key `\"{name}\"`"), help()))
+    name.contains(['.', '[', ']'])
+        .then(|| (format!("unknown key `\"{name}\"`"), Some("write the dotted path without quotes".into())))
 }
 
 fn is_array_of_tables(items: &DeArray<'_>) -> bool {

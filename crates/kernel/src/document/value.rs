@@ -197,16 +197,14 @@ impl KeyAtPath<'_> {
 
     /// A list in the file, or `[angle, 3]` after a flag.
     fn texts(&self, scalar: &Scalar) -> Result<KeyValue, Misfit> {
-        let wrong = || misfit(format!("`{}` must be a list of texts or numbers", self.path), Some(self.example()));
-        let Some(items) = items(scalar, |text| Scalar::Text(text.trim().trim_matches('"').to_owned())) else {
-            return wrong();
-        };
-        let texts: Option<Vec<String>> = items.iter().map(|item| item.typed().map(str::to_owned)).collect();
+        let items = items(scalar, |text| Scalar::Text(text.trim().trim_matches('"').to_owned()));
+        let texts: Option<Vec<String>> =
+            items.and_then(|items| items.iter().map(|item| item.typed().map(str::to_owned)).collect());
         match texts {
             Some(texts) if texts.iter().all(|text| !text.trim().is_empty() && text.chars().all(is_text)) => {
                 Ok(KeyValue::Texts(texts))
             }
-            _ => wrong(),
+            _ => misfit(format!("`{}` must be a list of texts or numbers", self.path), Some(self.example())),
         }
     }
 
@@ -245,11 +243,13 @@ impl KeyAtPath<'_> {
             let [at, to] = pair.as_slice() else {
                 return wrong(format!("must have 2 values in each point: point {number} has {}", pair.len()));
             };
-            let numbered = |fault: Misfit| Misfit { message: format!("{}, in point {number}", fault.message), ..fault };
-            let at = self.angle_or_length(at, place_angle, place_length).map_err(numbered)?;
-            let to = self.length_or_angle(to, length, angle).map_err(numbered)?;
-            if let (KeyValue::LengthOrAngle(at), KeyValue::LengthOrAngle(to)) = (at, to) {
-                points.push((at, to));
+            let at = self.angle_or_length(at, place_angle, place_length);
+            match at.and_then(|at| Ok((at, self.length_or_angle(to, length, angle)?))) {
+                Ok((KeyValue::LengthOrAngle(at), KeyValue::LengthOrAngle(to))) => points.push((at, to)),
+                Ok(_) => {}
+                Err(fault) => {
+                    return Err(Misfit { message: format!("{}, in point {number}", fault.message), ..fault });
+                }
             }
         }
         Ok(KeyValue::Points(points))

@@ -1,6 +1,7 @@
 //! A cubic Bézier curve, millimetres: everything about it is computed from its polynomials, without sampling.
 
 use super::segment::{Extents, NearestOnSegment};
+use crate::numeric::scatter::range;
 use crate::numeric::{bernstein, quadrature};
 use nalgebra::Vector2;
 
@@ -24,10 +25,6 @@ pub struct Cubic {
 #[inline]
 fn between(a: Vector2<f64>, b: Vector2<f64>, t: f64) -> Vector2<f64> {
     a + (b - a) * t
-}
-
-fn range(values: &[f64]) -> (f64, f64) {
-    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
 }
 
 impl Cubic {

@@ -159,24 +159,19 @@ impl CounterMotion {
     pub fn new(work: Arc<dyn Work>, rate: f64, preload: f64) -> Result<Self, Refusal> {
         let pieces = work.pieces().to_vec();
         let distinct = pieces.len() / usize::try_from(work.lobes().max(1)).unwrap_or(1);
-        let extreme = |sign: f64| {
-            sign * pieces
-                .iter()
-                .take(distinct.max(1))
-                .enumerate()
-                .map(|(index, piece)| {
-                    let cells = if piece.dwell { 1 } else { CELLS };
-                    extremum::largest(
-                        |angle| sign * work.at(index, angle).energy,
-                        |angle| sign * work.at(index, angle).torque,
-                        (piece.start, piece.end),
-                        cells,
-                    )
-                    .value
-                })
-                .fold(f64::NEG_INFINITY, f64::max)
-        };
-        let (most, least) = (extreme(1.0), extreme(-1.0));
+        let [most, least] = [1.0, -1.0].map(|sign| {
+            let extremes = pieces.iter().take(distinct.max(1)).enumerate().map(|(index, piece)| {
+                let cells = if piece.dwell { 1 } else { CELLS };
+                let extreme = extremum::largest(
+                    |angle| sign * work.at(index, angle).energy,
+                    |angle| sign * work.at(index, angle).torque,
+                    (piece.start, piece.end),
+                    cells,
+                );
+                extreme.value
+            });
+            sign * extremes.fold(f64::NEG_INFINITY, f64::max)
+        });
         Ok(Self { law: CounterTorque::new(rate, preload, most)?, stored: most - least, pieces, work })
     }
 
@@ -212,21 +207,17 @@ impl Motion for CounterMotion {
 /// and how far its angle is shifted from that, rad.
 #[must_use]
 pub fn merged(pieces: &[Piece], rests: &[bool]) -> Vec<(Piece, usize, f64)> {
-    let rests_at = |index: usize| rests.get(index).copied().unwrap_or(false);
+    let own: Vec<_> = pieces.iter().zip(rests.iter().copied().chain(std::iter::repeat(false))).enumerate().collect();
     // A turn that begins within a rest would cut it in two.
-    let first = (0..pieces.len()).find(|index| !rests_at(*index)).unwrap_or(0);
-    let turned = (0..pieces.len()).map(|step| {
-        let index = (first + step) % pieces.len();
-        (index, if first + step < pieces.len() { 0.0 } else { TAU })
-    });
+    let first = own.iter().position(|(_, (_, rests))| !rests).unwrap_or(0);
     let mut all: Vec<(Piece, usize, f64)> = Vec::new();
-    for (index, shift) in turned {
-        let Some(piece) = pieces.get(index) else { continue };
+    for (step, (index, (piece, rests))) in own.iter().cycle().skip(first).take(own.len()).enumerate() {
+        let shift = if first + step < pieces.len() { 0.0 } else { TAU };
         match all.last_mut() {
-            Some((last, ..)) if last.dwell && rests_at(index) => last.end = piece.end + shift,
+            Some((last, ..)) if last.dwell && *rests => last.end = piece.end + shift,
             _ => {
                 let start = all.last().map_or(piece.start, |(last, ..)| last.end);
-                all.push((Piece { start, end: piece.end + shift, dwell: rests_at(index) }, index, shift));
+                all.push((Piece { start, end: piece.end + shift, dwell: *rests }, *index, shift));
             }
         }
     }

@@ -25,11 +25,11 @@ const NAMES: [&str; 3] = ["velocity", "acceleration", "jerk"];
 pub fn check(motion: &dyn Motion) -> Result<(), Refusal> {
     pieces_follow(motion)?;
     let all: Vec<Vec<(f64, Jet)>> = (0..motion.pieces().len()).map(|piece| samples(motion, piece)).collect();
-    let lifts = || all.iter().flatten().map(|(_, jet)| jet.s);
     if let Some((at, _)) = all.iter().flatten().find(|(_, jet)| !values(jet).iter().all(|value| value.is_finite())) {
         return Err(refused(motion, "the lift or a derivative is not finite", *at));
     }
-    let (low, high) = lifts().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)));
+    let lifts = all.iter().flatten().map(|(_, jet)| jet.s);
+    let (low, high) = lifts.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)));
     let range = high - low;
     if low.abs() > LOWEST * range {
         let what = format!("the lift at the lowest point is {low:.6e}, not 0");
@@ -72,9 +72,8 @@ fn pieces_follow(motion: &dyn Motion) -> Result<(), Refusal> {
 fn samples(motion: &dyn Motion, piece: usize) -> Vec<(f64, Jet)> {
     let Some(own) = motion.pieces().get(piece) else { return Vec::new() };
     let count = PLACES.max(motion.cells(piece).saturating_mul(2)).min(20 * PLACES);
-    let at = |index: u32| own.start + (own.end - own.start) * f64::from(index) / f64::from(count);
-    let places = (0..count).map(at).chain([own.end]);
-    places.map(|at| (at, motion.jet(piece, at))).collect()
+    let inner = (0..count).map(|index| own.start + (own.end - own.start) * f64::from(index) / f64::from(count));
+    inner.chain([own.end]).map(|at| (at, motion.jet(piece, at))).collect()
 }
 
 fn continuous(motion: &dyn Motion, all: &[Vec<(f64, Jet)>], range: f64) -> Result<(), Refusal> {
@@ -94,11 +93,10 @@ fn derivatives_belong(motion: &dyn Motion, all: &[Vec<(f64, Jet)>], range: f64) 
         let Some(own) = motion.pieces().get(piece) else { continue };
         let width = own.end - own.start;
         for (order, name) in (1..).zip(NAMES) {
-            let of = |jet: &Jet| values(jet).get(order).copied().unwrap_or(0.0);
-            let largest = samples.iter().map(|(_, jet)| of(jet).abs()).fold(0.0, f64::max);
+            let largest = samples.iter().map(|(_, jet)| values(jet)[order].abs()).fold(0.0, f64::max);
             let scale = AGREES * largest + ROUNDING * range / power(width, order);
             for (at, jet) in samples {
-                let given = of(jet);
+                let given = values(jet)[order];
                 let found = STEPS.map(|step| difference(motion, piece, (*at, step * width), order));
                 if !found.iter().any(|found| found.is_none_or(|found| (found - given).abs() <= scale)) {
                     let by = found.last().copied().flatten().unwrap_or(f64::NAN);
@@ -122,8 +120,9 @@ fn difference(motion: &dyn Motion, piece: usize, (at, step): (f64, f64), order: 
     if at - 2.0 * step < own.start || at + 2.0 * step > own.end {
         return None;
     }
-    let below = |by: f64| values(&motion.jet(piece, at + by * step)).get(order - 1).copied().unwrap_or(0.0);
-    Some((8.0 * (below(1.0) - below(-1.0)) - (below(2.0) - below(-2.0))) / (12.0 * step))
+    let [after, before, two_after, two_before] =
+        [1.0, -1.0, 2.0, -2.0].map(|by| values(&motion.jet(piece, at + by * step))[order - 1]);
+    Some((8.0 * (after - before) - (two_after - two_before)) / (12.0 * step))
 }
 
 #[cfg(test)]

@@ -44,21 +44,20 @@ pub fn largest(motion: &dyn Motion) -> Option<Jump> {
 /// That jump, of a motion whose velocity, acceleration and jerk have these sizes where it is not at an end of a piece.
 pub(super) fn largest_above(motion: &dyn Motion, sizes: [f64; 3]) -> Option<Jump> {
     let pieces = motion.distinct();
-    let end_rates = |index: usize| {
-        let piece = pieces.get(index).filter(|_| motion.is_rolled(index))?;
-        Some((rates(motion.jet(index, piece.start)), rates(motion.jet(index, piece.end)), piece.end))
-    };
-    let all: Vec<_> = (0..pieces.len()).map(end_rates).collect();
+    let end_rates = pieces.iter().enumerate().map(|(index, piece)| {
+        let (start, end) = (piece.start, piece.end);
+        motion.is_rolled(index).then(|| (rates(motion.jet(index, start)), rates(motion.jet(index, end)), end))
+    });
+    let all: Vec<_> = end_rates.collect();
     // A cam that is run over once and back ends where its last piece does.
     let joints = if motion.period().is_some() { all.len() } else { all.len().saturating_sub(1) };
     (0..3_usize).zip(1_u32..).find_map(|(order, derivative)| {
-        let value = |all: &[f64; 3]| all.get(order).copied().unwrap_or(0.0);
-        let at_ends = all.iter().flatten().flat_map(|(start, end, _)| [value(start).abs(), value(end).abs()]);
+        let at_ends = all.iter().flatten().flat_map(|(start, end, _)| [start[order].abs(), end[order].abs()]);
         let size = at_ends.chain(sizes.get(order).copied()).fold(0.0, f64::max);
         let pairs = all.iter().zip(all.iter().cycle().skip(1)).take(joints);
         let jumps = pairs.filter_map(|(before, after)| {
             let ((_, end, at), (start, ..)) = (before.as_ref()?, after.as_ref()?);
-            Some(Jump { order: derivative, by: (value(start) - value(end)).abs(), at: *at })
+            Some(Jump { order: derivative, by: (start[order] - end[order]).abs(), at: *at })
         });
         let worst = jumps.max_by(|a, b| a.by.total_cmp(&b.by))?;
         (worst.by > ROUNDING * size).then_some(worst)

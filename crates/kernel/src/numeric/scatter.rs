@@ -30,6 +30,12 @@ pub fn off_neighbours((x, y): (f64, f64), others: &[(f64, f64)]) -> Option<f64> 
     (square.is_finite() && square > 0.0).then(|| off / square.sqrt())
 }
 
+/// The least and the largest of some values.
+#[must_use]
+pub fn range(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)))
+}
+
 /// The value in the middle; 0 of none.
 pub fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);

@@ -65,14 +65,11 @@ impl Part {
 /// The factor in a heading, as written.
 pub(super) fn factor_in(heading: &str) -> Option<String> {
     let lower = plain(heading);
-    let ordinal = |word: &str| {
-        let number = word.trim_end_matches('s').strip_suffix("th");
-        number.is_some_and(|number| !number.is_empty() && number.chars().all(|c| c.is_ascii_digit()))
-    };
-    let word =
-        |word: &&str| ordinal(word) || PREFIXES.contains(word) || PARTS.iter().any(|part| word.starts_with(part));
-    if let Some(part) = lower.split(|c: char| !c.is_alphanumeric()).find(word) {
-        return Some(part.to_owned());
+    let mut words = lower.split(|c: char| !c.is_alphanumeric());
+    let factor = words
+        .find(|word| is_ordinal(word) || PREFIXES.contains(word) || PARTS.iter().any(|part| word.starts_with(part)));
+    if let Some(word) = factor {
+        return Some(word.to_owned());
     }
     let bracket = super::inside(&lower).map(parts).unwrap_or_default();
     let parts = parts(&lower);
@@ -82,6 +79,12 @@ pub(super) fn factor_in(heading: &str) -> Option<String> {
         || beside_a_unit(&parts)
         || parts.iter().any(is_decimal);
     is_factor.then(|| heading.trim().to_owned())
+}
+
+/// Whether a word is the like of `10th` or `1000ths`.
+fn is_ordinal(word: &str) -> bool {
+    let number = word.trim_end_matches('s').strip_suffix("th");
+    number.is_some_and(|number| !number.is_empty() && number.chars().all(|c| c.is_ascii_digit()))
 }
 
 /// A heading in lower case with one sign per operation.
@@ -178,14 +181,14 @@ fn is_product(parts: &[Part]) -> bool {
     let parts = close(parts);
     (0..parts.len()).any(|at| {
         let (before, after) = (at.checked_sub(1).and_then(|before| parts.get(before)), parts.get(at + 1));
-        let number = |part: Option<&&Part>| part.is_some_and(|part| part.is_number());
+        let [number_before, number_after] = [before, after].map(|part| part.is_some_and(|part| part.is_number()));
         match parts.get(at) {
             Some(Part::Sign('x')) => {
                 let named = before.is_none_or(|before| !before.is_unit() && !before.is_number());
                 let large = after.is_some_and(|after| after.multiplies());
-                number(before) || (number(after) && (large || !named))
+                number_before || (number_after && (large || !named))
             }
-            Some(Part::Sign(_)) => number(after) || number(before),
+            Some(Part::Sign(_)) => number_after || number_before,
             _ => false,
         }
     })

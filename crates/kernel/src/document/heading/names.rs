@@ -231,8 +231,7 @@ pub(super) fn is_name(word: &str) -> bool {
 
 /// The first word behind a quantity that could be a unit: neither a name nor a number, nor behind a word such as `of`.
 pub(super) fn strange_word<'a>(words: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let is_quantity = |word: &str| QUANTITIES.contains(&word.to_lowercase().as_str());
-    let behind = words.skip_while(|word| !is_quantity(word)).skip(1);
+    let behind = words.skip_while(|word| !QUANTITIES.contains(&word.to_lowercase().as_str())).skip(1);
     let described = behind.take_while(|word| !OF_AN_OBJECT.contains(&word.to_lowercase().as_str()));
     described.filter(|word| !is_name(word)).find(|word| could_be_unit(word))
 }

@@ -267,11 +267,11 @@ impl Parser<'_> {
             let argument = self.enclosed()?;
             return self.push(TapeOperation::Of(*function, argument), from);
         }
-        let known = || FUNCTIONS.iter().map(|(known, _)| *known).chain(CONSTANTS.iter().map(|(known, _)| *known));
-        let all: Vec<&str> = std::iter::once(self.variable).chain(known()).collect();
+        let known = FUNCTIONS.iter().map(|(known, _)| *known).chain(CONSTANTS.iter().map(|(known, _)| *known));
+        let all: Vec<&str> = std::iter::once(self.variable).chain(known.clone()).collect();
         let near = similar(&name, all.iter().copied()).map_or(String::new(), |near| format!("did you mean `{near}`? "));
         let help =
-            format!("{near}the variable is `{}`; known are {}", self.variable, known().collect::<Vec<_>>().join(", "));
+            format!("{near}the variable is `{}`; known are {}", self.variable, known.collect::<Vec<_>>().join(", "));
         self.fault(from, format!("unknown name `{name}`"), Some(help))
     }
 }

@@ -69,22 +69,23 @@ impl<'t> Evaluation<'t> {
 
     /// The guard of an operation, where it has one.
     fn guard(&self, operation: TapeOperation) -> Option<Guard> {
-        let of = |term| match self.rows.of(term) {
+        let (TapeOperation::Quotient(_, term) | TapeOperation::Of(_, term)) = operation else { return None };
+        let (value, slope) = match self.rows.of(term) {
             [value, slope, ..] => (*value, *slope),
             _ => (0.0, 0.0),
         };
-        let guard = |(value, slope): (f64, f64), signed: bool| Some(Guard { value, slope, signed });
         match operation {
-            TapeOperation::Quotient(_, b) => guard(of(b), true),
-            TapeOperation::Of(ElementaryFunction::Logarithm | ElementaryFunction::Power(_), a) => guard(of(a), false),
-            TapeOperation::Of(ElementaryFunction::ArcSine | ElementaryFunction::ArcCosine, a) => {
-                let (a, slope) = of(a);
-                guard(((1.0 - a) * (1.0 + a), -2.0 * a * slope), false)
+            TapeOperation::Quotient(..) => Some(Guard { value, slope, signed: true }),
+            TapeOperation::Of(ElementaryFunction::Logarithm | ElementaryFunction::Power(_), _) => {
+                Some(Guard { value, slope, signed: false })
             }
-            TapeOperation::Of(ElementaryFunction::Tangent, a) => {
-                let (a, slope) = of(a);
-                let (sine, cosine) = libm::sincos(a);
-                guard((cosine, -sine * slope), true)
+            TapeOperation::Of(ElementaryFunction::ArcSine | ElementaryFunction::ArcCosine, _) => {
+                let inside = (1.0 - value) * (1.0 + value);
+                Some(Guard { value: inside, slope: -2.0 * value * slope, signed: false })
+            }
+            TapeOperation::Of(ElementaryFunction::Tangent, _) => {
+                let (sine, cosine) = libm::sincos(value);
+                Some(Guard { value: cosine, slope: -sine * slope, signed: true })
             }
             _ => None,
         }
@@ -168,23 +169,23 @@ fn turns(values: &[f64]) -> u32 {
 fn between(left: &Evaluation, right: &Evaluation, bisected: &mut u32) -> Result<(), Singularity> {
     let text = left.text;
     for (operation, at) in text.tape.operations.iter().zip(&text.characters) {
-        let guard = |at: &Evaluation| at.guard(*operation);
-        let (Some(a), Some(b)) = (guard(left), guard(right)) else { continue };
+        let (Some(a), Some(b)) = (left.guard(*operation), right.guard(*operation)) else { continue };
         let crosses = a.value * b.value < 0.0;
         let dips = a.value * a.slope < 0.0 && b.value * b.slope > 0.0;
         if !(crosses || dips) || *bisected >= MOST_BISECTED {
             continue;
         }
         *bisected += 1;
-        let towards = |at: &Guard| if crosses { at.value * a.value > 0.0 } else { at.slope * a.slope > 0.0 };
         let (mut low, mut high) = (left.place, right.place);
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (low + high);
-            let ahead = guard(&Evaluation::new(text, middle)).is_some_and(|found| towards(&found));
+            let ahead = Evaluation::new(text, middle)
+                .guard(*operation)
+                .is_some_and(|found| if crosses { found.value * a.value > 0.0 } else { found.slope * a.slope > 0.0 });
             if ahead { low = middle } else { high = middle }
         }
         let here = Evaluation::new(text, high);
-        let least = guard(&here).map_or(0.0, |found| found.value);
+        let least = here.guard(*operation).map_or(0.0, |found| found.value);
         let vanishes = if a.signed { least.abs() } else { least } <= NOTHING * a.value.abs().min(b.value.abs());
         // Where the argument of a root crosses 0 the next place of the grid has no value.
         if crosses || vanishes || here.fault().is_some() {

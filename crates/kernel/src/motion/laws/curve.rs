@@ -56,14 +56,14 @@ impl PolydyneShape {
     pub(super) fn at(&self, x: f64) -> Values {
         let [s, v, a, j] = self.load.at(x);
         let (fourth, fifth) = (self.load.derivative(x, 4), self.load.derivative(x, 5));
-        let of = |own: f64, next: f64, after: f64| own + self.first * next + self.second * after;
-        [of(s, v, a), of(v, a, j), of(a, j, fourth), of(j, fourth, fifth)]
+        [[s, v, a], [v, a, j], [a, j, fourth], [j, fourth, fifth]]
+            .map(|[own, next, after]| own + self.first * next + self.second * after)
     }
 
     /// The derivative of an order.
     pub(super) fn derivative(&self, x: f64, order: u32) -> f64 {
-        let of = |order: u32| self.load.derivative(x, order);
-        of(order) + self.first * of(order + 1) + self.second * of(order + 2)
+        let [own, next, after] = [order, order + 1, order + 2].map(|order| self.load.derivative(x, order));
+        own + self.first * next + self.second * after
     }
 }
 
@@ -237,8 +237,8 @@ impl LawCurve {
     /// First and last x of a part.
     #[must_use]
     pub fn range_of(&self, part: usize) -> (f64, f64) {
-        let joint = |index: Option<usize>| index.and_then(|index| self.joints.get(index)).copied();
-        (joint(part.checked_sub(1)).unwrap_or(0.0), joint(Some(part)).unwrap_or(1.0))
+        let [low, high] = [part.checked_sub(1), Some(part)].map(|joint| joint.and_then(|joint| self.joints.get(joint)));
+        (low.copied().unwrap_or(0.0), high.copied().unwrap_or(1.0))
     }
 
     /// How many parts there are, at least one.
@@ -287,11 +287,11 @@ impl LawCurve {
     /// What rounding of a value of this size leaves of a derivative between a part and the one before it: a spline of many knots is as smooth
     /// as one of few.
     fn rounding_at(&self, part: usize, order: u32, size: f64) -> f64 {
-        let width = |part: usize| {
+        let [before, after] = [part.saturating_sub(1), part].map(|part| {
             let (low, high) = self.range_of(part);
             high - low
-        };
-        let width = width(part).min(width(part.saturating_sub(1)));
+        });
+        let width = after.min(before);
         (0..order).fold(OF_VALUES * size, |rounding, _| rounding / width)
     }
 

@@ -20,8 +20,8 @@ const TURNS_EACH: u32 = 4;
 #[must_use]
 pub fn from_harmonics(cosines: &[f64], sines: &[f64]) -> (LawCurve, f64) {
     let count = cosines.len().max(sines.len());
-    let at = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(0.0);
-    let amplitudes: Vec<[f64; 2]> = (0..count).map(|index| [at(cosines, index), at(sines, index)]).collect();
+    let amplitudes: Vec<[f64; 2]> =
+        (0..count).map(|index| [cosines, sines].map(|list| list.get(index).copied().unwrap_or(0.0))).collect();
     let first = cosines.iter().sum();
     let part = CurvePart::Harmonics(Arc::new(HarmonicSeries { amplitudes, first }));
     // A wave has two extremes, and a few of them are found in a stretch.

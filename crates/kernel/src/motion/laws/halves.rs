@@ -143,7 +143,7 @@ impl Half {
         let gain = inflection - end;
         // Largest acceleration.
         let peak = gain * self.peak() / width;
-        let piece = |stretch: HalfPiece| {
+        let pieces = self.stretches().0.into_iter().map(|stretch| {
             let (from, over) = (width * stretch.y, width * stretch.width);
             let value = end * from + gain * width * stretch.travel;
             let velocity = end + gain * stretch.velocity;
@@ -164,8 +164,8 @@ impl Half {
                 (AccelerationPhase::Rests, _) => cubic(0.0, 0.0),
             };
             (from, local)
-        };
-        self.stretches().0.into_iter().map(piece).collect()
+        });
+        pieces.collect()
     }
 }
 
@@ -218,8 +218,7 @@ fn matching(law: &'static str, task: &LawTask, (first, second): (Half, Half), wa
 
 /// The curve with the same half at both ends.
 pub(super) fn solve(law: &'static str, half: Half, task: &LawTask) -> Result<LawCurve, LawError> {
-    let of = |end: SegmentEnd| if end == SegmentEnd::Turn { half.at_turn() } else { half };
-    let (first, second) = (of(task.from), of(task.to));
+    let [first, second] = [task.from, task.to].map(|end| if end == SegmentEnd::Turn { half.at_turn() } else { half });
     let (v0, v1) = (task.from.velocity(), task.to.velocity());
     let inflection = match task.inflection {
         Inflection::Smooth => smooth(first, second),
@@ -269,16 +268,19 @@ fn joined_parts(
 /// Whether two halves, each of a width and a gain of velocity, pass the inflection as one function: two straight lines, or
 /// falls of the same width and height, which then are one sine or line.
 fn is_one_function(first: (Half, f64, f64), second: (Half, f64, f64)) -> bool {
-    let like = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
     let [_, _, c1, d1] = first.0.fractions;
     let [_, _, c2, d2] = second.0.fractions;
-    let height = |(half, width, gain): (Half, f64, f64)| gain * half.peak() / width;
+    let [height, other] = [first, second].map(|(half, width, gain)| gain * half.peak() / width);
     d1 > 0.0 && d2 > 0.0
         || first.0.fall().is_some()
             && second.0.fall().is_some()
             && first.0.ramp == second.0.ramp
-            && like(c1 * first.1, c2 * second.1)
-            && like(height(first), height(second))
+            && is_alike(c1 * first.1, c2 * second.1)
+            && is_alike(height, other)
+}
+
+fn is_alike(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME * a.abs().max(b.abs())
 }
 
 /// Two numbers that differ by less are equal up to rounding.

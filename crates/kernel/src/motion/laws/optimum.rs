@@ -100,15 +100,17 @@ impl Optimum {
             Objective::RmsAcceleration => least_square(count).ok_or_else(not_found)?,
             Objective::Residual { ratio, robust } => {
                 let found = least_peak(2, &calm(ratio, robust, count), count);
-                let vibrates = || {
+                let Some((jerk, _)) = found.filter(|(_, peak)| *peak < USELESS) else {
                     let what = format!(
                         "no polynomial of degree {degree} is free of vibration at the ratio {ratio} with a peak \
                          acceleration below \
                          {USELESS} times travel over width squared"
                     );
-                    LawError::new("ratio", what).remedy("raise `degree`, or give the segment a longer angle")
+                    return Err(
+                        LawError::new("ratio", what).remedy("raise `degree`, or give the segment a longer angle")
+                    );
                 };
-                found.filter(|(_, peak)| *peak < USELESS).ok_or_else(vibrates)?.0
+                jerk
             }
         };
         Ok(LawCurve::smooth(CurvePart::RestToRest(Arc::new(RestToRest { jerk }))))
@@ -122,27 +124,29 @@ fn calm(ratio: f64, robust: bool, count: usize) -> Equations {
     let at = |n: usize| bessel.get(n).copied().unwrap_or(0.0);
     // j_n' = j_(n−1) − (n + 1)/z j_n.
     let slope = |n: usize| at(n.saturating_sub(1)) - f64::from(u32::try_from(n + 1).unwrap_or(u32::MAX)) / z * at(n);
-    let equation = |of: &dyn Fn(usize) -> f64| {
-        let signed = |half: usize| if half.is_multiple_of(2) { of(2 * half) } else { -of(2 * half) };
-        ((2..count + 2).map(signed).collect(), -FIRST * signed(1))
-    };
-    let mut all = vec![equation(&at)];
+    let mut all = vec![alternating(count, at)];
     if robust {
-        all.push(equation(&slope));
+        all.push(alternating(count, slope));
     }
     all
+}
+
+/// The equation Σ ± term(2 half) gₕ = 0 over the halves of the even orders, with alternating signs.
+fn alternating(count: usize, term: impl Fn(usize) -> f64) -> (Vec<f64>, f64) {
+    let signed = (1..count + 2).map(|half| if half.is_multiple_of(2) { term(2 * half) } else { -term(2 * half) });
+    let signed: Vec<f64> = signed.collect();
+    (signed[1..].to_vec(), -FIRST * signed[0])
 }
 
 /// The coefficients of least peak of a derivative among those that satisfy equations, and that peak.
 fn least_peak(order: u32, equations: &[(Vec<f64>, f64)], count: usize) -> Option<(Vec<f64>, f64)> {
     let family = solutions(equations, count)?;
-    let sum = |of: &[f64], weights: &[f64]| -> f64 { of.iter().zip(weights).map(|(term, weight)| term * weight).sum() };
     let functions = |x: f64, further: u32| {
         let mut terms = terms(x, order + further);
         let first = FIRST * terms.next().unwrap_or(0.0);
         let own: Vec<f64> = terms.take(count).collect();
-        let others = family.directions.iter().map(|direction| sum(&own, direction));
-        std::iter::once(first + sum(&own, &family.particular)).chain(others).collect()
+        let others = family.directions.iter().map(|direction| weighted_sum(&own, direction));
+        std::iter::once(first + weighted_sum(&own, &family.particular)).chain(others).collect()
     };
     // The other half of the motion is symmetric.
     let found =
@@ -154,19 +158,29 @@ fn least_peak(order: u32, equations: &[(Vec<f64>, f64)], count: usize) -> Option
     Some((jerk.collect(), found.peak))
 }
 
+fn weighted_sum(terms: &[f64], weights: &[f64]) -> f64 {
+    terms.iter().zip(weights).map(|(term, weight)| term * weight).sum()
+}
+
 /// The coefficients of least ∫ a². The acceleration of P_n is (P_(n+1) − P_(n−1))/(2(2n + 1)), and ∫ P_k² dx = 1/(2k + 1): only
 /// neighbours are not orthogonal.
 fn least_square(count: usize) -> Option<Vec<f64>> {
-    let number = |half: usize| 2.0 * f64::from(u32::try_from(half).unwrap_or(u32::MAX));
-    let own = |n: f64| (1.0 / (2.0 * n + 3.0) + 1.0 / (2.0 * n - 1.0)) / (4.0 * (2.0 * n + 1.0) * (2.0 * n + 1.0));
-    let adjacent = |n: f64| -1.0 / ((2.0 * n + 3.0) * 4.0 * (2.0 * n + 1.0) * (2.0 * n + 5.0));
-    let entry = |row: usize, column: usize| match row.abs_diff(column) {
-        0 => own(number(row)),
-        1 => adjacent(number(row.min(column))),
+    let mut equations: Equations = Vec::with_capacity(count);
+    for row in 2..count + 2 {
+        let coefficients = (2..count + 2).map(|column| product_of_terms(row, column)).collect();
+        equations.push((coefficients, -FIRST * product_of_terms(row, 1)));
+    }
+    Some(solutions(&equations, count)?.particular)
+}
+
+/// ∫ of the product of the accelerations of two terms, given by half their orders.
+fn product_of_terms(one: usize, other: usize) -> f64 {
+    let n = 2.0 * f64::from(u32::try_from(one.min(other)).unwrap_or(u32::MAX));
+    match one.abs_diff(other) {
+        0 => (1.0 / (2.0 * n + 3.0) + 1.0 / (2.0 * n - 1.0)) / (4.0 * (2.0 * n + 1.0) * (2.0 * n + 1.0)),
+        1 => -1.0 / ((2.0 * n + 3.0) * 4.0 * (2.0 * n + 1.0) * (2.0 * n + 5.0)),
         _ => 0.0,
-    };
-    let equation = |row: usize| ((2..count + 2).map(|column| entry(row, column)).collect(), -FIRST * entry(row, 1));
-    Some(solutions(&(2..count + 2).map(equation).collect::<Equations>(), count)?.particular)
+    }
 }
 
 #[cfg(test)]

@@ -74,13 +74,12 @@ impl LawCurve {
     pub fn efficiency_of(&self, peaks: &LawPeaks) -> Option<f64> {
         let last = self.parts().saturating_sub(1);
         let ends = [self.at(0, 0.0), self.at(last, 1.0)];
-        let moves = |order: usize, peak: f64| {
-            ends.iter().any(|end| end.get(order).is_some_and(|value| value.abs() > ROUNDING * peak))
-        };
-        if moves(1, peaks.velocity.value) {
+        let [moves, accelerates] = [(1, peaks.velocity), (2, peaks.acceleration)]
+            .map(|(order, peak)| ends.iter().any(|end: &[f64; 4]| end[order].abs() > ROUNDING * peak.value));
+        if moves {
             return None;
         }
-        let jumps = peaks.jerk.value.is_infinite() || moves(2, peaks.acceleration.value);
+        let jumps = peaks.jerk.value.is_infinite() || accelerates;
         // No law has a jerk below 32: less is rounding.
         let share = if jumps { 0.0 } else { (1.0 - 32.0 / peaks.jerk.value).max(0.0).sqrt() };
         let ramp = if jumps { 0.0 } else { 0.5 * (1.0 - share) };
@@ -93,21 +92,23 @@ impl LawCurve {
             let [s, first, second, third] = self.at(part, x);
             [s, first, second, third, self.derivative(part, x, 4)]
         };
-        let parts: Vec<Vec<(f64, [f64; 5])>> = (0..self.parts())
-            .map(|part| {
-                let places = extremum::between_cells(self.range_of(part), self.cells(part));
-                places.map(|x| (x, all(part, x))).collect()
-            })
-            .collect();
+        let parts = (0..self.parts()).map(|part| {
+            let places = extremum::between_cells(self.range_of(part), self.cells(part));
+            places.map(|x| (x, all(part, x))).collect()
+        });
+        let parts: Vec<Vec<(f64, [f64; 5])>> = parts.collect();
         of.map(|f| {
-            let place = |(at, s): &(f64, [f64; 5])| {
-                let (value, slope) = f(s);
-                ValueAndSlope { at: *at, value, slope }
-            };
             let nothing = Extremum { at: 0.0, value: f64::NEG_INFINITY };
-            let rising: Vec<Vec<ValueAndSlope>> = parts.iter().map(|part| part.iter().map(place).collect()).collect();
-            let falling: Vec<Vec<ValueAndSlope>> =
-                rising.iter().map(|part| part.iter().map(|place| place.negative()).collect()).collect();
+            let (mut rising, mut falling) = (Vec::with_capacity(parts.len()), Vec::with_capacity(parts.len()));
+            for part in &parts {
+                let places = part.iter().map(|(at, s)| {
+                    let (value, slope) = f(s);
+                    ValueAndSlope { at: *at, value, slope }
+                });
+                let places: Vec<ValueAndSlope> = places.collect();
+                falling.push(places.iter().map(|place| place.negative()).collect::<Vec<_>>());
+                rising.push(places);
+            }
             let known = rising
                 .iter()
                 .zip(&falling)

@@ -11,8 +11,8 @@ use super::task::LawTask;
 /// without a value is taken as the value 0.
 #[must_use]
 pub fn hermite(from: &[f64], to: &[f64]) -> LawCurve {
-    let or_zero = |list: &[f64]| if list.is_empty() { vec![0.0] } else { list.to_vec() };
-    LawCurve::smooth(CurvePart::Polynomial(Bernstein::hermite(&or_zero(from), &or_zero(to))))
+    let [from, to] = [from, to].map(|list| if list.is_empty() { &[0.0][..] } else { list });
+    LawCurve::smooth(CurvePart::Polynomial(Bernstein::hermite(from, to)))
 }
 
 /// The curve with this number of conditions at each end: value, velocity, and 0 for every further derivative.

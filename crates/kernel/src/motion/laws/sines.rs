@@ -22,12 +22,11 @@ pub(super) fn solve(sines: Sines, velocity: f64) -> LawCurve {
 ///
 /// (1 − cos πx)/2 − (1 − cos 2πx)/8 from the rest; 1 − s = (1 − cos πz)/2 + (1 − cos 2πz)/8 by the distance z from the turn.
 pub(super) fn double_harmonic(from: SegmentEnd) -> LawCurve {
-    let side = |second: f64| {
+    let [rest, turn] = [-0.125, 0.125].map(|second| {
         let waves =
             [LocalWave { harmonic: 1, turn: 0.0, rise: 0.5 }, LocalWave { harmonic: 2, turn: 0.0, rise: second }];
         LocalPiece::waves(0.0, [0.0; 4], PI, &waves)
-    };
-    let (rest, turn) = (side(-0.125), side(0.125));
+    });
     let (early, late) = if from == SegmentEnd::Turn { (turn, rest) } else { (rest, turn) };
     LawCurve::smooth(CurvePart::Waves { split: 0.5, early, late })
 }
@@ -39,8 +38,8 @@ fn triple(parameters: &Parameters) -> Result<Sines, LawError> {
     let travel = (one + two / 2.0 + three / 3.0) / TAU;
     let size = (one.abs() + two.abs() + three.abs()) / TAU;
     if size.is_finite() && travel > LEAST_TRAVEL * size {
-        let sine = |amplitude: f64, waves: f64| amplitude / travel / (TAU * TAU * waves * waves);
-        return Ok([sine(one, 1.0), sine(two, 2.0), sine(three, 3.0), 0.0]);
+        return Ok([(one, 1.0), (two, 2.0), (three, 3.0), (0.0, 1.0)]
+            .map(|(amplitude, waves)| amplitude / travel / (TAU * TAU * waves * waves)));
     }
     let expected = "three finite numbers with A1 + A2/2 + A3/3 above 0";
     Err(LawError::parameter("amplitudes", expected, format_args!("{amplitudes:?}")))

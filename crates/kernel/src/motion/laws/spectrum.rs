@@ -96,8 +96,8 @@ impl LawCurve {
                 of_local(early, (low, split), false, &mut terms);
                 of_local(late, (split, high), true, &mut terms);
             } else {
-                let acceleration = |x: f64| self.derivative(index, x, 2);
-                terms.extend(LegendreSeries::of(&acceleration, (low, high)).into_iter().map(SpectrumTerm::Series));
+                let series = LegendreSeries::of(&|x| self.derivative(index, x, 2), (low, high));
+                terms.extend(series.into_iter().map(SpectrumTerm::Series));
             }
         }
         AccelerationSpectrum { terms }

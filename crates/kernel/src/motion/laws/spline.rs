@@ -23,22 +23,20 @@ pub enum SplineEnds {
 /// The curve of polynomials with given derivatives, the value first, at each knot.
 #[must_use]
 pub fn chain<const N: usize>(knots: &[f64], nodes: &[[f64; N]]) -> LawCurve {
-    let scaled = |node: &[f64; N], width: f64| {
-        let mut power = 1.0;
-        node.map(|value| {
-            let scaled = value * power;
-            power *= width;
-            scaled
-        })
-    };
     let pairs = knots.iter().zip(knots.iter().skip(1)).zip(nodes.iter().zip(nodes.iter().skip(1)));
-    let parts: Vec<CurvePart> = pairs
-        .map(|((from, to), (first, last))| {
-            let width = to - from;
-            let polynomial = Bernstein::hermite(&scaled(first, width), &scaled(last, width));
-            CurvePart::Stretch { range: (*from, width), polynomial }
-        })
-        .collect();
+    let parts = pairs.map(|((from, to), (first, last))| {
+        let width = to - from;
+        let [first, last] = [first, last].map(|node| {
+            let mut power = 1.0;
+            node.map(|value| {
+                let scaled = value * power;
+                power *= width;
+                scaled
+            })
+        });
+        CurvePart::Stretch { range: (*from, width), polynomial: Bernstein::hermite(&first, &last) }
+    });
+    let parts: Vec<CurvePart> = parts.collect();
     let together = TOGETHER.max(parts.len().div_ceil(MOST_GROUPS));
     let joints = knots.get(1..knots.len().saturating_sub(1)).unwrap_or_default().to_vec();
     LawCurve::of_many(joints, parts, together)

@@ -63,9 +63,8 @@ impl ProgramContext {
     /// In which quantity bare numbers of positions are typed, and by what they are divided: the arc (m) along which lengths of a
     /// swinging follower are measured.
     pub(super) fn typed(&self, table: &TableReader<'_>) -> (Quantity, f64) {
-        let lengths = || units::parse(&table.typed(&START), Dimension::Length).is_ok();
         match self.arc {
-            Some(arc) if lengths() => (Quantity::Length, arc),
+            Some(arc) if units::parse(&table.typed(&START), Dimension::Length).is_ok() => (Quantity::Length, arc),
             _ => (self.quantity, 1.0),
         }
     }
@@ -144,13 +143,9 @@ pub(super) fn value_of(position: LengthOrAngle, arc: Option<f64>) -> (Quantity, 
 fn conversion(length: f64, arm: f64) -> String {
     let angle = (length / arm).to_degrees();
     let (length, arm) = (1e3 * length, 1e3 * arm);
-    let rounded = |value: f64, digits: f64| (value * digits).round() / digits;
-    format!(
-        "{} mm along the arc of the roller (arm {} mm) is \"{} deg\"",
-        rounded(length, 1e6),
-        rounded(arm, 1e6),
-        rounded(angle, 1e4)
-    )
+    let [length, arm, angle] =
+        [(length, 1e6), (arm, 1e6), (angle, 1e4)].map(|(value, digits)| (value * digits).round() / digits);
+    format!("{length} mm along the arc of the roller (arm {arm} mm) is \"{angle} deg\"")
 }
 
 /// The radius of the arc along which positions are measured, m; a fault where keys or follower do not fit. Without a follower only its own

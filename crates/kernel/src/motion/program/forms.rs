@@ -91,19 +91,22 @@ impl<'r> MotionForm<'r> {
         (start, lobes): (f64, u32),
     ) -> Option<Program> {
         let unit = StartUnit::of(table, whole)?;
-        let kept = |program: Program| within_reach(table, &unit, whole.quantity, program);
         let (name, (curve, first), at) = match self {
             Self::Formula => ("formula", formula(table, &unit, whole)?, whole.at),
             Self::Fourier(fourier) => ("fourier", series(fourier, &unit)?, whole.at),
-            Self::Points => return rows::program(table, whole, (start, lobes), points(table, whole)?).and_then(kept),
-            Self::Table => {
-                return rows::program(table, whole, (start, lobes), rows::file::read(table, whole)?).and_then(kept);
+            Self::Points | Self::Table => {
+                let rows = match self {
+                    Self::Points => points(table, whole)?,
+                    _ => rows::file::read(table, whole)?,
+                };
+                let program = rows::program(table, whole, (start, lobes), rows)?;
+                return within_reach(table, &unit, whole.quantity, program);
             }
         };
         let at = if at >= TAU && !whole.by_travel { at - TAU } else { at };
         let span = if whole.by_travel { Span::Stroke(whole.fill) } else { Span::Turn { at, lobes } };
         let program = Program::of_curve(whole.quantity, span, start + first, (name, curve));
-        kept(program)
+        within_reach(table, &unit, whole.quantity, program)
     }
 }
 
@@ -218,15 +221,16 @@ fn parse_formula(table: &TableReader<'_>, key: &Field<String>, variable: &str, e
     }
 }
 
+fn amplitudes(fourier: &TableReader<'_>, key: &Field<Vec<f64>>, unit: &StartUnit) -> Option<Vec<f64>> {
+    if !fourier.has(key) {
+        return Some(Vec::new());
+    }
+    Some(fourier.get(key)?.iter().map(|amplitude| amplitude * unit.size).collect())
+}
+
 /// A Fourier series.
 fn series(fourier: &TableReader<'_>, unit: &StartUnit) -> Option<OffsetCurve> {
-    let list = |key: &Field<Vec<f64>>| {
-        if !fourier.has(key) {
-            return Some(Vec::new());
-        }
-        Some(fourier.get(key)?.iter().map(|amplitude| amplitude * unit.size).collect::<Vec<f64>>())
-    };
-    let (cosines, sines) = (list(&COSINES)?, list(&SINES)?);
+    let (cosines, sines) = (amplitudes(fourier, &COSINES, unit)?, amplitudes(fourier, &SINES, unit)?);
     for (key, list) in [(&COSINES, &cosines), (&SINES, &sines)] {
         if list.len() > MOST_HARMONICS {
             fourier.fail(key, format!("more than {MOST_HARMONICS} harmonics"), Some("remove the highest".into()));
@@ -311,20 +315,14 @@ fn increasing_rows(table: &TableReader<'_>, key: &Field<Arc<Columns>>, file: &Co
 
 /// Refuses states of a segment whose law determines them.
 pub(super) fn refuse_states(segment: &TableReader<'_>, law: &str) -> Option<()> {
-    let fail = |key: &Field<String>| {
-        segment.fail(
-            key,
-            format!("law = \"{law}\" determines velocity and acceleration itself"),
-            Some("remove this key".into()),
-        );
-    };
+    let message = format!("law = \"{law}\" determines velocity and acceleration itself");
+    let help = Some("remove this key".into());
     if let Some(key) = [&VELOCITY, &ACCELERATION, &JERK].into_iter().find(|key| segment.has(key)) {
-        fail(key);
+        segment.fail(key, message, help);
         return None;
     }
     if segment.has(&END) {
-        let message = format!("law = \"{law}\" determines velocity and acceleration itself");
-        segment.fail(&END, message, Some("remove this key".into()));
+        segment.fail(&END, message, help);
         return None;
     }
     Some(())

@@ -16,13 +16,10 @@ pub(super) fn refuse_even(table: &TableReader<'_>, lobes: u32) {
 /// Whether segments from a cam angle on are meant to cover one half of a turn or lobe, rad, and not the whole: their angles do not exceed it,
 /// and leave something to a last segment without one.
 pub(super) fn is_covered(segments: &[TableReader<'_>], at: f64, half: f64) -> bool {
-    let angle = |segment: &TableReader<'_>, key| match segment.get(key) {
-        Some(LengthOrAngle::Angle(angle)) => Some(angle),
-        _ => None,
-    };
-    let covered = segments.iter().fold(0.0, |sum, segment| match (angle(segment, &UNTIL), angle(segment, &OVER)) {
-        (Some(until), _) => until - at,
-        (None, over) => sum + over.unwrap_or(0.0),
+    let covered = segments.iter().fold(0.0, |sum, segment| match (segment.get(&UNTIL), segment.get(&OVER)) {
+        (Some(LengthOrAngle::Angle(until)), _) => until - at,
+        (_, Some(LengthOrAngle::Angle(over))) => sum + over,
+        _ => sum,
     });
     let open = segments.last().is_some_and(|last| !last.has(&OVER) && !last.has(&UNTIL));
     covered < half - WHOLE_TURN || (covered <= half + WHOLE_TURN && !open)

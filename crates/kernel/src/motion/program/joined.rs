@@ -84,11 +84,11 @@ impl SegmentNodes {
     /// The curve through the nodes with their velocities and accelerations.
     fn curve(&self, step: &SegmentSpec, state: impl Fn(usize) -> [f64; 2]) -> Result<JoinedCurve, LawError> {
         let (width, knots) = (step.over, self.knots(step.over));
-        let by_share = |node: usize| {
+        let states = (0..knots.len()).map(|node| {
             let [velocity, acceleration] = state(node);
             [velocity * width, acceleration * width * width]
-        };
-        let states: Vec<[f64; 2]> = (0..knots.len()).map(by_share).collect();
+        });
+        let states: Vec<[f64; 2]> = states.collect();
         if let Mover::Spline(rows) = &step.mover {
             let (curve, figures) = rows.curve(&knots, &self.typed(step), self.passed.clone(), states)?;
             return Ok((curve, Some(figures)));
@@ -150,21 +150,20 @@ fn fit_found_states(
     (intervals, states): (&[NodeInterval], &[[f64; 2]]),
     all_given: &mut [NodeConstraint],
 ) -> bool {
-    let monotonic = |step: &SegmentSpec| match &step.mover {
-        Mover::Spline(rows) => rows.wishes.shape == RowShape::Monotonic,
-        _ => false,
-    };
     let mut changed = false;
-    let is_free = |end: &EndState| end.free == [true; 2] || (end.turns && end.turning.is_none());
-    let all = steps.iter().zip(steps.iter().cycle().skip(1)).zip(all_nodes);
-    for ((step, following), segment) in all.filter(|((step, _), _)| is_free(&step.end)) {
+    for ((step, following), segment) in steps.iter().zip(steps.iter().cycle().skip(1)).zip(all_nodes) {
+        let end = &step.end;
+        if !(end.free == [true; 2] || (end.turns && end.turning.is_none())) {
+            continue;
+        }
         let last = segment.first + segment.nodes.len() - 1;
         let node = (last + 1) % states.len().max(1);
-        let of = |step: &SegmentSpec, at: usize| {
-            if monotonic(step) { intervals.get(at).copied().flatten() } else { None }
-        };
         let Some(state) = states.get(node) else { continue };
-        let kept = rows::segment::between([of(step, last), of(following, node)], *state);
+        let monotonic = [(step, last), (following, node)].map(|(step, at)| match &step.mover {
+            Mover::Spline(rows) if rows.wishes.shape == RowShape::Monotonic => intervals.get(at).copied().flatten(),
+            _ => None,
+        });
+        let kept = rows::segment::between(monotonic, *state);
         if kept != *state
             && let Some(given) = all_given.get_mut(node)
         {
@@ -192,9 +191,8 @@ fn is_joined(steps: &[SegmentSpec], index: usize) -> bool {
 
 /// A state can be found only between polynomials and splines, and no jerk may be given next to these.
 pub(super) fn check(steps: &[SegmentSpec]) -> Result<(), (usize, LawError)> {
-    let smooth = |step: &SegmentSpec| matches!(step.mover, Mover::Polynomial | Mover::Spline(_));
     for (index, (step, next)) in steps.iter().zip(steps.iter().cycle().skip(1)).enumerate() {
-        let other = [step, next].into_iter().find(|step| !smooth(step));
+        let other = [step, next].into_iter().find(|step| !matches!(step.mover, Mover::Polynomial | Mover::Spline(_)));
         if let Some(other) = other.filter(|_| step.end.is_found()) {
             let law = other.mover.name();
             let what = format!(

@@ -400,14 +400,12 @@ impl Program {
         let mut program = Self { stroke, ..Self::empty(quantity, lobes) };
         let width = stroke.unwrap_or(TAU / f64::from(lobes));
         let (peaks, last) = (curve.peaks(), curve.at(curve.parts().saturating_sub(1), 1.0));
-        let exact = |value: f64, peak: f64| if value.abs() > ROUNDING * peak { value } else { 0.0 };
-        let state = |[_, velocity, acceleration, _]: [f64; 4]| EndState {
-            velocity: exact(velocity, peaks.velocity.value) / width,
-            acceleration: exact(acceleration, peaks.acceleration.value) / (width * width),
-            ..EndState::default()
-        };
-        let first = state(curve.at(0, 0.0));
-        let ends = [first, stroke.map_or(first, |_| state(last))];
+        let [first, end] = [curve.at(0, 0.0), last].map(|[_, velocity, acceleration, _]| {
+            let [velocity, acceleration] = [(velocity, peaks.velocity.value), (acceleration, peaks.acceleration.value)]
+                .map(|(value, peak)| if value.abs() > ROUNDING * peak { value } else { 0.0 });
+            EndState { velocity: velocity / width, acceleration: acceleration / (width * width), ..EndState::default() }
+        });
+        let ends = [first, if stroke.is_some() { end } else { first }];
         let to = stroke.map_or(from, |_| from + last[0]);
         let (curve, travel, whole, optimum) = (Some(curve), 1.0, true, None);
         let segment = ProgramSegment { curve, name, start: at, width, from, travel, to, ends, whole, optimum };

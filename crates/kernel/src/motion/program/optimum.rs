@@ -86,8 +86,8 @@ fn degree(segment: &TableReader<'_>) -> Option<u32> {
 pub(super) fn check(steps: &[SegmentSpec]) -> Result<(), (usize, LawError)> {
     let before = steps.last().into_iter().chain(steps);
     for (index, (step, before)) in steps.iter().zip(before).enumerate() {
-        let rests = |step: &SegmentSpec| step.end.rests() && step.end.free == [false; 2];
-        let moves = !rests(before) || !rests(step) || step.end.jerk.is_some();
+        let at_rest = [before, step].iter().all(|step| step.end.rests() && step.end.free == [false; 2]);
+        let moves = !at_rest || step.end.jerk.is_some();
         if moves && matches!(step.mover, Mover::Optimum(..)) {
             let what = "a polynomial with `minimise` runs from rest to rest; an end of this one has a velocity, an \
                         acceleration, a jerk or a turn";

@@ -6,7 +6,6 @@
 use super::keys::{DAMPING, NATURAL_FREQUENCY, OWN_RPM, POLYDYNE, RPM, SECTION};
 use super::{EndState, Jump, Program, ProgramSegment, ROUNDING};
 use crate::document::Reader;
-use crate::motion::laws::LawCurve;
 use std::f64::consts::TAU;
 
 /// An elastic load at the end of a follower.
@@ -81,17 +80,14 @@ impl Program {
 /// A segment of the cam's motion.
 fn loaded(segment: &ProgramSegment, load: Polydyne) -> ProgramSegment {
     let (width, ratio) = (segment.width, load.ratio);
-    let by_share = |curve: &LawCurve| curve.loaded(2.0 * load.damping * ratio / width, ratio * ratio / (width * width));
-    let Some(curve) = segment.curve.as_ref().map(by_share) else { return segment.clone() };
+    let Some(curve) = &segment.curve else { return segment.clone() };
+    let curve = curve.loaded(2.0 * load.damping * ratio / width, ratio * ratio / (width * width));
     let (peaks, last) = (curve.peaks(), curve.parts().saturating_sub(1));
     let ends = [(0, 0.0), (last, 1.0)].map(|(part, x)| {
         let [_, velocity, acceleration, _] = curve.at(part, x);
-        let exact = |value: f64, peak: f64| if value.abs() > ROUNDING * peak { value * segment.travel } else { 0.0 };
-        EndState {
-            velocity: exact(velocity, peaks.velocity.value) / width,
-            acceleration: exact(acceleration, peaks.acceleration.value) / (width * width),
-            ..EndState::default()
-        }
+        let [velocity, acceleration] = [(velocity, peaks.velocity.value), (acceleration, peaks.acceleration.value)]
+            .map(|(value, peak)| if value.abs() > ROUNDING * peak { value * segment.travel } else { 0.0 });
+        EndState { velocity: velocity / width, acceleration: acceleration / (width * width), ..EndState::default() }
     });
     let to = segment.from + segment.travel * curve.at(last, 1.0)[0];
     let to = if segment.whole { segment.from } else { to };

@@ -34,14 +34,15 @@ pub fn read(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Optio
 
 /// Whether a motion without a fault depends on the speed.
 fn depends_on_speed(reader: &Reader<'_>) -> bool {
-    let of_load = || reader.find(&POLYDYNE).is_some_and(|load| !load.has(&OWN_RPM));
-    let per_second = |segment: &TableReader<'_>| {
+    if reader.find(&POLYDYNE).is_some_and(|load| !load.has(&OWN_RPM)) {
+        return true;
+    }
+    reader.elements(&SEGMENT).any(|segment| {
         [(1, &VELOCITY), (2, &ACCELERATION), (3, &JERK)].into_iter().any(|(order, key)| {
             let rate = segment.get(key).and_then(|text| units::parse_rate(&text, order).ok());
             rate.is_some_and(|rate| rate.by_time)
         })
-    };
-    of_load() || reader.elements(&SEGMENT).any(|segment| per_second(&segment))
+    })
 }
 
 /// The motion that the file gives.
@@ -598,19 +599,25 @@ fn inflected(segment: &TableReader<'_>, law: &'static Law, parameters: Parameter
 
 /// The parameters of a law.
 fn parameters(segment: &TableReader<'_>) -> Option<Parameters> {
-    let list = |key: &Field<Vec<f64>>, count: usize| {
-        let found = segment.get(key).filter(|_| segment.has(key));
-        if let Some(found) = found.as_ref().filter(|found| found.len() != count) {
-            segment.fail(key, format!("`{}` needs {count} numbers, not {}", key.key.name, found.len()), None);
-            return None;
-        }
-        Some(found)
-    };
-    let (fractions, amplitudes) = (list(&FRACTIONS, 4)?, list(&AMPLITUDES, 3)?);
     Some(Parameters {
-        fractions: fractions.and_then(|found| found.try_into().ok()),
-        amplitudes: amplitudes.and_then(|found| found.try_into().ok()),
+        fractions: numbers(segment, &FRACTIONS).ok()?,
+        amplitudes: numbers(segment, &AMPLITUDES).ok()?,
         line: segment.get(&LINE),
         ramp: segment.get(&RAMP),
     })
+}
+
+/// The `N` numbers of a key, if it is given.
+fn numbers<const N: usize>(
+    segment: &TableReader<'_>,
+    key: &Field<Vec<f64>>,
+) -> Result<Option<[f64; N]>, FaultReported> {
+    let Some(found) = segment.get(key).filter(|_| segment.has(key)) else { return Ok(None) };
+    match <[f64; N]>::try_from(found) {
+        Ok(numbers) => Ok(Some(numbers)),
+        Err(found) => {
+            segment.fail(key, format!("`{}` needs {N} numbers, not {}", key.key.name, found.len()), None);
+            Err(FaultReported)
+        }
+    }
 }

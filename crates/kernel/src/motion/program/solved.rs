@@ -60,11 +60,10 @@ pub(super) fn solve(start: f64, steps: &[SegmentSpec]) -> Result<SolvedSegments,
         }
     }
     // Two that match do not know each other.
-    let known = ring.known();
+    let known: Vec<Option<[f64; 2]>> = ring.known();
     for index in all.filter(|index| matches!(ring.mover(*index), Some(Mover::Matching(..)))).collect::<Vec<_>>() {
-        let (before, after) = (ring.before(index), ring.after(index));
-        let known = |at: usize| known.get(at).copied().flatten();
-        ring.solve_one(index, Some([known(before).map(|[_, last]| last), known(after).map(|[first, _]| first)]))?;
+        let [before, after] = [ring.before(index), ring.after(index)].map(|at| known.get(at).copied().flatten());
+        ring.solve_one(index, Some([before.map(|[_, last]| last), after.map(|[first, _]| first)]))?;
     }
     Ok(SolvedSegments { steps: ring.steps, curves: ring.curves.into_iter().flatten().collect(), rows })
 }
@@ -195,13 +194,14 @@ fn segment(
         Mover::Matching(law, parameters) => {
             let [before, after] = neighbours.unwrap_or_default();
             let wanted = if step.end.turns { after } else { before.filter(|_| begin.turns) };
-            let nothing = || {
+            let Some(wanted) = wanted else {
                 let what = "inflection = \"match\" takes the acceleration from a neighbour on the other side of a \
                             turn, which is missing or \
                             is matched itself";
-                LawError::new("inflection", what).remedy("give a number, or a turn at one end next to another law")
+                let error = LawError::new("inflection", what);
+                return Err(error.remedy("give a number, or a turn at one end next to another law"));
             };
-            let acceleration = wanted.ok_or_else(nothing)? * width * width / travel;
+            let acceleration = wanted * width * width / travel;
             (*law, Inflection::Match { acceleration }, *parameters)
         }
     };

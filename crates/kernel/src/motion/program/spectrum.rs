@@ -32,6 +32,11 @@ struct Accelerations {
     jumps: Vec<(f64, f64)>,
 }
 
+fn on_unit_circle(angle: f64) -> Complex<f64> {
+    let (sin, cos) = libm::sincos(angle);
+    Complex::new(cos, sin)
+}
+
 impl Accelerations {
     /// The accelerations of segments in their order, each with the angle by which it is shifted; they begin and end with these velocities.
     fn of<'s>(segments: impl Iterator<Item = (&'s ProgramSegment, f64)>, before: f64, behind: f64) -> Self {
@@ -52,14 +57,10 @@ impl Accelerations {
 
     /// ∫ s'' e^{iκθ} dθ.
     fn transform(&self, order: f64) -> Complex<f64> {
-        let turned = |angle: f64| {
-            let (sin, cos) = libm::sincos(order * angle);
-            Complex::new(cos, sin)
-        };
         let moves = self.moves.iter().map(|(start, width, travel, spectrum)| {
-            spectrum.transform(order * width) * turned(*start) * (travel / width)
+            spectrum.transform(order * width) * on_unit_circle(order * start) * (travel / width)
         });
-        let jumps = self.jumps.iter().map(|(at, by)| turned(*at) * *by);
+        let jumps = self.jumps.iter().map(|(at, by)| on_unit_circle(order * at) * *by);
         moves.chain(jumps).sum()
     }
 }
@@ -153,23 +154,21 @@ impl Program {
     pub fn movements(&self) -> Vec<ProgramMovement> {
         let count = self.segments.len();
         let whole = TAU / f64::from(self.lobes);
-        let rests = |segment: &&ProgramSegment| segment.curve.is_none();
-        let Some(first) = self.segments.iter().position(|segment| rests(&segment)) else { return Vec::new() };
+        let Some(first) = self.segments.iter().position(|segment| segment.curve.is_none()) else { return Vec::new() };
         // From the end of a rest, around to it.
         let round = self.segments.iter().map(|segment| (segment, 0.0)).chain(self.segments.iter().map(|s| (s, whole)));
         let all: Vec<(&ProgramSegment, f64)> = round.skip(first + 1).take(count).collect();
         let moving = all.split(|(segment, _)| segment.curve.is_none()).filter(|run| !run.is_empty());
-        let mut movements: Vec<ProgramMovement> = moving
-            .filter_map(|run| {
-                let ((begin, shift), (end, last_shift)) = (run.first()?, run.last()?);
-                let accelerations = Accelerations::of(run.iter().map(|(s, by)| (*s, by - shift)), 0.0, 0.0);
-                let angles = (begin.start, end.start + end.width + (last_shift - shift));
-                let ranges = run.iter().map(|(segment, _)| super::summary::range(segment));
-                let (low, top) =
-                    ranges.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, top), (l, t)| (low.min(l), top.max(t)));
-                (top > low).then_some(ProgramMovement { angles, travel: top - low, accelerations })
-            })
-            .collect();
+        let movements = moving.filter_map(|run| {
+            let ((begin, shift), (end, last_shift)) = (run.first()?, run.last()?);
+            let accelerations = Accelerations::of(run.iter().map(|(s, by)| (*s, by - shift)), 0.0, 0.0);
+            let angles = (begin.start, end.start + end.width + (last_shift - shift));
+            let ranges = run.iter().map(|(segment, _)| super::summary::range(segment));
+            let (low, top) =
+                ranges.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, top), (l, t)| (low.min(l), top.max(t)));
+            (top > low).then_some(ProgramMovement { angles, travel: top - low, accelerations })
+        });
+        let mut movements: Vec<ProgramMovement> = movements.collect();
         movements.sort_by(|a, b| a.angles.0.total_cmp(&b.angles.0));
         movements
     }

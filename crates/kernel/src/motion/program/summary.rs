@@ -124,9 +124,8 @@ fn summary(segment: &super::ProgramSegment) -> SegmentSummary {
     let Some(curve) = &segment.curve else { return rest };
     let [velocity, acceleration, jerk] = curve.peak_rates();
     let (travel, width) = (segment.travel.abs(), segment.width);
-    let place = |found: extremum::Extremum, power: i32| {
-        (found.value * travel / width.powi(power), segment.start + found.at * width)
-    };
+    let peaks = [(velocity, 1), (acceleration, 2), (jerk, 3)]
+        .map(|(found, power)| (found.value * travel / width.powi(power), segment.start + found.at * width));
     let (low, top) = range(segment);
     let (least, most) = (positions.0.min(positions.1), positions.0.max(positions.1));
     let over = (top - most).max(least - low).max(0.0);
@@ -135,7 +134,7 @@ fn summary(segment: &super::ProgramSegment) -> SegmentSummary {
         // Rounding at the ends is not an overshoot.
         overshoot: if !segment.whole && over > rounding { over } else { 0.0 },
         range: (low, top),
-        peaks: [place(velocity, 1), place(acceleration, 2), place(jerk, 3)],
+        peaks,
         humps: curve.humps(),
         ..rest
     }

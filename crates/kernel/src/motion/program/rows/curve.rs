@@ -61,23 +61,19 @@ pub(super) fn program(
 
 /// The curve through the rows of a run from one to another, over shares of its angle, from 0 on.
 fn run_curve(turn: &Turn, found: &Nodes, cubic: bool, (first, end): (usize, usize)) -> LawCurve {
-    let knot = |at: usize| turn.knots.get(at).copied().unwrap_or(1.0);
-    let value = |at: usize| found.values.get(at).copied().unwrap_or(0.0);
-    let (from, width, own) = (knot(first), knot(end) - knot(first), value(first));
-    let knots: Vec<f64> = (first..=end).map(|at| if at == end { 1.0 } else { (knot(at) - from) / width }).collect();
+    let (from, (own, _)) = (turn.knot(first), found.node(first));
+    let width = turn.knot(end) - from;
+    let knots: Vec<f64> =
+        (first..=end).map(|at| if at == end { 1.0 } else { (turn.knot(at) - from) / width }).collect();
     if cubic {
-        let values: Vec<f64> = (first..=end).map(|at| value(at) - own).collect();
+        let values: Vec<f64> = (first..=end).map(|at| found.node(at).0 - own).collect();
         return spline::cubic_at_rest(&knots, &values);
     }
-    spline::chain(
-        &knots,
-        &(first..=end)
-            .map(|at| {
-                let [v, a] = found.states.get(at).copied().unwrap_or_default();
-                [value(at) - own, v * width, a * width * width]
-            })
-            .collect::<Vec<_>>(),
-    )
+    let nodes = (first..=end).map(|at| {
+        let (value, [v, a]) = found.node(at);
+        [value - own, v * width, a * width * width]
+    });
+    spline::chain(&knots, &nodes.collect::<Vec<_>>())
 }
 
 /// Segments of rows that rest and of rows that move.
@@ -91,20 +87,15 @@ fn of_runs(
 ) -> Program {
     let mut program = Program::empty(whole.quantity, lobes.max(1));
     let fill = whole.fill;
-    let knot = |at: usize| turn.knots.get(at).copied().unwrap_or(1.0);
-    let node = |at: usize| {
-        let state = found.states.get(at).copied().unwrap_or_default();
-        (found.values.get(at).copied().unwrap_or(0.0), state)
-    };
     let mut at = 0;
     while let Some(dwell) = found.dwells.get(at).copied() {
         let end = (at..found.dwells.len()).find(|next| found.dwells.get(*next) != Some(&dwell));
         let end = end.unwrap_or(found.dwells.len());
-        let (from, width) = (knot(at), knot(end) - knot(at));
-        let own = node(at).0;
+        let (from, width) = (turn.knot(at), turn.knot(end) - turn.knot(at));
+        let own = found.node(at).0;
         let curve = (!dwell).then(|| run_curve(turn, found, cubic, (at, end)));
         let ends = [at, end].map(|index| {
-            let (_, [v, a]) = node(index);
+            let (_, [v, a]) = found.node(index);
             if cubic {
                 EndState::default()
             } else {
@@ -112,7 +103,7 @@ fn of_runs(
             }
         });
         let name = if dwell { keys::DWELL } else { name };
-        let to = base + if dwell { own } else { node(end).0 };
+        let to = base + if dwell { own } else { found.node(end).0 };
         let segment = ProgramSegment {
             curve,
             name,
@@ -125,7 +116,7 @@ fn of_runs(
             whole: !dwell,
             optimum: None,
         };
-        program.add(segment, turn.at + fill * knot(end));
+        program.add(segment, turn.at + fill * turn.knot(end));
         at = end;
     }
     program.repeat(fill);

@@ -83,19 +83,11 @@ fn column(table: &TableReader<'_>, file: &Columns, name: &str) -> Option<usize> 
         }
         return found;
     }
-    let plain = |text: &str| {
-        let bare = text.split(['(', '[']).next().unwrap_or_default();
-        bare.trim().trim_end_matches(',').to_lowercase()
-    };
     let wanted = name.trim().to_lowercase();
     let exact = headings.iter().position(|heading| heading.to_lowercase() == wanted);
-    let matching = |of: &dyn Fn(&String) -> bool| {
-        let found: Vec<usize> = (0..).zip(headings).filter(|(_, heading)| of(heading)).map(|(at, _)| at).collect();
-        if let [only] = found.as_slice() { Some(*only) } else { None }
-    };
     let found = exact
-        .or_else(|| matching(&|heading| plain(heading) == plain(name)))
-        .or_else(|| matching(&|heading| heading.to_lowercase().contains(&wanted)));
+        .or_else(|| only_match(headings, |heading| without_unit(heading) == without_unit(name)))
+        .or_else(|| only_match(headings, |heading| heading.to_lowercase().contains(&wanted)));
     if found.is_none() {
         let known: Vec<String> = headings.iter().map(|heading| format!("\"{heading}\"")).collect();
         let help = if known.is_empty() {
@@ -110,6 +102,18 @@ fn column(table: &TableReader<'_>, file: &Columns, name: &str) -> Option<usize> 
 
 fn width(file: &Columns) -> usize {
     file.rows.iter().map(FileRow::width).max().unwrap_or(0)
+}
+
+/// The one heading that matches.
+fn only_match(headings: &[String], matches: impl Fn(&str) -> bool) -> Option<usize> {
+    let mut found = headings.iter().enumerate().filter(|(_, heading)| matches(heading)).map(|(at, _)| at);
+    found.next().filter(|_| found.next().is_none())
+}
+
+/// A heading up to its unit in brackets, in small letters.
+fn without_unit(heading: &str) -> String {
+    let bare = heading.split(['(', '[']).next().unwrap_or_default();
+    bare.trim().trim_end_matches(',').to_lowercase()
 }
 
 /// The columns of a file.
@@ -131,8 +135,7 @@ fn chosen(table: &TableReader<'_>, file: &Columns, quantity: Quantity) -> Option
             }
         };
     }
-    let decimal = |row: &FileRow| row.with_decimal_comma().is_some();
-    if width == 1 || (stepped && file.rows.iter().all(|row| row.width() == 1 || decimal(row))) {
+    if width == 1 || (stepped && file.rows.iter().all(|row| row.width() == 1 || row.with_decimal_comma().is_some())) {
         if stepped || is_grinder_list(file.name()) {
             return Some(Chosen { angle: None, position: 0 });
         }
@@ -161,26 +164,23 @@ fn chosen(table: &TableReader<'_>, file: &Columns, quantity: Quantity) -> Option
         table.fail_in(&TABLE, row, message, Some(help));
         return None;
     }
-    let unit = |at: usize| headings.get(at).and_then(|heading| HeadingUnit::of(heading));
-    let is_angle =
-        |unit: Option<HeadingUnit>| matches!(unit, Some(HeadingUnit::Quantity { dimension: Dimension::Angle, .. }));
-    let is_length =
-        |unit: Option<HeadingUnit>| matches!(unit, Some(HeadingUnit::Quantity { dimension: Dimension::Length, .. }));
-    let swapped = quantity == Quantity::Length && is_length(unit(0)) && is_angle(unit(1));
+    let [first, second] = [0, 1].map(|at| match headings.get(at).and_then(|heading| HeadingUnit::of(heading)) {
+        Some(HeadingUnit::Quantity { dimension, .. }) => Some(dimension),
+        _ => None,
+    });
+    let swapped = quantity == Quantity::Length && first == Some(Dimension::Length) && second == Some(Dimension::Angle);
     let (angle, position) = if swapped { (1, 0) } else { (0, 1) };
     has_positions(table, file, position).then_some(Chosen { angle: Some(angle), position })
 }
 
 /// Names the columns that are not read, unless `columns` chose.
 fn unread(table: &TableReader<'_>, file: &Columns, chosen: &Chosen) -> Option<String> {
-    let is_read = |at: &usize| *at == chosen.position || Some(*at) == chosen.angle;
-    let unread: Vec<String> = (0..width(file))
-        .filter(|at| !is_read(at))
-        .map(|at| match file.headings().get(at).filter(|heading| !heading.is_empty()) {
-            Some(heading) => format!("{} (\"{heading}\")", at + 1),
-            None => (at + 1).to_string(),
-        })
-        .collect();
+    let unread = (0..width(file)).filter(|at| *at != chosen.position && Some(*at) != chosen.angle);
+    let unread = unread.map(|at| match file.headings().get(at).filter(|heading| !heading.is_empty()) {
+        Some(heading) => format!("{} (\"{heading}\")", at + 1),
+        None => (at + 1).to_string(),
+    });
+    let unread: Vec<String> = unread.collect();
     let (columns, are) = if unread.len() == 1 { ("column", "is") } else { ("columns", "are") };
     (!unread.is_empty() && !table.has(&COLUMNS))
         .then(|| format!("{columns} {} of `{}` {are} not read", unread.join(", "), file.name()))

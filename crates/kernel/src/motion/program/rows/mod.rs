@@ -15,6 +15,7 @@ use super::fault_reported::FaultReported;
 use super::keys::{BETWEEN, DEGREE, MIRROR, POINTS, REST, SMOOTH, TABLE};
 use crate::document::{Columns, Field, FileRow, TableReader};
 use crate::motion::Quantity;
+use crate::numeric::scatter::range;
 use crate::refusal::Refusal;
 use crate::units::{self, Dimension};
 
@@ -150,10 +151,7 @@ impl TableRows {
     /// The least and the largest position, m, where they may be radii of a cam: nothing says that they are lifts, and none is near 0.
     #[must_use]
     pub fn possible_radii(&self) -> Option<(f64, f64)> {
-        let (low, high) = self
-            .positions
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)));
+        let (low, high) = range(&self.positions);
         let may_be =
             self.quantity == Quantity::Length && !self.has_lifts && high > low && low > LEAST_RADIUS * (high - low);
         may_be.then_some((low, high))

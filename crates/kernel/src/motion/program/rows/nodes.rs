@@ -55,6 +55,12 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
+    /// Value of a node, and its velocity and acceleration.
+    pub(super) fn node(&self, index: usize) -> (f64, [f64; 2]) {
+        let state = self.states.get(index).copied().unwrap_or_default();
+        (self.values.get(index).copied().unwrap_or(0.0), state)
+    }
+
     pub(super) fn largest_acceleration(&self) -> f64 {
         self.states.iter().map(|state| state[1].abs()).fold(0.0, f64::max)
     }
@@ -114,14 +120,17 @@ impl RowRun<'_> {
 
     /// What is given of each node: those at either end of an interval that rests do so, and the ends of a segment stay.
     fn given(&self, dwells: &[bool]) -> Vec<Given> {
-        let rest = |rests: bool| if rests { [STAYS, Some(0.0), Some(0.0)] } else { [None; 3] };
-        let Some([first, last]) = self.ends else {
-            let before = dwells.last().copied().into_iter().chain(dwells.iter().copied());
-            return before.zip(dwells).map(|(before, after)| rest(before || *after)).collect();
-        };
-        let before = std::iter::once(false).chain(dwells.iter().copied());
-        let after = dwells.iter().copied().chain([false]);
-        let mut given: Vec<Given> = before.zip(after).map(|(before, after)| rest(before || after)).collect();
+        // On a ring the last interval is before the first node.
+        let before = if self.ends.is_none() { dwells.last().copied() } else { Some(false) };
+        let before = before.into_iter().chain(dwells.iter().copied());
+        let after = dwells.iter().copied().chain(self.ends.map(|_| false));
+        let given = before.zip(after).map(
+            |(before, after)| {
+                if before || after { [STAYS, Some(0.0), Some(0.0)] } else { [None; 3] }
+            },
+        );
+        let mut given: Vec<Given> = given.collect();
+        let Some([first, last]) = self.ends else { return given };
         let end = given.len().saturating_sub(1);
         for (node, [v, a]) in [(0, first), (end, last)] {
             if let Some(given) = given.get_mut(node) {
@@ -196,13 +205,14 @@ impl RowRun<'_> {
     /// Figures of the curve of some nodes, by the share.
     pub(super) fn figures(&self, found: &Nodes, wishes: RowWishes, told: &[String]) -> RowFigures {
         let count = if self.ends.is_none() { self.dwells.len() } else { self.knots.len() };
-        let gaps = || self.knots.iter().zip(self.knots.iter().skip(1)).zip(&found.dwells);
-        let widest = gaps()
+        let gaps = self.knots.iter().zip(self.knots.iter().skip(1)).zip(&found.dwells);
+        let widest = gaps
+            .clone()
             .filter(|(_, dwell)| !**dwell)
             .map(|((from, to), _)| (*from, *to))
             .max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)));
         let mut dwells: Vec<(f64, f64)> = Vec::new();
-        for ((from, to), _) in gaps().filter(|(_, dwell)| **dwell) {
+        for ((from, to), _) in gaps.filter(|(_, dwell)| **dwell) {
             match dwells.last_mut().filter(|(_, end)| end == from) {
                 Some((_, end)) => *end = *to,
                 None => dwells.push((*from, *to)),
@@ -282,12 +292,12 @@ fn hidden(steps: impl Iterator<Item = (f64, f64)>, smooth: f64) -> Option<f64> {
     let mut before = (0.0, 0.0);
     let (mut one, mut eight) = (None, None);
     for (far, off) in steps {
-        let reached = |level: f64| {
+        let [reaches_one, reaches_eight] = [2.0 * smooth, 2.0 * CUBED * smooth].map(|level| {
             (off >= level && off > before.1)
                 .then(|| before.0 + (far - before.0) * (level - before.1).max(0.0) / (off - before.1))
-        };
-        one = one.or_else(|| reached(2.0 * smooth));
-        eight = eight.or_else(|| reached(2.0 * CUBED * smooth));
+        });
+        one = one.or(reaches_one);
+        eight = eight.or(reaches_eight);
         if eight.is_some() {
             break;
         }
@@ -326,14 +336,11 @@ fn beyond(width: f64, (from, to): ([f64; 3], [f64; 3])) -> (f64, f64) {
 
 /// The largest of the curve through nodes, and the share where.
 fn overshoot(knots: &[f64], nodes: &Nodes) -> (f64, f64) {
-    let node = |at: usize| {
-        let (value, [v, a]) = (nodes.values.get(at)?, nodes.states.get(at)?);
-        Some([*value, *v, *a])
-    };
-    let pairs = knots.iter().zip(knots.iter().skip(1)).enumerate();
-    let all = pairs.filter_map(|(at, (from, to))| {
-        let (by, share) = beyond(to - from, (node(at)?, node(at + 1)?));
-        Some((by, from + share * (to - from)))
+    let jets = nodes.values.iter().zip(&nodes.states).map(|(value, [v, a])| [*value, *v, *a]);
+    let pairs = knots.iter().zip(knots.iter().skip(1)).zip(jets.clone().zip(jets.skip(1)));
+    let all = pairs.map(|((from, to), ends)| {
+        let (by, share) = beyond(to - from, ends);
+        (by, from + share * (to - from))
     });
     all.fold((0.0, 0.0), |worst, found| if found.0 > worst.0 { found } else { worst })
 }

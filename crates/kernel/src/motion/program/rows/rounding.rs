@@ -1,5 +1,7 @@
 //! To what the numbers of rows are rounded.
 
+use crate::numeric::scatter::range;
+
 /// Most decimals that are looked for.
 const MOST_DECIMALS: i32 = 12;
 /// Rounding of decimals in binary, and of their sums and conversions, as a share of the last decimal.
@@ -71,16 +73,14 @@ fn looks_rounded(values: &[f64], step: f64) -> bool {
 /// Whether values go from the lowest to the highest one in steps of which most are equal: these are then those of a straight line, some of whose
 /// rows may be left out. Rounding to such a step would show some of the values between them twice.
 fn is_ramp(values: &[f64], fine: f64) -> bool {
-    let (low, high) = values
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)));
+    let (low, high) = range(values);
     let (moving, resting): (Vec<_>, Vec<_>) =
         values.iter().zip(values.iter().skip(1)).partition(|(a, b)| (*b - *a).abs() > 0.5 * fine);
     let sizes: Vec<f64> = moving.iter().map(|(a, b)| (*b - *a).abs()).collect();
     let least = sizes.iter().copied().fold(f64::INFINITY, f64::min);
     let equal = sizes.iter().filter(|size| **size - least <= 2.0 * (1.0 + BINARY) * fine).count();
-    let inner = |value: f64| value > low + 0.5 * fine && value < high - 0.5 * fine;
-    MOST_EQUAL.1 * equal >= MOST_EQUAL.0 * sizes.len() && !resting.iter().any(|(a, _)| inner(**a))
+    let (low, high) = (low + 0.5 * fine, high - 0.5 * fine);
+    MOST_EQUAL.1 * equal >= MOST_EQUAL.0 * sizes.len() && !resting.iter().any(|(a, _)| **a > low && **a < high)
 }
 
 /// A step above that of the decimals of which all values are multiples, as far as the last decimal tells.

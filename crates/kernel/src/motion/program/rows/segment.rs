@@ -144,13 +144,14 @@ pub(in crate::motion::program) fn between(intervals: [Option<(f64, f64)>; 2], st
 
 /// Why a state at an end of a segment contradicts a monotonic curve.
 fn contradiction(knots: &[f64], found: &Nodes, NotMonotonic { interval }: NotMonotonic) -> LawError {
-    let of = |list: &[f64], at: usize| list.get(at).copied().unwrap_or(0.0);
-    let (width, rise) =
-        (of(knots, interval + 1) - of(knots, interval), of(&found.values, interval + 1) - of(&found.values, interval));
+    let [width, rise] = [knots, &found.values].map(|list| {
+        let [from, to] = [interval, interval + 1].map(|at| list.get(at).copied().unwrap_or(0.0));
+        to - from
+    });
     let up = if rise < 0.0 { -1.0 } else { 1.0 };
     // Seen from the end into the segment.
     let state = |node: usize, inward: f64| {
-        let [v, a] = found.states.get(node).copied().unwrap_or_default();
+        let (_, [v, a]) = found.node(node);
         [up * v * width, inward * up * a * width * width]
     };
     let last = interval + 2 == knots.len();

@@ -33,6 +33,10 @@ pub(super) struct Turn {
 }
 
 impl Turn {
+    pub(super) fn knot(&self, index: usize) -> f64 {
+        self.knots.get(index).copied().unwrap_or(1.0)
+    }
+
     /// The turn or lobe of a width, rad, covered by rows.
     ///
     /// # Errors
@@ -126,9 +130,9 @@ fn pairs(points: &[RowPlace]) -> impl Iterator<Item = (&RowPlace, &RowPlace)> {
 
 /// The widest gap in which the curve may close the turn by itself: one spacing, rests left out.
 fn widest_allowed(rows: &Rows, equal: &impl Fn(f64, f64) -> bool) -> f64 {
-    let all = || pairs(&rows.points);
-    let moving: Vec<f64> = all().filter(|(a, b)| !equal(a.position, b.position)).map(|(a, b)| b.at - a.at).collect();
-    let widths = if moving.is_empty() { all().map(|(a, b)| b.at - a.at).collect() } else { moving };
+    let moving = pairs(&rows.points).filter(|(a, b)| !equal(a.position, b.position));
+    let moving: Vec<f64> = moving.map(|(a, b)| b.at - a.at).collect();
+    let widths = if moving.is_empty() { pairs(&rows.points).map(|(a, b)| b.at - a.at).collect() } else { moving };
     let (least, most) =
         widths.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), width| (least.min(*width), most.max(*width)));
     if most <= EVEN * least { most * (1.0 + 1e-6) } else { OF_UNEVEN * most }
@@ -267,17 +271,6 @@ fn uncovered(rows: &Rows, fill: f64, open: f64, equal: bool) -> RowsFault {
     let (row, span) = (rows.points.last().map_or(0, |last| last.row), fill - open);
     let what = format!("{} deg of the turn are without rows", degrees(open));
     let what = if (fill - TAU).abs() > SAME_ANGLE { what.replace("turn", "lobe") } else { what };
-    let complete = || {
-        let mut ways = Vec::new();
-        if span <= 0.5 * fill * (1.0 + 1e-9) && !equal {
-            ways.push("mirror = true makes a whole lobe of one half");
-        }
-        if equal {
-            ways.push("rest = \"dwell\" keeps the position there");
-        }
-        ways.push(if ways.is_empty() { "add rows" } else { "or add rows" });
-        ways.join(", ")
-    };
     if let Origin::File { in_degrees: true, span, .. } = rows.origin {
         if looks_like_radians(span) {
             let message = format!("{what}: are these radians?");
@@ -289,9 +282,17 @@ fn uncovered(rows: &Rows, fill: f64, open: f64, equal: bool) -> RowsFault {
             return RowsFault::new(row, format!("{what}: are these shares of the turn?"), help.into());
         }
     }
+    let mut ways = Vec::new();
+    if span <= 0.5 * fill * (1.0 + 1e-9) && !equal {
+        ways.push("mirror = true makes a whole lobe of one half");
+    }
+    if equal {
+        ways.push("rest = \"dwell\" keeps the position there");
+    }
+    ways.push(if ways.is_empty() { "add rows" } else { "or add rows" });
     RowsFault::new(
         row,
         format!("{what}: they end at {} deg", degrees(rows.points.last().map_or(0.0, |last| last.at))),
-        complete(),
+        ways.join(", "),
     )
 }
