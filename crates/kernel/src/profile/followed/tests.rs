@@ -1,5 +1,6 @@
 use super::*;
 use crate::follower::TranslatingRoller;
+use crate::motion::Piece;
 
 /// Waves on one piece: lift A sin(nθ), so that on a circle about the shaft, where the follower does not move, the motion itself is the error.
 #[derive(Debug)]
