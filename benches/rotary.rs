@@ -34,7 +34,7 @@ fn motion(criterion: &mut Criterion) {
     criterion.bench_function("law/jet", |b| b.iter(|| curves.motion.jet(piece, black_box(angle))));
     for law in LAWS.iter().filter(|law| law.serves_rests()) {
         let curve = law.solve(&LawTask::default()).expect("it serves rests");
-        let at = |x: f64| curve.at(curve.part_of(x), x);
+        let at = |x: f64| curve.values_at(curve.part_of(x), x);
         criterion.bench_function(&format!("law/{}", law.name), |b| b.iter(|| at(black_box(0.37))));
     }
     criterion.bench_function("cam/profile point", |b| b.iter(|| curves.profile(piece, black_box(angle))));

@@ -10,7 +10,7 @@ fuzz_target!(|text: &str| {
     }
     if let Ok(formula) = Formula::parse(text, "th") {
         if formula.scanned(0.0, 1.0).is_ok() {
-            assert!(formula.at(0.5).iter().all(|value| value.is_finite()), "{text}");
+            assert!(formula.values_at(0.5).iter().all(|value| value.is_finite()), "{text}");
         }
     }
 });

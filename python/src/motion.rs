@@ -77,7 +77,7 @@ impl CurveMotion {
                 let rests = parts.clone().all(|part| {
                     let (from, to) = stretch.curve.range_of(part);
                     [0.2, 0.5, 0.8].iter().all(|share| {
-                        let [_, v, a, j] = stretch.curve.at(part, from + share * (to - from));
+                        let [_, v, a, j] = stretch.curve.values_at(part, from + share * (to - from));
                         v == 0.0 && a == 0.0 && j == 0.0
                     })
                 });
@@ -114,7 +114,7 @@ impl camgen::Motion for CurveMotion {
         let Some(stretch) = self.stretches.get(*stretch) else { return Jet::default() };
         let x = ((angle - stretch.start) / stretch.width).clamp(0.0, 1.0);
         let part = stretch.curve.part_of(x).clamp(parts.start, parts.end - 1);
-        let jet = by_angle(stretch.curve.at(part, x), stretch.width);
+        let jet = by_angle(stretch.curve.values_at(part, x), stretch.width);
         Jet { s: jet.s - self.lowest, ..jet }
     }
 
@@ -261,7 +261,7 @@ impl Asked<'_, '_, '_> {
         }
         let scale = |order: usize| largest[order].max(largest[0]);
         let compared = |((interval, x), given): (&(usize, f64), &[f64; 4])| {
-            let found = curve.at(curve.part_of(*x), *x);
+            let found = curve.values_at(curve.part_of(*x), *x);
             let is_off = |order: &usize| (found[*order] - given[*order]).abs() > AGREE[*order] * scale(*order);
             let order = (0..4).find(is_off)?;
             Some(Disagreement { interval: *interval, order, x: *x, given: given[order], found: found[order] })
@@ -430,13 +430,13 @@ impl Motion {
 fn closed(stretches: &[Stretch]) -> PyResult<()> {
     let ends = |stretch: &Stretch| {
         let last = stretch.curve.parts() - 1;
-        (stretch.curve.at(0, 0.0)[0], stretch.curve.at(last, 1.0)[0])
+        (stretch.curve.values_at(0, 0.0)[0], stretch.curve.values_at(last, 1.0)[0])
     };
     let all: Vec<(f64, f64)> = stretches.iter().map(ends).collect();
     let values = || {
         all.iter()
             .flat_map(|(from, to)| [*from, *to])
-            .chain(stretches.iter().map(|one| one.curve.at(one.curve.part_of(0.5), 0.5)[0]))
+            .chain(stretches.iter().map(|one| one.curve.values_at(one.curve.part_of(0.5), 0.5)[0]))
     };
     let range = values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
     for (index, (_, to)) in all.iter().enumerate() {
@@ -485,7 +485,7 @@ impl Law {
             return Err(option("x", "must be from 0 to 1", None));
         }
         let curve = self.0.solve(&LawTask::default()).map_err(|error| refused("SolveError", &error.refusal))?;
-        Ok(table::four(py, places.iter().map(|x| curve.at(curve.part_of(*x), *x))))
+        Ok(table::four(py, places.iter().map(|x| curve.values_at(curve.part_of(*x), *x))))
     }
 
     fn __repr__(&self) -> String {

@@ -53,8 +53,8 @@ fn an_eccentric_circle_gives_what_its_formulas_say() {
             let off = [1e3 * found.s - wanted[0], 1e3 * found.ds - wanted[1], 1e3 * found.dds - wanted[2]];
             assert!(off.iter().all(|off| off.abs() < 1e-10), "{angle}: {off:?}");
         };
-        near(on_roller.at(angle).expect("in touch"), [h, h1, h2]);
-        near(on_face.at(angle).expect("in touch"), [e * cos, -e * sin, -e * cos]);
+        near(on_roller.jet_at(angle).expect("in touch"), [h, h1, h2]);
+        near(on_face.jet_at(angle).expect("in touch"), [e * cos, -e * sin, -e * cos]);
     }
 }
 
@@ -80,7 +80,7 @@ fn a_swinging_roller_on_a_circle_is_a_linkage() {
     };
     for i in 0..60 {
         let angle = 0.1 * f64::from(i);
-        let found = followed.at(angle).expect("in touch");
+        let found = followed.jet_at(angle).expect("in touch");
         let h = 1e-3;
         let at = |n: f64| swing(angle + n * h);
         let first = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h);
@@ -111,7 +111,7 @@ fn a_swinging_face_on_a_circle_is_a_linkage() {
         };
         for i in 0..60 {
             let angle = 0.1 * f64::from(i);
-            let found = followed.at(angle).expect("in touch");
+            let found = followed.jet_at(angle).expect("in touch");
             let h = 1e-3;
             let at = |n: f64| swing(angle + n * h);
             let first = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h);
@@ -136,7 +136,7 @@ fn a_tilted_face_and_a_knife_edge_on_a_circle_have_closed_forms() {
         for tilt in [0.3, -0.6_f64] {
             let face = FlatFace::tilted(rho, tilt, 0.01);
             let followed = FollowerOnChain::new(Curves { motion: &Rest, follower: &face }, &edges);
-            let found = followed.at(angle).expect("in touch");
+            let found = followed.jet_at(angle).expect("in touch");
             let (sin, cos) = (libm::sin(angle + tilt), libm::cos(angle + tilt));
             let scale = e / libm::cos(tilt);
             near(found.s, scale * cos);
@@ -145,7 +145,7 @@ fn a_tilted_face_and_a_knife_edge_on_a_circle_have_closed_forms() {
         }
         let knife = TranslatingRoller::new(rho, 0.0, 0.0);
         let found =
-            FollowerOnChain::new(Curves { motion: &Rest, follower: &knife }, &edges).at(angle).expect("in touch");
+            FollowerOnChain::new(Curves { motion: &Rest, follower: &knife }, &edges).jet_at(angle).expect("in touch");
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));
         let root = (rho * rho - e * e * sin * sin).sqrt();
         near(found.s, e * cos + root - rho);

@@ -57,7 +57,9 @@ fn places(boundary: &Boundary<'_>, count: u32, spread: Spread, borders: bool, dr
             found.push(boundary.ends(index).expect("a stretch")[0]);
         }
         found.extend(
-            shares.iter().filter_map(|share| boundary.at(index, stretch.from + share * (stretch.to - stretch.from))),
+            shares
+                .iter()
+                .filter_map(|share| boundary.point_at(index, stretch.from + share * (stretch.to - stretch.from))),
         );
         if boundary.starts_at_corner(index + 1) {
             found.push(boundary.ends(index).expect("a stretch")[1]);

@@ -930,7 +930,7 @@ fn as_lines(arc: &camgen::geometry::contour::Segment) -> String {
 /// Least distance of a point from the outlines of a cam, mm.
 fn room(proven: &Proven, point: [f64; 2]) -> f64 {
     let edges = proven.outlines().iter().flat_map(|outline| outline.contour.edges());
-    let points = edges.flat_map(|edge| (0..=500).map(move |step| edge.at(f64::from(step) / 500.0).0));
+    let points = edges.flat_map(|edge| (0..=500).map(move |step| edge.point_and_tangent(f64::from(step) / 500.0).0));
     points.map(|on| (on.x - point[0]).hypot(on.y - point[1])).fold(f64::INFINITY, f64::min)
 }
 

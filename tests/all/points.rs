@@ -48,7 +48,7 @@ fn interpolated(text: &str) -> Vec<Vector2<f64>> {
     let curve = Interpolant::new(&table.rows, table.form, table.between, table.closed);
     let of = |interval: usize| {
         let (from, to) = curve.range(interval).expect("an interval");
-        let at = |i: u32| curve.at(interval, from + (to - from) * f64::from(i) / 16.0).expect("a point").point;
+        let at = |i: u32| curve.point_at(interval, from + (to - from) * f64::from(i) / 16.0).expect("a point").point;
         (0..16).filter(move |_| from < to).map(at).collect::<Vec<_>>()
     };
     (0..curve.count()).flat_map(of).collect()
@@ -384,7 +384,7 @@ fn a_polar_path_of_a_centred_roller_is_its_lift() {
         for i in 0..4_000_000 {
             let angle = TAU * f64::from(i) / 4e6;
             let (piece, inside) = curves.motion.locate(angle);
-            let (law, [_, slope, bend, _]) = (curves.motion.jet(piece, inside), spline.at(angle));
+            let (law, [_, slope, bend, _]) = (curves.motion.jet(piece, inside), spline.values_at(angle));
             worst = [worst[0].max((slope - 1e3 * law.ds).abs()), worst[1].max((bend - 1e3 * law.dds).abs())];
         }
         let told = [number(&text, "velocity_error_mm_per_rad"), number(&text, "acceleration_error_mm_per_rad2")];

@@ -96,7 +96,7 @@ fn along(edge: &Edge) -> Vec<Vector2<f64>> {
     let straight = edge.segment().is_some_and(|segment| segment.bulge == 0.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a few thousand")]
     let pieces = if straight { 1 } else { (edge.length() / STEP).ceil().clamp(1.0, MOST) as u32 };
-    (0..=pieces).map(|index| edge.at(f64::from(index) / f64::from(pieces)).0).collect()
+    (0..=pieces).map(|index| edge.point_and_tangent(f64::from(index) / f64::from(pieces)).0).collect()
 }
 
 /// Everything that is wrong with a sheet for the eye.

@@ -98,7 +98,7 @@ fn a_moved_control_point_is_found() {
     cubic.points[1] += Vector2::new(0.02, 0.02);
     cubic.points[2] += Vector2::new(0.02, 0.02);
     edges[at] = Edge::Cubic(cubic);
-    let found = follow(&Contour::of(edges), &boundary).expect("followed");
+    let found = follow(&Contour::from_edges(edges), &boundary).expect("followed");
     assert!(found.distance > 0.01 && (found.at - cubic.points[1]).norm() < 20.0, "{found:?}");
 }
 
@@ -158,7 +158,7 @@ fn an_acceleration_is_kept_with_fewer_spans_than_arcs() {
                 let speed = MILLIMETRES * contact.curve.speed;
                 let offset = 1.0 + radius * profile.curvature;
                 let curvature = limit * libm::cos(contact.pressure_angle) / (speed * speed) * offset * offset;
-                ChainTolerance::of(f64::INFINITY, curvature)
+                ChainTolerance::symmetric(f64::INFINITY, curvature)
             };
             let curve = |at: f64| curves.profile(*index, at).scaled(MILLIMETRES);
             let piece = &pieces[*index];

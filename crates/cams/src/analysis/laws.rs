@@ -131,7 +131,7 @@ fn row(law: &'static Law, rise: Rise, cam: Option<LawCamFigures>) -> LawRow {
     let peaks = curve.peaks();
     // A jump of the velocity at the ends is an impact, one of the acceleration a jerk without bound.
     let jumps = |order: usize, peak: f64| {
-        let ends = [curve.at(0, 0.0), curve.at(curve.parts().saturating_sub(1), 1.0)];
+        let ends = [curve.values_at(0, 0.0), curve.values_at(curve.parts().saturating_sub(1), 1.0)];
         ends.iter().any(|end| end.get(order).is_some_and(|value| value.abs() > 1e-9 * peak))
     };
     let impact = jumps(1, peaks.velocity.value);

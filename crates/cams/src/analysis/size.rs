@@ -240,7 +240,7 @@ fn row(disc: Option<&Disc>, place: f64, by_pressure_angle: f64) -> SizeRow {
 
 /// The smallest sizes over places of the follower about its own; no place has a prime radius below `least`, m.
 fn places(disc: &Disc, place: FollowerPlacement, least: f64) -> Vec<SizeRow> {
-    let (here, reach) = (place.of(&**disc.follower()), PLACES_REACH * disc.prime_radius());
+    let (here, reach) = (place.chosen_by(&**disc.follower()), PLACES_REACH * disc.prime_radius());
     let nearest =
         if matches!(place, FollowerPlacement::Pivot { .. }) { STEPS_ABOVE_ZERO * here } else { f64::NEG_INFINITY };
     let choices = between((here - reach).max(nearest), here + reach);
@@ -261,7 +261,7 @@ fn sizes(disc: &Disc) -> Vec<SizeRow> {
     let smallest =
         disc.smallest_prime_radius().map_or_else(|| disc.base_radius(), |radius| radius - disc.curves().offset());
     let bases = between(from * smallest, to * smallest);
-    let place = disc.follower().place().map_or(f64::NAN, |place| place.of(&**disc.follower()));
+    let place = disc.follower().place().map_or(f64::NAN, |place| place.chosen_by(&**disc.follower()));
     parallel::map(&bases, |base| row(disc.of_prime_radius(base + disc.curves().offset()).as_ref(), place, f64::NAN))
 }
 
@@ -345,7 +345,7 @@ fn over_places(place: FollowerPlacement, rows: &[SizeRow], chosen: &SizeRow) -> 
 
 fn plot(disc: &Disc, by_place: Option<&(FollowerPlacement, Vec<SizeRow>)>, by_size: &[SizeRow]) -> Plot {
     let place = disc.follower().place();
-    let chosen = row(Some(disc), place.map_or(f64::NAN, |place| place.of(&**disc.follower())), f64::NAN);
+    let chosen = row(Some(disc), place.map_or(f64::NAN, |place| place.chosen_by(&**disc.follower())), f64::NAN);
     let limits = &disc.machine().limits;
     let [rising, falling] = limits.pressure_angles();
     let angle = ("pressure angle", "Largest pressure angle, degrees");

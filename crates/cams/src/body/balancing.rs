@@ -312,7 +312,10 @@ mod tests {
         let all: Vec<&Contour> = std::iter::once(&disc).chain([&bore]).chain(&holes).collect();
         // The polygon of many points: its moment errs by the square of the step, so two steps give the limit.
         let points = |contour: &Contour, parts: u32| -> Vec<Vector2<f64>> {
-            contour.edges().flat_map(|s| (0..parts).map(move |i| s.at(f64::from(i) / f64::from(parts)).0)).collect()
+            contour
+                .edges()
+                .flat_map(|s| (0..parts).map(move |i| s.point_and_tangent(f64::from(i) / f64::from(parts)).0))
+                .collect()
         };
         let polygon = |contour: &Contour, parts: u32| {
             let points = points(contour, parts);

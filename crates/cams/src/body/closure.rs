@@ -75,7 +75,7 @@ impl Closure {
         let later = second.motion.range().0 - first.motion.range().0;
         let scale = |piece: usize, at: f64| MILLIMETRES * first.follower.leverage(&first.motion.jet(piece, at));
         let sum = |piece: usize, at: f64| {
-            let lifts = on_first.at(at).zip(on_second.at(at + later));
+            let lifts = on_first.jet_at(at).zip(on_second.jet_at(at + later));
             lifts.map_or(f64::NAN, |(one, two)| scale(piece, at) * (one.s + sign * two.s - top))
         };
         let most = |sign: f64| {

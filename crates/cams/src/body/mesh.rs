@@ -23,8 +23,10 @@ impl Mesh {
             let points = flank.patches.iter().flat_map(|patch| {
                 let [(u0, u1), (v0, v1)] = patch.range();
                 (0..RING_POINTS).map(move |i| {
-                    let [point, ..] =
-                        patch.at(u0 + (u1 - u0) * f64::from(i) / f64::from(RING_POINTS), v0 + (v1 - v0) * share);
+                    let [point, ..] = patch.point_and_slopes(
+                        u0 + (u1 - u0) * f64::from(i) / f64::from(RING_POINTS),
+                        v0 + (v1 - v0) * share,
+                    );
                     point
                 })
             });

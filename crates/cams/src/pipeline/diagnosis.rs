@@ -314,7 +314,7 @@ impl Search<'_> {
     fn straightened(&mut self) {
         let Some(segments) = self.contour.segments() else { return };
         let straight = segments.iter().filter(|segment| segment.bulge == 0.0).count();
-        let of_arcs = segments.iter().filter(|segment| segment.bulge != 0.0).map(|arc| arc.at(0.5).0);
+        let of_arcs = segments.iter().filter(|segment| segment.bulge != 0.0).map(|arc| arc.point_and_tangent(0.5).0);
         let points: Vec<Vector2<f64>> = segments.iter().map(|segment| segment.start).chain(of_arcs).collect();
         let remaining = self.model.farthest(&points);
         if straight > 0 && points.len() >= ENOUGH && self.explanations.is_empty() {

@@ -29,7 +29,7 @@ impl Chain {
     /// The chain as a contour, for a closed one.
     #[must_use]
     pub fn contour(&self) -> Contour {
-        Contour::of(self.edges.iter().copied())
+        Contour::from_edges(self.edges.iter().copied())
     }
 
     /// The gap between its ends, mm.
@@ -330,7 +330,9 @@ fn same(a: &Edge, b: &Edge, reach: f64) -> bool {
     let reach = reach.min(SAME_SHARE * (a.end() - a.start()).norm());
     let close = |a: Vector2<f64>, b: Vector2<f64>| (a - b).norm() <= reach;
     // Three points distinguish arcs and lines, a cubic curve needs more.
-    let between = |a: &Edge, b: &Edge| [0.25, 0.75].iter().all(|share| close(a.at(*share).0, b.at(*share).0));
+    let between = |a: &Edge, b: &Edge| {
+        [0.25, 0.75].iter().all(|share| close(a.point_and_tangent(*share).0, b.point_and_tangent(*share).0))
+    };
     let ends = close(a.start(), b.start()) && close(a.end(), b.end())
         || close(a.start(), b.end()) && close(a.end(), b.start());
     close(a.middle(), b.middle())

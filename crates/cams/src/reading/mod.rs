@@ -273,7 +273,9 @@ fn around_all(chains: &[Chain]) -> Option<usize> {
     let contour = largest.counter_clockwise();
     let tree = EdgeTree::new(&contour);
     let within = |edge: &Edge| {
-        [0.0, 0.5].into_iter().all(|share| tree.nearest(edge.at(share).0).is_some_and(|nearest| nearest.left > 0.0))
+        [0.0, 0.5]
+            .into_iter()
+            .all(|share| tree.nearest(edge.point_and_tangent(share).0).is_some_and(|nearest| nearest.left > 0.0))
     };
     let mut rest = chains.iter().enumerate().filter(|(other, _)| *other != index);
     rest.all(|(_, chain)| chain.edges.iter().all(within)).then_some(index)

@@ -434,7 +434,7 @@ fn points(
     let (checking, (outline, rolled_on)) = timed(clock, || {
         let read = write::points::read(&bytes).map_err(Refusal::new)?;
         let curve = Interpolant::new(&read.rows, read.form, read.between, read.closed);
-        let contour = Contour::of(curve.edges().unwrap_or_default());
+        let contour = Contour::from_edges(curve.edges().unwrap_or_default());
         let outline = WrittenOutline { cut: 0, z: 0.0, contour, others: Vec::new() };
         let found = rolling::roll_all(body, std::slice::from_ref(&outline), 1e3 * setting.tolerance).pop();
         Ok((outline, found))

@@ -183,7 +183,7 @@ fn runs_once(chain: &Chain, wanted: &Contour, tolerance: f64) -> bool {
     let left = if contour.area_and_centroid().0 < 0.0 { contour.reversed() } else { contour };
     let tree = EdgeTree::new(wanted);
     let forwards = |edge: Edge| {
-        let (middle, tangent) = edge.at(0.5);
+        let (middle, tangent) = edge.point_and_tangent(0.5);
         let along = tree.nearest_segment(middle).map(|(_, nearest)| nearest.tangent);
         edge.length() <= 2.0 * tolerance || along.is_some_and(|along| along.dot(&tangent) > 0.0)
     };

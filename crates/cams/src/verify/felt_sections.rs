@@ -62,7 +62,7 @@ pub(super) fn of_sections(evidence: &Evidence<'_>, surface: &dyn Surface) -> Opt
 /// By how much an edge misses the exact cut at one of its places.
 fn off(surface: &dyn Surface, z: f64, edge: &Edge, place: u32) -> Option<RateErrors> {
     let share = f64::from(place) / f64::from(PLACES - 1);
-    let (point, tangent) = edge.at(share);
+    let (point, tangent) = edge.point_and_tangent(share);
     // At its ends an edge belongs to the piece of the law on its own side.
     let inwards = if place == 0 {
         BESIDE

@@ -95,7 +95,7 @@ fn around(patch: &Patch, outward: bool) -> f64 {
     let mut area = 0.0;
     for side in patch.boundary().into_iter().flatten() {
         let (first, last) = side.knots.range();
-        let at = |i: u32| side.at(first + (last - first) * f64::from(i) / f64::from(AROUND)).0;
+        let at = |i: u32| side.point_and_slope(first + (last - first) * f64::from(i) / f64::from(AROUND)).0;
         for i in 0..AROUND {
             let (a, b) = (at(i), at(i + 1));
             let turn = libm::atan2(a.xy().perp(&b.xy()), a.xy().dot(&b.xy()));

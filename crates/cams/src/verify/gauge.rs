@@ -120,7 +120,9 @@ fn resting(outline: &Contour, gauge: Gauge, direction: Vector2<f64>) -> Option<(
                 on_line(&segment, gauge, direction).into_iter().for_each(&mut rest);
             }
             Edge::Segment(segment) => on_arc(&segment, gauge, direction).into_iter().for_each(&mut rest),
-            Edge::Cubic(cubic) => (1..PLACES).for_each(|step| rest(cubic.at(f64::from(step) / f64::from(PLACES)).0)),
+            Edge::Cubic(cubic) => {
+                (1..PLACES).for_each(|step| rest(cubic.point_and_tangent(f64::from(step) / f64::from(PLACES)).0))
+            }
         }
     }
     best

@@ -159,7 +159,7 @@ impl<'m> ClosedPass<'m> {
         let (way_in, rest) = moves.split_at_checked(start).ok_or_else(open)?;
         let (round, way_out) = rest.split_at_checked(end + 1 - start).ok_or_else(open)?;
         let edges: Vec<Segment> = round.iter().flat_map(CutterMove::segments).collect();
-        let contour = Contour::of(edges.into_iter().map(Edge::Segment));
+        let contour = Contour::from_edges(edges.into_iter().map(Edge::Segment));
         let left = contour.area_and_centroid().0 > 0.0;
         let contour = if left { contour } else { contour.reversed() };
         Ok(Self { way_in, round, way_out, contour, left, side_before: pass.side_before })

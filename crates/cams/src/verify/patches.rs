@@ -79,7 +79,7 @@ impl SpanCell<'_> {
         let mut found = FlankDeviation::NONE;
         for i in 0..n {
             for j in 0..n {
-                let [point, by_u, by_v] = self.patch.at(place(self.u, i), place(self.v, j));
+                let [point, by_u, by_v] = self.patch.point_and_slopes(place(self.u, i), place(self.v, j));
                 let normal = by_u.cross(&by_v).normalize() * sense;
                 let (worst, cosine) = exact.deviation(point, normal);
                 let folded = !(cosine >= SAME_SIDE);
@@ -130,7 +130,7 @@ fn of_span(span: &SpanCell<'_>, exact: &dyn ExactFlank, tolerance: f64) -> Flank
         return whole;
     }
     let (u, v) = (span.u, span.v);
-    let corner = |a: f64, b: f64| span.patch.at(a, b)[0];
+    let corner = |a: f64, b: f64| span.patch.point_and_slopes(a, b)[0];
     let [a, b, c, d] = [corner(u.0, v.0), corner(u.1, v.0), corner(u.0, v.1), corner(u.1, v.1)];
     let count = |first: f64, second: f64| (first.max(second) / CELL).ceil().clamp(1.0, MOST_CELLS);
     let (along, across) = (count((b - a).norm(), (d - c).norm()), count((c - a).norm(), (d - b).norm()));

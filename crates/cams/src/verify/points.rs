@@ -136,7 +136,7 @@ fn found<'w>(evidence: &Evidence<'_>, written: &'w WrittenPoints) -> Result<Tabl
     let larger = |best: (usize, f64), (index, error): (usize, f64)| if error > best.1 { (index, error) } else { best };
     let (interval, worst) = errors.into_iter().enumerate().fold((0, 0.0), larger);
     let (from, to) = curve.range(interval).unwrap_or((0.0, 0.0));
-    let point = curve.at(interval, 0.5 * (from + to)).map_or_else(Vector2::zeros, |point| point.point);
+    let point = curve.point_at(interval, 0.5 * (from + to)).map_or_else(Vector2::zeros, |point| point.point);
     let drawn = if table.flipped { Vector2::new(point.x, -point.y) } else { point };
     let feel = motion_errors(evidence.body, &cut, table.curve, written.cutter).ok();
     let motion = feel.map(|feel| largest_errors(&*feel, curve, table.wish.between));

@@ -255,7 +255,7 @@ impl RolledFlank<'_> {
     fn touching(&self) -> Vec<f64> {
         let edges = self.tree.edges();
         let over = |edge: &Edge, share: f64| {
-            let (point, tangent) = edge.at(share);
+            let (point, tangent) = edge.point_and_tangent(share);
             self.parameter_over(point, Vector2::new(tangent.y, -tangent.x))
         };
         if edges.len() > FEW_SEGMENTS {

@@ -248,7 +248,8 @@ fn holes(evidence: &Evidence<'_>, solid: &WrittenSolid) -> Finding {
 pub(super) fn farthest(these: &[Contour], those: &[Contour]) -> f64 {
     let trees: Vec<EdgeTree> = those.iter().map(EdgeTree::new).collect();
     let places = these.iter().flat_map(Contour::edges);
-    let places = places.flat_map(|edge| (0..PLACES).map(move |i| edge.at(f64::from(i) / f64::from(PLACES)).0));
+    let places =
+        places.flat_map(|edge| (0..PLACES).map(move |i| edge.point_and_tangent(f64::from(i) / f64::from(PLACES)).0));
     let nearest = |place: nalgebra::Vector2<f64>| {
         let all = trees.iter().filter_map(|tree| tree.nearest(place)).map(|nearest| nearest.left.abs());
         all.fold(f64::INFINITY, f64::min)

@@ -104,7 +104,7 @@ fn unrolled(evidence: &Evidence<'_>, found: &Developed) -> Option<Finding> {
         segments += chain.edges.len();
         for edge in &chain.edges {
             for i in 0..=PLACES {
-                let (off, at) = exact.developed_miss(layer, edge.at(f64::from(i) / f64::from(PLACES)).0);
+                let (off, at) = exact.developed_miss(layer, edge.point_and_tangent(f64::from(i) / f64::from(PLACES)).0);
                 if !(off <= worst.0) {
                     worst = (off, at);
                 }
@@ -312,7 +312,7 @@ fn revolved(boundary: &StepBoundary, face: &StepFace) -> f64 {
             StepCurve::Spline(curve) => {
                 let over = |span: (f64, f64)| {
                     let value = |u: f64| {
-                        let (place, slope) = curve.at(u);
+                        let (place, slope) = curve.point_and_slope(u);
                         height(&place) * place.xy().perp(&slope.xy()) / place.xy().norm_squared()
                     };
                     camgen_kernel::numeric::quadrature::integrate(value, span, 1)
@@ -336,7 +336,7 @@ fn lifted(patch: &NurbsSurface) -> f64 {
         for v in patch.v.spans() {
             let across = |u: f64| {
                 let value = |v: f64| {
-                    let [p, by_u, by_v] = patch.at(u, v);
+                    let [p, by_u, by_v] = patch.point_and_slopes(u, v);
                     p.z * (by_u.x * by_v.y - by_u.y * by_v.x)
                 };
                 camgen_kernel::numeric::quadrature::integrate(value, v, 1)

@@ -133,7 +133,7 @@ fn fault_of_blank(body: &dyn Body, reading: &Reading) -> Option<String> {
 /// A point in the middle of a patch.
 fn middle(patch: &NurbsSurface) -> Vector3<f64> {
     let of = |range: (f64, f64)| 0.5 * (range.0 + range.1);
-    patch.at(of(patch.u.range()), of(patch.v.range()))[0]
+    patch.point_and_slopes(of(patch.u.range()), of(patch.v.range()))[0]
 }
 
 /// The exact flanks by the roller rolled past a point.

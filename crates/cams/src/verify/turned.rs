@@ -165,7 +165,7 @@ fn ground(
         for (index, error) in errors.into_iter().enumerate() {
             if !(error <= worst.0) {
                 let (from, to) = curve.range(index).unwrap_or((0.0, 0.0));
-                let at = curve.at(index, 0.5 * (from + to)).map_or_else(Vector2::zeros, |at| at.point);
+                let at = curve.point_at(index, 0.5 * (from + to)).map_or_else(Vector2::zeros, |at| at.point);
                 let flipped = evidence.body.machine().cam.rotation == Rotation::CounterClockwise;
                 worst = (error, if flipped { Vector2::new(at.x, -at.y) } else { at });
             }

@@ -130,8 +130,9 @@ impl Columns {
 
     /// The one text of its data. Headings count where they name another unit than degrees and millimetres, or choose among columns.
     pub(super) fn canonical(&self) -> String {
-        let plain =
-            |heading: &String| HeadingUnit::of(heading).is_none_or(|unit| ["deg", "mm"].contains(&unit.symbol()));
+        let plain = |heading: &String| {
+            HeadingUnit::in_heading(heading).is_none_or(|unit| ["deg", "mm"].contains(&unit.symbol()))
+        };
         let of_pairs = self.rows.iter().all(|row| row.pair().is_some());
         let headings: &[String] = if of_pairs && self.headings.iter().all(plain) { &[] } else { &self.headings };
         let rows = self.rows.iter().map(FileRow::canonical);
@@ -270,7 +271,7 @@ fn headings(above: &[FileRow], rows: &[FileRow]) -> Vec<String> {
             // As many units as columns, in words that cannot be told apart.
             let text = row.text.split('#').next().unwrap_or_default();
             let words = text.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';'));
-            let units: Vec<&str> = words.filter(|word| HeadingUnit::of(word).is_some()).collect();
+            let units: Vec<&str> = words.filter(|word| HeadingUnit::in_heading(word).is_some()).collect();
             if units.len() == width {
                 headings = units.into_iter().map(str::to_owned).collect();
             }
@@ -298,7 +299,7 @@ fn few(text: &str) -> String {
 
 fn excerpt(name: &str, line: usize, text: &str) -> Excerpt {
     let text = few(text.trim_end());
-    Excerpt::of(name, line, &text, (1, text.chars().count()))
+    Excerpt::new(name, line, &text, (1, text.chars().count()))
 }
 
 #[cfg(test)]

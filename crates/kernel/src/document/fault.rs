@@ -49,7 +49,7 @@ const NOT_PLAIN: char = '\u{fffd}';
 
 impl Excerpt {
     /// From a whole line with a number of marked characters from a column on.
-    pub(super) fn of(source: &str, line: usize, whole: &str, (column, marked): (usize, usize)) -> Self {
+    pub(super) fn new(source: &str, line: usize, whole: &str, (column, marked): (usize, usize)) -> Self {
         let place = column.saturating_sub(1);
         let from = if whole.chars().nth(LONGEST_LINE).is_some() { place.saturating_sub(BEFORE) } else { 0 };
         let mut rest = whole.chars().skip(from);
@@ -254,15 +254,15 @@ mod tests {
     #[test]
     fn an_excerpt_shows_its_place_and_not_more() {
         let whole = format!("{}here{}", "x".repeat(5000), "y".repeat(5000));
-        let shown = Excerpt::of("m.toml", 1, &whole, (5001, 4));
+        let shown = Excerpt::new("m.toml", 1, &whole, (5001, 4));
         assert_eq!(shown.text.chars().count(), LONGEST_LINE + 2);
         let marked: String = shown.text.chars().skip(shown.before).take(shown.width).collect();
         assert_eq!((shown.column, marked.as_str()), (5001, "here"));
-        let wide = Excerpt::of("m.toml", 1, &whole, (1, 10_000));
+        let wide = Excerpt::new("m.toml", 1, &whole, (1, 10_000));
         assert_eq!((wide.before, wide.width), (0, LONGEST_LINE));
-        let short = Excerpt::of("m.toml", 1, "a\u{1b}[31m\tb\u{202e}", (7, 1));
+        let short = Excerpt::new("m.toml", 1, "a\u{1b}[31m\tb\u{202e}", (7, 1));
         assert_eq!((short.text.as_str(), short.before), ("a\u{fffd}[31m b\u{fffd}", 6));
-        let end = Excerpt::of("m.toml", 1, "ab", (3, 0));
+        let end = Excerpt::new("m.toml", 1, "ab", (3, 0));
         assert_eq!((end.before, end.width), (2, 1));
     }
 

@@ -163,7 +163,7 @@ const MIL: f64 = 25.4e-6;
 impl HeadingUnit {
     /// The unit of a heading: that in brackets, or its last word that is a unit; `None` where it names none that can be read.
     #[must_use]
-    pub fn of(heading: &str) -> Option<Self> {
+    pub fn in_heading(heading: &str) -> Option<Self> {
         Self::read(heading).ok().flatten()
     }
 
@@ -432,7 +432,7 @@ mod tests {
             ("position_mm", "mm"),
             ("m", "m"),
         ] {
-            assert_eq!(HeadingUnit::of(heading).map(HeadingUnit::symbol), Some(symbol), "{heading}");
+            assert_eq!(HeadingUnit::in_heading(heading).map(HeadingUnit::symbol), Some(symbol), "{heading}");
         }
         for (heading, symbol) in [
             ("lift in metres", "m"),
@@ -499,7 +499,7 @@ mod tests {
         for heading in NAMED {
             assert_eq!(HeadingUnit::read(heading), Ok(None), "{heading}");
         }
-        assert_eq!(HeadingUnit::of("s").map(HeadingUnit::symbol), Some("s"));
+        assert_eq!(HeadingUnit::in_heading("s").map(HeadingUnit::symbol), Some("s"));
         assert!(
             is_radius("radius_mm")
                 && is_radius("R [mm]")

@@ -354,7 +354,7 @@ impl<'a> Document<'a> {
             TextPlace::File(span) => self.excerpt_of_file(span),
             TextPlace::OtherFile(excerpt) => (**excerpt).clone(),
             TextPlace::Flag { index, start, width } => {
-                Excerpt::of("--set", 1, self.flags.get(*index).map_or("", String::as_str), (start + 1, *width))
+                Excerpt::new("--set", 1, self.flags.get(*index).map_or("", String::as_str), (start + 1, *width))
             }
         }
     }
@@ -368,7 +368,7 @@ impl<'a> Document<'a> {
         let [whole, left, marked] = [start..end, start..at, at..span.end.clamp(at, end.max(at))]
             .map(|range| self.text.get(range).unwrap_or_default());
         let (column, width) = (left.chars().count() + 1, marked.chars().count());
-        Excerpt::of(self.source, line, whole.trim_end(), (column, width))
+        Excerpt::new(self.source, line, whole.trim_end(), (column, width))
     }
 }
 

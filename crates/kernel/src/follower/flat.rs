@@ -49,7 +49,7 @@ fn read(table: &TableReader<'_>) -> Option<FollowerData> {
     let shape = FlatFace::tilted(1.0, table.get(&TILT)?, table.get(&OFFSET)?);
     let face = FaceData { width: table.get(&WIDTH), middle: FaceMiddle::Stem };
     let (mass, preload) = (table.get(&MASS), table.get(&PRELOAD));
-    Some(FollowerData { mass, preload, face: Some(face), ..FollowerData::of(SECTION.path, Arc::new(shape)) })
+    Some(FollowerData { mass, preload, face: Some(face), ..FollowerData::new(SECTION.path, Arc::new(shape)) })
 }
 
 /// A face whose normal N has the angle β = θ + δ, and whose distance from the shaft is p = R_b + s cos δ. The profile is the

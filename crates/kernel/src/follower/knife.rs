@@ -26,5 +26,5 @@ fn read(table: &TableReader<'_>) -> Option<FollowerData> {
     // Replaced when the cam is sized; until then large enough to reach.
     let shape: Arc<dyn Follower> = Arc::new(TranslatingRoller::new(1.0 + offset.abs(), offset, 0.0));
     let (mass, preload) = (table.get(&MASS), table.get(&PRELOAD));
-    Some(FollowerData { mass, preload, place, ..FollowerData::of(SECTION.path, shape) })
+    Some(FollowerData { mass, preload, place, ..FollowerData::new(SECTION.path, shape) })
 }

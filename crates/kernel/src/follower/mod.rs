@@ -102,7 +102,7 @@ pub enum FaceMiddle {
 
 impl FollowerData {
     /// A follower without a description of forces, roller and face.
-    fn of(path: &'static str, shape: Arc<dyn Follower>) -> Self {
+    fn new(path: &'static str, shape: Arc<dyn Follower>) -> Self {
         Self {
             path,
             shape,

@@ -120,7 +120,7 @@ impl FollowerPlacement {
 
     /// The choice that a follower of this kind has made, as a place relative to its carrier, m.
     #[must_use]
-    pub fn of(self, follower: &dyn Follower) -> f64 {
+    pub fn chosen_by(self, follower: &dyn Follower) -> f64 {
         match (self, follower.carrier()) {
             (FollowerPlacement::Pivot { .. }, Carrier::Arm { pivot }) => pivot.norm(),
             // The centre of a translating roller is at the offset from the path through the shaft.

@@ -58,7 +58,7 @@ fn read(table: &TableReader<'_>) -> Option<FollowerData> {
     Some(FollowerData {
         mass: table.get(&INERTIA),
         face: Some(face),
-        ..FollowerData::of(SECTION.path, Arc::new(shape))
+        ..FollowerData::new(SECTION.path, Arc::new(shape))
     })
 }
 

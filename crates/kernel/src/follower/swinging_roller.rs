@@ -55,7 +55,7 @@ fn read(table: &TableReader<'_>) -> Option<FollowerData> {
     let place = given.is_none().then_some(FollowerPlacement::Pivot { arm, radius, side });
     let shape = SwingingRoller::new(arm, given.unwrap_or(arm), radius, side);
     let (mass, crown_radius) = (table.get(&INERTIA), table.get(&CROWN_RADIUS));
-    Some(FollowerData { mass, crown_radius, place, arm: Some(arm), ..FollowerData::of(SECTION.path, Arc::new(shape)) })
+    Some(FollowerData { mass, crown_radius, place, arm: Some(arm), ..FollowerData::new(SECTION.path, Arc::new(shape)) })
 }
 
 /// By which share the prime radius must stay within the triangle of arm and pivot distance: at its ends arm and

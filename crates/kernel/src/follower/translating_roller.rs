@@ -87,7 +87,7 @@ fn read(table: &TableReader<'_>) -> Option<FollowerData> {
     let roller = RollerData { radius, offset, crown: crown?, width: table.get(&WIDTH) };
     let (mass, preload, crown_radius) = (table.get(&MASS), table.get(&PRELOAD), table.get(&CROWN_RADIUS));
     let roller = Some(roller);
-    Some(FollowerData { mass, preload, crown_radius, roller, place, ..FollowerData::of(SECTION.path, shape) })
+    Some(FollowerData { mass, preload, crown_radius, roller, place, ..FollowerData::new(SECTION.path, shape) })
 }
 
 /// By which share the prime radius must exceed the offset: at the offset itself the roller would be at the side of

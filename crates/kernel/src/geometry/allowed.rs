@@ -23,11 +23,11 @@ const MOST_OF_RADIUS: f64 = 0.6;
 
 impl ChainTolerance {
     /// Only the distance matters.
-    pub const ANY: Self = Self::of(f64::INFINITY, f64::INFINITY);
+    pub const ANY: Self = Self::symmetric(f64::INFINITY, f64::INFINITY);
 
     /// Errors of the heading and of the curvature that are equal on both sides, and change little along an arc.
     #[must_use]
-    pub const fn of(heading: f64, curvature: f64) -> Self {
+    pub const fn symmetric(heading: f64, curvature: f64) -> Self {
         Self { heading, curvature, middle: 0.0, slopes: [0.0; 2] }
     }
 

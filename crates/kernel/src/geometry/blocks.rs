@@ -109,7 +109,7 @@ impl Grid {
             let count = (sagitta / (SAGITTA * self.step())).sqrt().ceil().min(MOST_LINES);
             let mut step = 1.0;
             while step < count {
-                blocks.push(Block::Line { to: self.point(edge.at(step / count).0) });
+                blocks.push(Block::Line { to: self.point(edge.point_and_tangent(step / count).0) });
                 step += 1.0;
             }
             blocks.push(Block::Line { to: edge.end });

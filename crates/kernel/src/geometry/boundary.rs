@@ -190,7 +190,7 @@ impl<'a> Boundary<'a> {
 
     /// The point of the loop at a parameter of a stretch; the index counts on round the loop.
     #[must_use]
-    pub fn at(&self, index: usize, parameter: f64) -> Option<CurvePoint> {
+    pub fn point_at(&self, index: usize, parameter: f64) -> Option<CurvePoint> {
         Some(self.on(self.stretches.get(index % self.stretches.len().max(1))?, parameter))
     }
 
@@ -207,7 +207,7 @@ impl<'a> Boundary<'a> {
                 }
             }
             StretchKind::Segment(segment) => {
-                let (point, tangent) = segment.at(parameter / stretch.to);
+                let (point, tangent) = segment.point_and_tangent(parameter / stretch.to);
                 let curvature = if segment.bulge == 0.0 { 0.0 } else { 1.0 / segment.radius() };
                 CurvePoint { point, tangent, speed: 1.0, curvature, curvature_slope: 0.0 }
             }

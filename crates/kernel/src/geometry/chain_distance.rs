@@ -118,7 +118,7 @@ mod tests {
     }
 
     fn sampled(chain: &Contour, from: &Contour) -> f64 {
-        let places = chain.edges().flat_map(|s| (0..=2_000).map(move |i| s.at(f64::from(i) / 2e3).0));
+        let places = chain.edges().flat_map(|s| (0..=2_000).map(move |i| s.point_and_tangent(f64::from(i) / 2e3).0));
         let nearest = |p| from.edges().map(|s| s.nearest(p).left.abs()).fold(f64::INFINITY, f64::min);
         places.map(nearest).fold(0.0, f64::max)
     }

@@ -30,7 +30,7 @@ impl Contour {
         };
         let count = edges.len();
         edges.rotate_left(first % count);
-        Self::of(edges)
+        Self::from_edges(edges)
     }
 
     /// The same chain, started at the joint without a corner where it is flattest: a tool that enters there leaves the least mark. Of
@@ -58,7 +58,7 @@ impl Edge {
         match self {
             Edge::Segment(whole) => {
                 let share = whole.share_of(point);
-                let at = whole.at(share).0;
+                let at = whole.point_and_tangent(share).0;
                 let quarter_sweep = libm::atan(whole.bulge);
                 let before = Segment { start: whole.start, end: at, bulge: libm::tan(quarter_sweep * share) };
                 let after = Segment { start: at, end: whole.end, bulge: libm::tan(quarter_sweep * (1.0 - share)) };

@@ -81,8 +81,13 @@ fn distance(tree: &EdgeTree, side: Side, point: Vector2<f64>) -> f64 {
 /// The places between the ends of an edge that may be nearest to other edges.
 fn places_on(edge: &Edge, others: &[Edge], distance: &impl Fn(Vector2<f64>) -> f64) -> Vec<Vector2<f64>> {
     let Some(segment) = edge.segment() else {
-        let nearest = extremum::largest_without_slope(|share| -distance(edge.at(share).0), (0.0, 1.0), CELLS, SECTIONS);
-        return vec![edge.at(nearest.at).0];
+        let nearest = extremum::largest_without_slope(
+            |share| -distance(edge.point_and_tangent(share).0),
+            (0.0, 1.0),
+            CELLS,
+            SECTIONS,
+        );
+        return vec![edge.point_and_tangent(nearest.at).0];
     };
     others.iter().flat_map(|other| on_common_normals(&segment, other)).collect()
 }

@@ -96,7 +96,7 @@ impl Contour {
 
     /// The chain of these edges, each starting where the one before ends.
     #[must_use]
-    pub fn of(edges: impl IntoIterator<Item = Edge>) -> Self {
+    pub fn from_edges(edges: impl IntoIterator<Item = Edge>) -> Self {
         Self { vertices: edges.into_iter().map(|edge| Vertex { point: edge.start(), bend: edge.bend() }).collect() }
     }
 
@@ -146,7 +146,7 @@ impl Contour {
     pub fn polar_moment(&self) -> f64 {
         let moments = self.edges().map(|edge| {
             let across = |share: f64| {
-                let (point, direction) = edge.at(share);
+                let (point, direction) = edge.point_and_tangent(share);
                 let speed = match edge {
                     Edge::Segment(segment) => segment.length(),
                     Edge::Cubic(cubic) => cubic.derivatives(share)[1].norm(),
@@ -198,7 +198,7 @@ impl Contour {
     #[must_use]
     pub fn reversed(&self) -> Self {
         let edges: Vec<Edge> = self.edges().collect();
-        Self::of(edges.iter().rev().map(Edge::reversed))
+        Self::from_edges(edges.iter().rev().map(Edge::reversed))
     }
 
     /// Mirrored about the X axis and reversed, so that it keeps its sense; starts with the mirror image of the
@@ -208,7 +208,7 @@ impl Contour {
         let edges: Vec<Edge> = self.edges().collect();
         // Mirrored, edge i runs from vertex i + 1 to i; the first stays the first and the others follow in turn.
         let order = edges.first().into_iter().chain(edges.iter().skip(1).rev());
-        Self::of(order.map(Edge::mirrored_about_x))
+        Self::from_edges(order.map(Edge::mirrored_about_x))
     }
 }
 
@@ -282,13 +282,13 @@ mod tests {
         let at = |x: f64, y: f64| Vector2::new(x, y);
         for bulge in [0.0, 1e-7, 0.2, -0.2, 0.9, -1.7] {
             let segment = Segment { start: at(1.0, 2.0), end: at(5.0, 3.0), bulge };
-            assert!((segment.at(1.0).0 - segment.end).norm() < 1e-13);
-            assert!((segment.at(1.0).1 - segment.end_tangent()).norm() < 1e-13);
-            assert!((segment.at(0.5).0 - segment.middle()).norm() < 1e-13);
+            assert!((segment.point_and_tangent(1.0).0 - segment.end).norm() < 1e-13);
+            assert!((segment.point_and_tangent(1.0).1 - segment.end_tangent()).norm() < 1e-13);
+            assert!((segment.point_and_tangent(0.5).0 - segment.middle()).norm() < 1e-13);
             for (x, y) in [(3.0, 0.0), (0.0, 0.0), (9.0, 9.0), (3.0, 2.4), (2.0, 7.0), (4.0, -3.0)] {
                 let nearest = segment.nearest(at(x, y));
                 let scan = (0..=20_000)
-                    .map(|i| (segment.at(f64::from(i) / 2e4).0 - at(x, y)).norm())
+                    .map(|i| (segment.point_and_tangent(f64::from(i) / 2e4).0 - at(x, y)).norm())
                     .fold(f64::INFINITY, f64::min);
                 assert!((nearest.left.abs() - scan).abs() < 1e-6, "{bulge} ({x}, {y}): {nearest:?} {scan}");
                 assert!(((nearest.foot - at(x, y)).norm() - nearest.left.abs()).abs() < 1e-8, "{bulge}: {nearest:?}");

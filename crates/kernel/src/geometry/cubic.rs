@@ -48,7 +48,7 @@ impl Cubic {
 
     /// Point and unit tangent at a parameter.
     #[must_use]
-    pub fn at(&self, t: f64) -> (Vector2<f64>, Vector2<f64>) {
+    pub fn point_and_tangent(&self, t: f64) -> (Vector2<f64>, Vector2<f64>) {
         let [point, first, _] = self.derivatives(t);
         // Where an inner control point lies on an end the tangent is that of the next leg.
         let tangent = if first.norm_squared() > 0.0 {
@@ -232,7 +232,7 @@ impl Cubic {
     #[must_use]
     pub fn nearest(&self, point: Vector2<f64>) -> NearestOnSegment {
         let t = self.nearest_parameter(point);
-        let (mut foot, tangent) = self.at(t);
+        let (mut foot, tangent) = self.point_and_tangent(t);
         let [start, .., end] = self.points;
         if t == 0.0 {
             foot = start;

@@ -20,7 +20,7 @@ pub(super) struct CubicPath {
 
 impl CubicPath {
     /// The parts of a cubic curve with a length above 0.
-    pub(super) fn of(cubic: &Cubic) -> impl Iterator<Item = Self> {
+    pub(super) fn parts(cubic: &Cubic) -> impl Iterator<Item = Self> {
         let parts = cubic.smooth_parts().into_iter().map(|(cubic, _)| Self { cubic, length: cubic.length_to(1.0) });
         parts.filter(|path| path.length > 0.0)
     }
@@ -59,8 +59,8 @@ impl CubicPath {
     }
 
     /// Point and unit tangent at a length from the start, mm.
-    pub(super) fn at(&self, length: f64) -> (Vector2<f64>, Vector2<f64>) {
-        self.cubic.at(self.parameter(length))
+    pub(super) fn point_and_tangent(&self, length: f64) -> (Vector2<f64>, Vector2<f64>) {
+        self.cubic.point_and_tangent(self.parameter(length))
     }
 
     /// The interval in which the curvature lies between two lengths, 1/mm.

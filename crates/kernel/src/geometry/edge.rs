@@ -61,10 +61,10 @@ impl Edge {
 
     /// Point and unit tangent at a share of the parameter, 0 the start, 1 the end: for an arc the share of its sweep.
     #[must_use]
-    pub fn at(&self, share: f64) -> (Vector2<f64>, Vector2<f64>) {
+    pub fn point_and_tangent(&self, share: f64) -> (Vector2<f64>, Vector2<f64>) {
         match self {
-            Edge::Segment(segment) => segment.at(share),
-            Edge::Cubic(cubic) => cubic.at(share),
+            Edge::Segment(segment) => segment.point_and_tangent(share),
+            Edge::Cubic(cubic) => cubic.point_and_tangent(share),
         }
     }
 

@@ -21,10 +21,10 @@ pub(super) enum EdgePath {
 
 impl EdgePath {
     /// The paths of an edge, in order; none for an edge without length.
-    pub(super) fn of(edge: &Edge) -> Vec<Self> {
+    pub(super) fn paths(edge: &Edge) -> Vec<Self> {
         match edge {
-            Edge::Segment(segment) => ArcPath::of(segment).map(EdgePath::Arc).into_iter().collect(),
-            Edge::Cubic(cubic) => CubicPath::of(cubic).map(EdgePath::Cubic).collect(),
+            Edge::Segment(segment) => ArcPath::new(segment).map(EdgePath::Arc).into_iter().collect(),
+            Edge::Cubic(cubic) => CubicPath::parts(cubic).map(EdgePath::Cubic).collect(),
         }
     }
 
@@ -45,10 +45,10 @@ impl EdgePath {
     }
 
     /// Point and unit tangent at a length from the start, mm.
-    pub(super) fn at(&self, length: f64) -> (Vector2<f64>, Vector2<f64>) {
+    pub(super) fn point_and_tangent(&self, length: f64) -> (Vector2<f64>, Vector2<f64>) {
         match self {
-            EdgePath::Arc(round) => round.at(length),
-            EdgePath::Cubic(cubic) => cubic.at(length),
+            EdgePath::Arc(round) => round.point_and_tangent(length),
+            EdgePath::Cubic(cubic) => cubic.point_and_tangent(length),
         }
     }
 
@@ -111,7 +111,7 @@ pub(super) struct ArcPath {
 impl ArcPath {
     /// `None` for a segment without length.
     #[must_use]
-    pub(super) fn of(segment: &Segment) -> Option<Self> {
+    pub(super) fn new(segment: &Segment) -> Option<Self> {
         let chord = (segment.end - segment.start).norm();
         if !(chord > 0.0) {
             return None;
@@ -124,7 +124,7 @@ impl ArcPath {
 
     /// Point and unit tangent at a length from the start, mm.
     #[must_use]
-    pub(super) fn at(&self, length: f64) -> (Vector2<f64>, Vector2<f64>) {
+    pub(super) fn point_and_tangent(&self, length: f64) -> (Vector2<f64>, Vector2<f64>) {
         if self.curvature == 0.0 {
             return (self.start + self.heading * length, self.heading);
         }
@@ -202,7 +202,7 @@ impl ArcPath {
     /// The largest distance from a point between two lengths, mm.
     #[must_use]
     pub(super) fn farthest_from(&self, point: Vector2<f64>, (from, to): (f64, f64)) -> f64 {
-        let ends = (self.at(from).0 - point).norm().max((self.at(to).0 - point).norm());
+        let ends = (self.point_and_tangent(from).0 - point).norm().max((self.point_and_tangent(to).0 - point).norm());
         if self.curvature == 0.0 {
             return ends;
         }
@@ -230,14 +230,14 @@ mod tests {
         let of = |bulge| Edge::Segment(Segment { start: at(1.0, 2.0), end: at(5.0, 3.0), bulge });
         let cubic = Edge::Cubic(Cubic { points: [at(1.0, 2.0), at(2.5, 3.0), at(4.0, 3.2), at(5.0, 2.5)] });
         let arcs = [0.0, 1e-9, 1e-4, 0.3, -0.3, 1.5, -1.5].into_iter().map(of);
-        arcs.chain([cubic]).flat_map(|edge| EdgePath::of(&edge)).collect()
+        arcs.chain([cubic]).flat_map(|edge| EdgePath::paths(&edge)).collect()
     }
 
     #[test]
     fn a_normal_of_a_point_next_to_it_finds_the_place_again() {
         for path in paths() {
             for share in [0.0, 0.1, 0.5, 0.9, 1.0] {
-                let (point, tangent) = path.at(share * path.length());
+                let (point, tangent) = path.point_and_tangent(share * path.length());
                 for away in [-0.01, 0.2] {
                     // Off its own normal by 0.3 rad.
                     let normal = Vector2::new(tangent.y, -tangent.x);
@@ -257,7 +257,7 @@ mod tests {
                 let range = (0.1 * path.length(), 0.9 * path.length());
                 let scan = (0..=20_000).map(|i| {
                     let share = f64::from(i) / 2e4;
-                    (path.at(range.0 + share * (range.1 - range.0)).0 - point).norm()
+                    (path.point_and_tangent(range.0 + share * (range.1 - range.0)).0 - point).norm()
                 });
                 let scan = scan.fold(0.0, f64::max);
                 assert!((path.farthest_from(point, range) - scan).abs() < 1e-6, "{path:?} {point:?}");
@@ -278,8 +278,9 @@ mod tests {
                 let (sin, cos) = libm::sincos(2.0 * PI * f64::from(i) / 48.0);
                 for reach in [0.3, 2.5, 60.0] {
                     let point = start + Vector2::new(reach * cos, reach * sin);
-                    let found = (arc.at(arc.nearest(point)).0 - point).norm();
-                    let scan = (0..=2000).map(|i| (arc.at(length * f64::from(i) / 2e3).0 - point).norm());
+                    let found = (arc.point_and_tangent(arc.nearest(point)).0 - point).norm();
+                    let scan =
+                        (0..=2000).map(|i| (arc.point_and_tangent(length * f64::from(i) / 2e3).0 - point).norm());
                     let scan = scan.fold(f64::INFINITY, f64::min);
                     assert!(found <= scan + 1e-12, "{arc:?} from {point:?}: {found} {scan}");
                 }
@@ -298,7 +299,7 @@ mod tests {
                 let ahead = round * f64::from(i) / 200.0;
                 let beyond = ahead - 0.5 * (arc.length + round);
                 if beyond.abs() > 1e-6 * round {
-                    let place = arc.at(ahead).0;
+                    let place = arc.point_and_tangent(ahead).0;
                     let off = arc.along(place.y, place.x) - if beyond > 0.0 { ahead - round } else { ahead };
                     assert!(off.abs() < 1e-12 * round, "{curvature} {share} {i}: {off}");
                 }

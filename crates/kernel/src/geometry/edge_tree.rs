@@ -259,7 +259,8 @@ impl Chords {
             let mut step = 1.0;
             while step < count {
                 let share = step / count;
-                points.push(parry(places.as_ref().map_or_else(|| edge.at(share), |place| place(share)).0));
+                points
+                    .push(parry(places.as_ref().map_or_else(|| edge.point_and_tangent(share), |place| place(share)).0));
                 step += 1.0;
             }
         }

@@ -91,7 +91,7 @@ pub struct FollowingError {
 /// # Errors
 /// [`FollowingError`] when it does not.
 pub fn follow(contour: &Contour, boundary: &Boundary<'_>) -> Result<Deviation, FollowingError> {
-    let paths: Vec<EdgePath> = contour.edges().flat_map(|edge| EdgePath::of(&edge)).collect();
+    let paths: Vec<EdgePath> = contour.edges().flat_map(|edge| EdgePath::paths(&edge)).collect();
     let origin = paths.first().map_or_else(Vector2::zeros, EdgePath::start);
     let cells = MOST_CELLS + MOST_PER_SEGMENT * (paths.len() + boundary.stretches().len());
     let mut walk = ChainWalk { boundary, index: 0, cells, worst: Deviation { distance: 0.0, at: origin } };
@@ -163,7 +163,7 @@ impl ChainWalk<'_, '_> {
         foot: CurvePoint,
         parameter: f64,
     ) -> Result<ChainFoot, FollowingError> {
-        let (point, tangent) = path.at(length);
+        let (point, tangent) = path.point_and_tangent(length);
         let off = (point - foot.point).dot(&foot.outward());
         // So short a segment has an arbitrary direction where its ends were rounded.
         if !(foot.tangent.dot(&tangent) > 0.0) && path.length() > NEAR {
@@ -186,9 +186,9 @@ impl ChainWalk<'_, '_> {
     ) -> Result<ChainFoot, FollowingError> {
         let (_, length) = path
             .hit(foot.point, foot.outward())
-            .ok_or_else(|| FollowingError { why: FollowingFault::Away, at: path.at(from).0 })?;
+            .ok_or_else(|| FollowingError { why: FollowingFault::Away, at: path.point_and_tangent(from).0 })?;
         if !(from - NEAR..=to + NEAR).contains(&length) {
-            return Err(FollowingError { why: FollowingFault::Back, at: path.at(from).0 });
+            return Err(FollowingError { why: FollowingFault::Back, at: path.point_and_tangent(from).0 });
         }
         self.node(path, length.clamp(from, to), foot, parameter)
     }
@@ -231,7 +231,7 @@ impl ChainWalk<'_, '_> {
             parameter = next;
             foot = self
                 .boundary
-                .at(self.index, parameter)
+                .point_at(self.index, parameter)
                 .ok_or(FollowingError { why: FollowingFault::Away, at: point })?;
         }
         Ok((foot, parameter))
@@ -244,7 +244,7 @@ impl ChainWalk<'_, '_> {
         mut from: ChainFoot,
         to: f64,
     ) -> Result<Result<ChainFoot, ChainFoot>, FollowingError> {
-        let target = path.at(to).0;
+        let target = path.point_and_tangent(to).0;
         for _ in 0..=self.boundary.stretches().len() {
             let end = self.ends(target)?[1];
             if (target - end.point).dot(&end.tangent) <= 0.0 {
@@ -297,8 +297,10 @@ impl ChainWalk<'_, '_> {
         if depth == 0 || self.cells == 0 {
             return Err(FollowingError { why: FollowingFault::Away, at: a.point });
         }
-        let foot =
-            self.boundary.at(self.index, parameter).ok_or(FollowingError { why: FollowingFault::Away, at: a.point })?;
+        let foot = self
+            .boundary
+            .point_at(self.index, parameter)
+            .ok_or(FollowingError { why: FollowingFault::Away, at: a.point })?;
         let between = self.over(path, (a.length, b.length), foot, parameter)?;
         self.cell(path, a, &between, depth - 1)?;
         self.cell(path, &between, b, depth - 1)
@@ -386,7 +388,7 @@ impl ChainWalk<'_, '_> {
                 from = to;
             }
         }
-        let at = paths.get(to.0).map_or(begin, |path| path.at(to.1).0);
+        let at = paths.get(to.0).map_or(begin, |path| path.point_and_tangent(to.1).0);
         if !self.boundary.starts_at_corner(self.index + 1) {
             return Err(FollowingError { why: FollowingFault::Away, at });
         }
@@ -408,7 +410,7 @@ impl ChainWalk<'_, '_> {
         (from, to): (f64, f64),
         side: FootPosition,
     ) -> Result<FootPosition, FollowingError> {
-        let target = path.at(to).0;
+        let target = path.point_and_tangent(to).0;
         let node = match side {
             FootPosition::Before => match self.leaves(path, (from, to))? {
                 Some(node) => node,
@@ -435,7 +437,7 @@ impl ChainWalk<'_, '_> {
     fn onto(&mut self, path: &EdgePath, from: f64, node: &ChainFoot) -> Result<FootPosition, FollowingError> {
         let corner = self.ends(node.point)?[1].point;
         let near = self.boundary.starts_at_corner(self.index + 1) && (node.foot.point - corner).norm() <= CORNER_REACH;
-        if near && node.foot.tangent.dot(&path.at(from).1) < ACROSS {
+        if near && node.foot.tangent.dot(&path.point_and_tangent(from).1) < ACROSS {
             self.sliver(node, corner);
             return Ok(FootPosition::Beyond);
         }
@@ -444,7 +446,7 @@ impl ChainWalk<'_, '_> {
 
     /// Where the foot leaves the corner at the start of a stretch, if it does so on a part of a segment.
     fn leaves(&mut self, path: &EdgePath, (from, to): (f64, f64)) -> Result<Option<ChainFoot>, FollowingError> {
-        let (begin, (target, tangent)) = (path.at(from).0, path.at(to));
+        let (begin, (target, tangent)) = (path.point_and_tangent(from).0, path.point_and_tangent(to));
         let corner = self.ends(target)?[0];
         if (target - corner.point).dot(&corner.tangent) <= NEAR || tangent.dot(&corner.tangent) < ACROSS {
             self.record(path.farthest_from(corner.point, (from, to)), target);
@@ -567,7 +569,7 @@ fn nearest(paths: &[EdgePath], point: Vector2<f64>) -> Option<(f64, (usize, f64)
         .enumerate()
         .map(|(index, path)| {
             let along = path.nearest(point);
-            ((path.at(along).0 - point).norm(), (index, along))
+            ((path.point_and_tangent(along).0 - point).norm(), (index, along))
         })
         .min_by(|a, b| a.0.total_cmp(&b.0))
 }

@@ -67,7 +67,7 @@ pub fn depth_of_disc(tree: &EdgeTree, edge: &Edge, radius: f64, fine: f64) -> f6
     let mut along = 0.0;
     // A point is at most the way to it nearer to the metal than another one.
     while along <= length && length > 0.0 {
-        let left = left_of(edge.at(along / length).0);
+        let left = left_of(edge.point_and_tangent(along / length).0);
         deepest = deepest.max(left);
         along += (deepest - left).max(fine).max(LEAST_STEP * length);
     }

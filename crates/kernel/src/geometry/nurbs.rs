@@ -112,7 +112,7 @@ pub struct NurbsCurve {
 impl NurbsCurve {
     /// Point and derivative.
     #[must_use]
-    pub fn at(&self, t: f64) -> (Vector3<f64>, Vector3<f64>) {
+    pub fn point_and_slope(&self, t: f64) -> (Vector3<f64>, Vector3<f64>) {
         let (first, basis, slopes) = self.knots.basis(t);
         let mut sums = [HomogeneousPoint::zeros(); 2];
         for (control, (b, d)) in
@@ -184,7 +184,7 @@ impl NurbsCurve {
         let apart = (0..=steps).map(|i| {
             let share = f64::from(i) / f64::from(steps);
             let (here, there) = (mine.0 + (mine.1 - mine.0) * share, others.0 + (others.1 - others.0) * share);
-            (self.at(here).0 - other.at(there).0).norm()
+            (self.point_and_slope(here).0 - other.point_and_slope(there).0).norm()
         });
         apart.fold(0.0, |most, next| if next <= most { most } else { next })
     }
@@ -294,7 +294,7 @@ pub struct NurbsSurface {
 impl NurbsSurface {
     /// Point and derivatives by both parameters.
     #[must_use]
-    pub fn at(&self, u: f64, v: f64) -> [Vector3<f64>; 3] {
+    pub fn point_and_slopes(&self, u: f64, v: f64) -> [Vector3<f64>; 3] {
         let (first_u, basis_u, slopes_u) = self.u.basis(u);
         let (first_v, basis_v, slopes_v) = self.v.basis(v);
         let mut sums = [HomogeneousPoint::zeros(); 3];
@@ -361,11 +361,11 @@ mod tests {
                 let mut worst = 0.0_f64;
                 for [a, b, c, d] in &cubics {
                     let middle = (a + d) * 0.125 + (b + c) * 0.375;
-                    let away = |t: f64| (curve.at(t).0 - middle).norm();
+                    let away = |t: f64| (curve.point_and_slope(t).0 - middle).norm();
                     let nearest = (0..=4000).map(|i| f64::from(i) / 4e3).min_by(|a, b| away(*a).total_cmp(&away(*b)));
                     let mut t = nearest.expect("many");
                     for _ in 0..20 {
-                        let (point, slope) = curve.at(t);
+                        let (point, slope) = curve.point_and_slope(t);
                         t = (t - (point - middle).dot(&slope) / slope.norm_squared()).clamp(0.0, 1.0);
                     }
                     worst = worst.max(away(t));
@@ -392,17 +392,17 @@ mod tests {
         for i in 0..=10 {
             for j in 0..=10 {
                 let (a, b) = (f64::from(i) / 10.0, f64::from(j) / 5.0);
-                for (found, expected) in surface.at(a, b).iter().zip(ours.at(a, b)) {
+                for (found, expected) in surface.point_and_slopes(a, b).iter().zip(ours.point_and_slopes(a, b)) {
                     // The book's slope at the very end is taken from the left; ours as well.
                     assert!((found - expected).norm() < 1e-12, "{a} {b}: {found} {expected}");
                 }
             }
         }
         let [low, last, high, first] = surface.boundary().expect("clamped");
-        assert!((low.at(0.3).0 - surface.at(0.3, 0.0)[0]).norm() < 1e-12);
-        assert!((last.at(0.3).0 - surface.at(1.0, 0.3)[0]).norm() < 1e-12);
-        assert!((high.at(-0.3).0 - surface.at(0.3, 2.0)[0]).norm() < 1e-12);
-        assert!((first.at(-0.3).0 - surface.at(0.0, 0.3)[0]).norm() < 1e-12);
+        assert!((low.point_and_slope(0.3).0 - surface.point_and_slopes(0.3, 0.0)[0]).norm() < 1e-12);
+        assert!((last.point_and_slope(0.3).0 - surface.point_and_slopes(1.0, 0.3)[0]).norm() < 1e-12);
+        assert!((high.point_and_slope(-0.3).0 - surface.point_and_slopes(0.3, 2.0)[0]).norm() < 1e-12);
+        assert!((first.point_and_slope(-0.3).0 - surface.point_and_slopes(0.0, 0.3)[0]).norm() < 1e-12);
         assert_eq!(low.farthest(&low), 0.0);
         assert!((low.farthest(&high.reversed()) - 0.0).abs() > 1.0);
 
@@ -413,7 +413,7 @@ mod tests {
                 let u = 1.0 - t;
                 let weights = [u * u * u, 3.0 * u * u * t, 3.0 * u * t * t, t * t * t];
                 let point = cubic.iter().zip(weights).map(|(p, w)| p * w).sum::<Vector3<f64>>();
-                assert!((point - low.at(from + (to - from) * t).0).norm() < 1e-13);
+                assert!((point - low.point_and_slope(from + (to - from) * t).0).norm() < 1e-13);
             }
         }
         // Three knots within are a corner, four a gap.
@@ -428,7 +428,7 @@ mod tests {
                 .to_vec(),
         };
         for i in 0..=10 {
-            let (point, slope) = quarter.at(f64::from(i) / 10.0);
+            let (point, slope) = quarter.point_and_slope(f64::from(i) / 10.0);
             assert!((point.norm() - 1.0).abs() < 1e-15 && point.dot(&slope).abs() < 1e-14, "{point} {slope}");
         }
         assert!(quarter.cubics(1.0).is_none(), "no polynomial");

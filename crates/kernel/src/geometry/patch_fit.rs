@@ -47,7 +47,7 @@ pub fn fitted(
 }
 
 /// The value of a parameter at a share of its range, its ends exactly.
-fn at((start, end): (f64, f64), i: f64, of: u32) -> f64 {
+fn parameter_at((start, end): (f64, f64), i: f64, of: u32) -> f64 {
     if i == f64::from(of) { end } else { start + (end - start) * i / f64::from(of) }
 }
 
@@ -66,8 +66,8 @@ impl FlankStretch<'_> {
     }
 
     fn patch(&self, spans: u32, (across, rings): ((f64, f64), u32)) -> SplineSurface {
-        let alongs: Vec<f64> = (0..=spans).map(|i| at(self.along, f64::from(i), spans)).collect();
-        let acrosses: Vec<f64> = (0..=rings).map(|j| at(across, f64::from(j), rings)).collect();
+        let alongs: Vec<f64> = (0..=spans).map(|i| parameter_at(self.along, f64::from(i), spans)).collect();
+        let acrosses: Vec<f64> = (0..=rings).map(|j| parameter_at(across, f64::from(j), rings)).collect();
         let columns: Vec<Vec<[Vector3<f64>; 2]>> =
             alongs.iter().map(|u| acrosses.iter().map(|v| (self.place)(*u, *v)).collect()).collect();
         let count = acrosses.len() + 2;
@@ -102,8 +102,8 @@ impl FlankStretch<'_> {
         let along = (0..spans).flat_map(|i| (0..=rings).map(move |j| (f64::from(i) + 0.5, f64::from(j))));
         let between = (0..=spans).flat_map(|i| (0..rings).map(move |j| (f64::from(i), f64::from(j) + 0.5)));
         let off = |(i, j): (f64, f64)| {
-            let (u, v) = (at(self.along, i, spans), at(across, j, rings));
-            (patch.at(u, v)[0] - (self.place)(u, v)[0]).norm()
+            let (u, v) = (parameter_at(self.along, i, spans), parameter_at(across, j, rings));
+            (patch.point_and_slopes(u, v)[0] - (self.place)(u, v)[0]).norm()
         };
         [along.map(off).fold(0.0, larger), between.map(off).fold(0.0, larger)]
     }

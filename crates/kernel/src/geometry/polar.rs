@@ -50,10 +50,10 @@ fn of_edge(edge: &Edge, direction: Vector2<f64>) -> Option<f64> {
     let crossings = (0..PARTS).filter_map(|index| {
         let shares = [index, index + 1].map(|end| f64::from(end) / f64::from(PARTS));
         // The ends of neighbours are the same to the last digit: a ray through a vertex crosses one of them.
-        let start = if index == 0 { edge.start() } else { edge.at(shares[0]).0 };
-        let end = if index + 1 == PARTS { edge.end() } else { edge.at(shares[1]).0 };
-        let share = crossing(|share| edge.at(share).0, shares, [start, end], direction)?;
-        Some(direction.dot(&edge.at(share).0))
+        let start = if index == 0 { edge.start() } else { edge.point_and_tangent(shares[0]).0 };
+        let end = if index + 1 == PARTS { edge.end() } else { edge.point_and_tangent(shares[1]).0 };
+        let share = crossing(|share| edge.point_and_tangent(share).0, shares, [start, end], direction)?;
+        Some(direction.dot(&edge.point_and_tangent(share).0))
     });
     crossings.reduce(f64::max)
 }

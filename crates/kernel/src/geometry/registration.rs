@@ -91,7 +91,7 @@ fn along(contour: &Contour, length: f64, count: usize) -> Vec<Vector2<f64>> {
     for edge in contour.edges() {
         let own = edge.length();
         while next < passed + own && points.len() < count {
-            points.push(edge.at((next - passed) / own).0);
+            points.push(edge.point_and_tangent((next - passed) / own).0);
             next += step;
         }
         passed += own;

@@ -88,7 +88,7 @@ impl Segment {
 
     /// Point and unit tangent at a share of the sweep, 0 the start, 1 the end.
     #[must_use]
-    pub fn at(&self, share: f64) -> (Vector2<f64>, Vector2<f64>) {
+    pub fn point_and_tangent(&self, share: f64) -> (Vector2<f64>, Vector2<f64>) {
         self.places()(share)
     }
 

@@ -33,7 +33,7 @@ fn arcs(boundary: &Boundary<'_>) -> Contour {
     let mut vertices = Vec::new();
     for (index, stretch) in boundary.stretches().iter().enumerate() {
         let places = (0..=ARCS).map(|step| {
-            boundary.at(index, stretch.from + (stretch.to - stretch.from) * f64::from(step) / f64::from(ARCS))
+            boundary.point_at(index, stretch.from + (stretch.to - stretch.from) * f64::from(step) / f64::from(ARCS))
         });
         let places: Vec<_> = places.collect();
         for pair in places.windows(2) {
@@ -61,7 +61,7 @@ impl SegmentPart<'_> {
 
 /// The place of a chain that lies farthest from another.
 fn farthest(chain: &Contour, other: &EdgeTree) -> Deviation {
-    let paths: Vec<EdgePath> = chain.edges().flat_map(|edge| EdgePath::of(&edge)).collect();
+    let paths: Vec<EdgePath> = chain.edges().flat_map(|edge| EdgePath::paths(&edge)).collect();
     let away = |point: Vector2<f64>| other.nearest(point).map_or(f64::INFINITY, |nearest| nearest.left.abs());
     let mut best = Deviation { distance: -1.0, at: Vector2::zeros() };
     let mut parts = Vec::new();
@@ -69,7 +69,7 @@ fn farthest(chain: &Contour, other: &EdgeTree) -> Deviation {
     let mut last = (Vector2::repeat(f64::NAN), f64::NAN);
     for path in &paths {
         let [from, to] = [0.0, path.length()].map(|length| {
-            let at = path.at(length).0;
+            let at = path.point_and_tangent(length).0;
             if at != last.0 {
                 last = (at, away(at));
             }
@@ -91,7 +91,7 @@ fn farthest(chain: &Contour, other: &EdgeTree) -> Deviation {
             continue;
         }
         left -= 1;
-        let at = part.path.at(middle).0;
+        let at = part.path.point_and_tangent(middle).0;
         let distance = away(at);
         if distance > best.distance {
             best = Deviation { distance, at };
@@ -102,10 +102,14 @@ fn farthest(chain: &Contour, other: &EdgeTree) -> Deviation {
     highest.sort_by(|a, b| b.from.1.max(b.to.1).total_cmp(&a.from.1.max(a.to.1)));
     for part in highest.iter().take(SOLVED) {
         let range = (part.from.0, part.to.0);
-        let top =
-            extremum::largest_without_slope(|length| away(part.path.at(length).0), range, 4, extremum::TO_ROUNDING);
+        let top = extremum::largest_without_slope(
+            |length| away(part.path.point_and_tangent(length).0),
+            range,
+            4,
+            extremum::TO_ROUNDING,
+        );
         if top.value > best.distance {
-            best = Deviation { distance: top.value, at: part.path.at(top.at).0 };
+            best = Deviation { distance: top.value, at: part.path.point_and_tangent(top.at).0 };
         }
     }
     best

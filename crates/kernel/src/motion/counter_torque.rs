@@ -71,7 +71,7 @@ pub trait Work: std::fmt::Debug + Send + Sync {
     }
 
     /// Work and torque at an angle of a piece.
-    fn at(&self, piece: usize, angle: f64) -> WorkJet;
+    fn work_at(&self, piece: usize, angle: f64) -> WorkJet;
 }
 
 /// The law for one spring and one largest work.
@@ -163,8 +163,8 @@ impl CounterMotion {
             let extremes = pieces.iter().take(distinct.max(1)).enumerate().map(|(index, piece)| {
                 let cells = if piece.dwell { 1 } else { CELLS };
                 let extreme = extremum::largest(
-                    |angle| sign * work.at(index, angle).energy,
-                    |angle| sign * work.at(index, angle).torque,
+                    |angle| sign * work.work_at(index, angle).energy,
+                    |angle| sign * work.work_at(index, angle).torque,
                     (piece.start, piece.end),
                     cells,
                 );
@@ -198,7 +198,7 @@ impl Motion for CounterMotion {
     }
 
     fn jet(&self, piece: usize, angle: f64) -> Jet {
-        let lift = self.law.jet(self.work.at(piece, angle));
+        let lift = self.law.jet(self.work.work_at(piece, angle));
         if self.pieces.get(piece).is_some_and(|piece| piece.dwell) { Jet { s: lift.s, ..Jet::default() } } else { lift }
     }
 }

@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     /// Coefficients of a product of (t − r), by the values of its blossom.
-    fn of<const N: usize>(roots: &[f64]) -> [f64; N] {
+    fn from_roots<const N: usize>(roots: &[f64]) -> [f64; N] {
         // Power form first, then b_j = Σ_i C(j, i)/C(n, i) a_i.
         let mut power = vec![1.0];
         for root in roots {
@@ -118,7 +118,7 @@ mod tests {
         for known in
             [vec![0.1, 0.5, 0.7, 0.70001, 0.99], vec![0.3, 2.0, -1.0, 5.0, 0.9], vec![0.0, 1.0, 0.5, -0.1, 1.1]]
         {
-            let coefficients: [f64; 6] = of(&known);
+            let coefficients: [f64; 6] = from_roots(&known);
             let mut inside: Vec<f64> = known.iter().copied().filter(|r| (0.0..=1.0).contains(r)).collect();
             inside.sort_by(f64::total_cmp);
             let found = roots(&coefficients);
@@ -128,8 +128,8 @@ mod tests {
             }
         }
         // A double root is there at least once; a polynomial without one has none.
-        assert!(roots(&of::<6>(&[0.4, 0.4, 3.0, 4.0, 5.0])).iter().any(|r| (r - 0.4).abs() < 1e-6));
+        assert!(roots(&from_roots::<6>(&[0.4, 0.4, 3.0, 4.0, 5.0])).iter().any(|r| (r - 0.4).abs() < 1e-6));
         assert!(roots(&[1.0, 0.4, 0.4, 1.0]).is_empty() && roots(&[0.0; 4]).is_empty());
-        assert!((value(&of::<6>(&[0.2, 0.3, 0.4, 2.0, 3.0]), 0.2)).abs() < 1e-15);
+        assert!((value(&from_roots::<6>(&[0.2, 0.3, 0.4, 2.0, 3.0]), 0.2)).abs() < 1e-15);
     }
 }

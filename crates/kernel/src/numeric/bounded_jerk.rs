@@ -71,7 +71,7 @@ impl Unknowns {
         Self { of_node, given: given.to_vec(), count, width, size }
     }
 
-    fn at(&self, node: usize, which: usize) -> Option<usize> {
+    fn unknown(&self, node: usize, which: usize) -> Option<usize> {
         self.of_node.get(node).and_then(|slots| slots.get(which)).copied().flatten()
     }
 
@@ -108,7 +108,7 @@ impl Unknowns {
                 ];
                 let terms: Vec<(usize, f64)> = all
                     .into_iter()
-                    .filter_map(|(node, which, factor)| self.at(node, which).map(|unknown| (unknown, factor)))
+                    .filter_map(|(node, which, factor)| self.unknown(node, which).map(|unknown| (unknown, factor)))
                     .collect();
                 let known: f64 = all.into_iter().map(|(node, which, factor)| factor * self.known(node, which)).sum();
                 form.add_square(weight, &terms, per_rise * rise / self.size + known);
@@ -122,7 +122,7 @@ impl Unknowns {
         let nodes = (0..self.of_node.len()).map(|node| {
             [0, 1, 2].map(|which| {
                 let given = self.given.get(node).and_then(|given| given.get(which)).copied().flatten();
-                let found = self.at(node, which).and_then(|unknown| values.get(unknown)).copied();
+                let found = self.unknown(node, which).and_then(|unknown| values.get(unknown)).copied();
                 given.unwrap_or_else(|| found.unwrap_or(0.0) * self.unit(which))
             })
         });
@@ -144,11 +144,11 @@ pub fn smoothed(intervals: &[NodeInterval], given: &[Given], most: f64) -> Vec<[
     let mut bounds = Vec::new();
     for (node, state) in through.iter().enumerate() {
         for (which, value) in [(1, state[0]), (2, state[1])] {
-            if let Some(slot) = unknowns.at(node, which).and_then(|unknown| start.get_mut(unknown)) {
+            if let Some(slot) = unknowns.unknown(node, which).and_then(|unknown| start.get_mut(unknown)) {
                 *slot = value / unknowns.unit(which);
             }
         }
-        if let Some(unknown) = unknowns.at(node, 0) {
+        if let Some(unknown) = unknowns.unknown(node, 0) {
             bounds.extend([1.0, -1.0].map(|sign| Bound { terms: vec![(unknown, sign)], most: 1.0 }));
         }
     }
@@ -159,7 +159,7 @@ pub fn smoothed(intervals: &[NodeInterval], given: &[Given], most: f64) -> Vec<[
     let steepest = given.iter().filter_map(|[_, _, a]| *a).map(f64::abs).fold(0.0, f64::max);
     let enough = enough(intervals, most).map(|enough| enough.max(steepest));
     let Some(enough) = enough.filter(|enough| *enough < largest) else { return all };
-    for unknown in (0..given.len()).filter_map(|node| unknowns.at(node, 2)) {
+    for unknown in (0..given.len()).filter_map(|node| unknowns.unknown(node, 2)) {
         let most = enough / unknowns.unit(2);
         bounds.extend([1.0, -1.0].map(|sign| Bound { terms: vec![(unknown, sign)], most }));
     }
@@ -268,10 +268,10 @@ impl Unknowns {
             let before = (node + nodes - 1) % nodes;
             let Some((_, leads)) = interval(intervals, node).or(interval(intervals, before)) else { continue };
             let around = [before, node].into_iter().filter_map(|index| self.free_rise(intervals, index));
-            if let Some(slot) = self.at(node, 1).and_then(|unknown| start.get_mut(unknown)) {
+            if let Some(slot) = self.unknown(node, 1).and_then(|unknown| start.get_mut(unknown)) {
                 let slope = around.map(|(width, rise)| rise / width).fold(f64::INFINITY, f64::min);
                 *slot = BEGINNING * leads.signum() * slope / self.unit(1);
-            } else if let Some(slot) = self.at(node, 2).and_then(|unknown| start.get_mut(unknown))
+            } else if let Some(slot) = self.unknown(node, 2).and_then(|unknown| start.get_mut(unknown))
                 && self.known(node, 1) == 0.0
             {
                 // At an extreme, and at the end of a rest, the acceleration points to where the next interval leads, or from where the
@@ -311,7 +311,9 @@ impl Unknowns {
             .map(|(terms, most)| Bound {
                 terms: terms
                     .iter()
-                    .filter_map(|((node, which), factor)| self.at(*node, *which).map(|unknown| (unknown, up * factor)))
+                    .filter_map(|((node, which), factor)| {
+                        self.unknown(*node, *which).map(|unknown| (unknown, up * factor))
+                    })
                     .collect(),
                 most: most
                     - terms.iter().map(|((node, which), factor)| up * factor * self.known(*node, *which)).sum::<f64>(),

@@ -64,13 +64,13 @@ struct SlopeAndBend {
 }
 
 impl CellDerivatives {
-    fn of(coefficients: &[f64]) -> Self {
+    fn new(coefficients: &[f64]) -> Self {
         let first = derivative(coefficients);
         let second = derivative(&first);
         Self { rounding: ROUNDING * size(&first), most_bend: size(&second), first, second }
     }
 
-    fn at(&self, at: f64) -> SlopeAndBend {
+    fn slope_and_bend(&self, at: f64) -> SlopeAndBend {
         SlopeAndBend { at, slope: series(&self.first, at), bend: series(&self.second, at) }
     }
 }
@@ -199,7 +199,7 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> ChebyshevSearch<V, G> {
     /// Tries the function where the derivative of the cell's polynomial vanishes, except where the polynomial stays below the largest
     /// value known.
     fn try_stationary_points(&mut self, cell: &ChebyshevCell, grid: &[f64]) {
-        let slopes = CellDerivatives::of(&cell.coefficients);
+        let slopes = CellDerivatives::new(&cell.coefficients);
         let mut before: Option<SlopeAndBend> = None;
         // The grid has a place between two samples, both from the upper end to the lower.
         for (values, places) in cell.values.windows(2).zip(grid.windows(3).step_by(2)).rev() {
@@ -208,8 +208,8 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> ChebyshevSearch<V, G> {
             if most + leaves_chord(slopes.most_bend, right - left) < self.best.value {
                 continue;
             }
-            let mut from = before.filter(|place| place.at == left).unwrap_or_else(|| slopes.at(left));
-            for to in [middle, right].map(|at| slopes.at(at)) {
+            let mut from = before.filter(|place| place.at == left).unwrap_or_else(|| slopes.slope_and_bend(left));
+            for to in [middle, right].map(|at| slopes.slope_and_bend(at)) {
                 self.try_between(cell, &slopes, from, to);
                 from = to;
             }
@@ -248,7 +248,7 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> ChebyshevSearch<V, G> {
             return place;
         }
         self.sample(cell.place(place.at));
-        slopes.at(place.at + ASIDE * (other - place.at))
+        slopes.slope_and_bend(place.at + ASIDE * (other - place.at))
     }
 
     fn try_root(&mut self, cell: &ChebyshevCell, slopes: &CellDerivatives, (low, high): (f64, f64)) {

@@ -67,7 +67,7 @@ impl ChebyshevSeries {
         let mut coefficients = vec![0.0];
         coefficients.extend((1..=self.coefficients.len()).map(|n| half * (c(n - 1) - c(n + 1)) / (2.0 * n as f64)));
         let unshifted = Self { range: self.range, coefficients };
-        let start = unshifted.at(low);
+        let start = unshifted.value_at(low);
         let mut coefficients = unshifted.coefficients;
         if let Some(first) = coefficients.first_mut() {
             *first -= start;
@@ -83,7 +83,7 @@ impl ChebyshevSeries {
 
     /// Its value at a place of the interval.
     #[must_use]
-    pub fn at(&self, x: f64) -> f64 {
+    pub fn value_at(&self, x: f64) -> f64 {
         let (low, high) = self.range;
         let t = ((x - low) - (high - x)) / (high - low);
         let (mut after, mut here) = (0.0, 0.0);
@@ -152,7 +152,7 @@ impl<const N: usize> SeriesGroup<N> {
 
     /// Their values at a place of the interval.
     #[must_use]
-    pub fn at(&self, x: f64) -> [f64; N] {
+    pub fn values_at(&self, x: f64) -> [f64; N] {
         let (low, high) = self.range;
         let t = ((x - low) - (high - x)) / (high - low);
         let (mut after, mut here) = ([0.0; N], [0.0; N]);
@@ -193,9 +193,9 @@ mod tests {
             let exact = [libm::exp(x), libm::sin(3.0 * x)];
             for (which, exact) in exact.into_iter().enumerate() {
                 // Forty terms of sums up to e².
-                assert!((together.at(x)[which] - exact).abs() < 5e-14, "{x}");
-                assert!((together.at(x)[which] - alone[which].at(x)).abs() < 5e-14, "{x}");
-                assert!((shorter.at(x)[which] - exact).abs() < 1e-8, "{x}");
+                assert!((together.values_at(x)[which] - exact).abs() < 5e-14, "{x}");
+                assert!((together.values_at(x)[which] - alone[which].value_at(x)).abs() < 5e-14, "{x}");
+                assert!((shorter.values_at(x)[which] - exact).abs() < 1e-8, "{x}");
             }
         }
     }
@@ -212,14 +212,14 @@ mod tests {
         for i in 0..=50 {
             let x = range.0 + 2.5 * f64::from(i) / 50.0;
             let (e, sin, cos) = (libm::exp(x), libm::sin(3.0 * x), libm::cos(3.0 * x));
-            assert!((sum.at(x) - e * sin).abs() < 1e-13, "{x}");
-            assert!((first.at(x) - e * (sin + 3.0 * cos)).abs() < 1e-11, "{x}");
-            assert!((second.at(x) - e * (6.0 * cos - 8.0 * sin)).abs() < 1e-9, "{x}");
-            assert_eq!(together.at(x), [sum.at(x), first.at(x), second.at(x)]);
+            assert!((sum.value_at(x) - e * sin).abs() < 1e-13, "{x}");
+            assert!((first.value_at(x) - e * (sin + 3.0 * cos)).abs() < 1e-11, "{x}");
+            assert!((second.value_at(x) - e * (6.0 * cos - 8.0 * sin)).abs() < 1e-9, "{x}");
+            assert_eq!(together.values_at(x), [sum.value_at(x), first.value_at(x), second.value_at(x)]);
             // ∫ e^x sin 3x dx = e^x (sin 3x − 3 cos 3x)/10.
             let primitive = |x: f64| 0.1 * libm::exp(x) * (libm::sin(3.0 * x) - 3.0 * libm::cos(3.0 * x));
             let integral = primitive(x) - primitive(range.0);
-            assert!((sum.integral().at(x) - integral).abs() < 1e-13, "{x}");
+            assert!((sum.integral().value_at(x) - integral).abs() < 1e-13, "{x}");
         }
     }
 }

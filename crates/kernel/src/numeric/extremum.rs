@@ -49,7 +49,7 @@ enum GapContent {
 }
 
 impl GapContent {
-    fn of(left: ValueAndSlope, right: ValueAndSlope) -> Self {
+    fn between(left: ValueAndSlope, right: ValueAndSlope) -> Self {
         let width = right.at - left.at;
         let by_slopes = 0.5 * width * (left.slope + right.slope);
         let size = left.slope.abs().max(right.slope.abs());
@@ -77,7 +77,7 @@ struct ExtremumSearch<F> {
 }
 
 impl<F: FnMut(f64) -> (f64, f64)> ExtremumSearch<F> {
-    fn at(&mut self, at: f64) -> ValueAndSlope {
+    fn evaluate(&mut self, at: f64) -> ValueAndSlope {
         let (value, slope) = (self.both)(at);
         let place = ValueAndSlope { at, value, slope };
         self.best = highest(self.best, &[place]);
@@ -85,16 +85,16 @@ impl<F: FnMut(f64) -> (f64, f64)> ExtremumSearch<F> {
     }
 
     fn between(&mut self, left: ValueAndSlope, right: ValueAndSlope, halvings: u32) {
-        let between = GapContent::of(left, right);
+        let between = GapContent::between(left, right);
         if !matches!(between, GapContent::Anything) && rises_to(left, right) < self.best.value {
             return;
         }
         if left.slope > 0.0 && right.slope < 0.0 {
             if let Ok(at) = root::bracketed(|at| (self.both)(at).1, left.at, right.at, 0.0) {
-                self.at(at);
+                self.evaluate(at);
             }
         } else if halvings > 0 && !matches!(between, GapContent::Plain) {
-            let middle = self.at(0.5 * (left.at + right.at));
+            let middle = self.evaluate(0.5 * (left.at + right.at));
             self.between(left, middle, halvings - 1);
             self.between(middle, right, halvings - 1);
         }

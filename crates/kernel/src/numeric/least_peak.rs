@@ -95,7 +95,7 @@ impl<F: Fn(f64, u32) -> Vec<f64>> LeastPeakProblem<F> {
     }
 
     /// The sum's derivative of an order.
-    fn at(&self, weights: &[f64], place: f64, order: u32) -> f64 {
+    fn derivative_at(&self, weights: &[f64], place: f64, order: u32) -> f64 {
         let all = (self.functions)(place, order);
         all.iter().zip(std::iter::once(&1.0).chain(weights)).map(|(value, weight)| value * weight).sum()
     }
@@ -103,12 +103,13 @@ impl<F: Fn(f64, u32) -> Vec<f64>> LeastPeakProblem<F> {
     /// Where the sum can have its peak.
     fn tops(&self, weights: &[f64]) -> Vec<LocalExtreme> {
         let places = (0..=self.cells).map(|cell| self.place(cell));
-        let nodes: Vec<(f64, f64)> = places.map(|at| (at, self.at(weights, at, 1))).collect();
+        let nodes: Vec<(f64, f64)> = places.map(|at| (at, self.derivative_at(weights, at, 1))).collect();
         let cells = nodes.iter().zip(nodes.iter().skip(1)).filter(|(low, high)| low.1 * high.1 <= 0.0);
-        let inner =
-            cells.filter_map(|(low, high)| root::bracketed(|at| self.at(weights, at, 1), low.0, high.0, 0.0).ok());
+        let inner = cells.filter_map(|(low, high)| {
+            root::bracketed(|at| self.derivative_at(weights, at, 1), low.0, high.0, 0.0).ok()
+        });
         let all = inner.map(|at| (at, true)).chain([(self.range.0, false), (self.range.1, false)]);
-        all.map(|(at, inner)| LocalExtreme { at, value: self.at(weights, at, 0), inner }).collect()
+        all.map(|(at, inner)| LocalExtreme { at, value: self.derivative_at(weights, at, 0), inner }).collect()
     }
 
     /// The weights of least peak on a set of places, that peak, and the prices of the places: above 0 for a place where the sum is positive,
@@ -157,7 +158,7 @@ impl<F: Fn(f64, u32) -> Vec<f64>> LeastPeakProblem<F> {
             // Columns of the unknowns of this extreme.
             let (place, price) = (others + 1 + index, others + 1 + count + index);
             let [values, slopes] = [0, 1].map(|order| (self.functions)(binding.at, order));
-            let [value, slope, bend] = [0, 1, 2].map(|order| self.at(&point.weights, binding.at, order));
+            let [value, slope, bend] = [0, 1, 2].map(|order| self.derivative_at(&point.weights, binding.at, order));
             // The peak is reached there …
             let mut reached = vec![0.0; unknowns];
             // … with the slope 0, except at an end.

@@ -84,7 +84,7 @@ impl LegendreSeries {
     /// Series of a smooth function on an interval, halved until each equals the function to rounding; a polynomial up to degree 13 gives
     /// one series.
     #[must_use]
-    pub fn of(function: &dyn Fn(f64) -> f64, range: (f64, f64)) -> Vec<Self> {
+    pub fn expand(function: &dyn Fn(f64) -> f64, range: (f64, f64)) -> Vec<Self> {
         let mut found = Vec::new();
         let mut waiting = vec![(range, 0)];
         while let Some(((low, high), halvings)) = waiting.pop() {
@@ -213,7 +213,7 @@ mod tests {
             for w in [0.0, 1e-6, 0.3, 2.0, 17.0, 130.0, -30.0] {
                 let range = (0.1, 1.2);
                 let found: Complex<f64> =
-                    LegendreSeries::of(function, range).iter().map(|series| series.transform(w)).sum();
+                    LegendreSeries::expand(function, range).iter().map(|series| series.transform(w)).sum();
                 let known = brute(function, range, w);
                 let size = brute(&|x| function(x).abs(), range, 0.0).re;
                 assert!((found - known).norm() < 1e-13 * size, "{name} at {w}: {found} {known}");

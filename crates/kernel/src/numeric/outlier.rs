@@ -146,7 +146,7 @@ pub fn worst(samples: &[Sample], rounding: f64, sensitivity: Sensitivity) -> Opt
         return None;
     }
     let judge = Judge::new(samples, rounding, rows >= MANY && sensitivity == Sensitivity::Fine);
-    let all = (0..samples.len()).filter_map(|index| judge.at(index));
+    let all = (0..samples.len()).filter_map(|index| judge.outlier_at(index));
     all.reduce(|a, b| if b.share() > a.share() { b } else { a })
 }
 
@@ -168,7 +168,7 @@ impl<'a> Judge<'a> {
             (low.min(sample.value), high.max(sample.value))
         });
         let scatter =
-            SIDES.map(|side| samples.windows(2 * side + 1).map(|window| Difference::of(window).scatter()).collect());
+            SIDES.map(|side| samples.windows(2 * side + 1).map(|window| Difference::new(window).scatter()).collect());
         let mut judge = Self { samples, scatter, overall: 0.0, range: high - low, rounding, many };
         judge.overall = judge.scatter_in(SIDES.map(|_| 0..samples.len()));
         judge
@@ -198,7 +198,7 @@ impl<'a> Judge<'a> {
         self.scatter_in(before).max(self.scatter_in(after))
     }
 
-    fn at(&self, index: usize) -> Option<Outlier> {
+    fn outlier_at(&self, index: usize) -> Option<Outlier> {
         let row = self.samples.get(index)?.row?;
         let fine = self.many && self.is_even(index)?;
         let scatter = self.overall.max(self.scatter_near(index));
@@ -207,12 +207,12 @@ impl<'a> Judge<'a> {
             let side = SIDES.get(order)?;
             let (first, last) = (index.checked_sub(2 * side + 1)?, index + 2 * side + 1);
             let around = self.samples.get(first..=last)?;
-            let own = Difference::of(self.samples.get(index - side..=index + side)?);
+            let own = Difference::new(self.samples.get(index - side..=index + side)?);
             let weight = own.weight(*side)?;
             let others: Vec<Sample> =
                 around.iter().enumerate().filter(|(at, _)| first + at != index).map(|(_, one)| *one).collect();
             let shown =
-                others.windows(2 * side + 1).map(|window| Difference::of(window).value.abs()).fold(0.0, f64::max);
+                others.windows(2 * side + 1).map(|window| Difference::new(window).value.abs()).fold(0.0, f64::max);
             let off = own.value / weight;
             let is_fine = fine && self.jump(index, off).is_some_and(|jump| !(off.abs() <= jump));
             let times = if is_fine { FINE } else { COARSE };
@@ -292,7 +292,7 @@ struct Difference {
 }
 
 impl Difference {
-    fn of(samples: &[Sample]) -> Self {
+    fn new(samples: &[Sample]) -> Self {
         let weights = samples.iter().enumerate().map(|(own, sample)| {
             let others = samples.iter().enumerate().filter(|(other, _)| *other != own);
             1.0 / others.map(|(_, other)| sample.at - other.at).product::<f64>()

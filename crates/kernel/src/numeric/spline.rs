@@ -81,7 +81,7 @@ impl Spline {
 
     /// Value and first three derivatives; beyond the ends the outer cubics go on. At a knot the later one counts.
     #[must_use]
-    pub fn at(&self, x: f64) -> [f64; 4] {
+    pub fn values_at(&self, x: f64) -> [f64; 4] {
         let index = interval_of(&self.knots, x);
         let (Some(knot), Some(cubic)) = (self.knots.get(index), self.cubics.get(index)) else {
             return [f64::NAN; 4];
@@ -270,7 +270,10 @@ mod tests {
             let spline = Spline::not_a_knot(knots, &values);
             for i in 0..=20 {
                 let x = -0.5 + 0.2 * f64::from(i);
-                assert!((spline.at(x)[0] - f(x)).abs() < 1e-13 * (1.0 + f(x).abs()) * 10.0, "{count} knots at {x}");
+                assert!(
+                    (spline.values_at(x)[0] - f(x)).abs() < 1e-13 * (1.0 + f(x).abs()) * 10.0,
+                    "{count} knots at {x}"
+                );
             }
         }
     }
@@ -286,7 +289,10 @@ mod tests {
             (Spline::clamped(&knots[..2], &values[..2], (1.0, libm::cos(0.4))), false),
         ] {
             if ends {
-                assert!((spline.at(0.0)[1] - 1.0).abs() < 1e-14 && (spline.at(2.0)[1] - libm::cos(2.0)).abs() < 1e-14);
+                assert!(
+                    (spline.values_at(0.0)[1] - 1.0).abs() < 1e-14
+                        && (spline.values_at(2.0)[1] - libm::cos(2.0)).abs() < 1e-14
+                );
             }
             let (controls, full) = (spline.controls(), bspline_knots(&spline.knots));
             assert_eq!(controls.len() + 4, full.len());
@@ -296,8 +302,8 @@ mod tests {
                 let (first, basis, slopes) = bspline_basis(&full, x);
                 let sum =
                     |weights: [f64; 4]| -> f64 { weights.iter().zip(&controls[first..]).map(|(w, c)| w * c).sum() };
-                assert!((sum(basis) - spline.at(x)[0]).abs() < 1e-14, "{x}");
-                let slope = if i == 40 { spline.at(x - 1e-12)[1] } else { spline.at(x)[1] };
+                assert!((sum(basis) - spline.values_at(x)[0]).abs() < 1e-14, "{x}");
+                let slope = if i == 40 { spline.values_at(x - 1e-12)[1] } else { spline.values_at(x)[1] };
                 assert!((sum(slopes) - slope).abs() < 1e-11, "{x}: {} {slope}", sum(slopes));
             }
         }
@@ -318,12 +324,12 @@ mod tests {
         for n in [3, 4, 20] {
             let (spline, knots) = of(n);
             let last = knots[knots.len() - 1];
-            let (start, end) = (spline.at(knots[0]), spline.at(last - 1e-12));
+            let (start, end) = (spline.values_at(knots[0]), spline.values_at(last - 1e-12));
             for order in 0..3 {
                 assert!((start[order] - end[order]).abs() < 1e-10, "{n} order {order}: {start:?} {end:?}");
             }
             for knot in &knots[1..knots.len() - 1] {
-                let (left, right) = (spline.at(knot - 1e-12), spline.at(*knot));
+                let (left, right) = (spline.values_at(knot - 1e-12), spline.values_at(*knot));
                 for order in 0..3 {
                     assert!((left[order] - right[order]).abs() < 1e-10, "{n} order {order} at {knot}");
                 }
@@ -332,7 +338,7 @@ mod tests {
         let error = |n: u32| {
             let (spline, knots) = of(n);
             let place = |i: u32| knots[0] + std::f64::consts::TAU * f64::from(i) / 999.0;
-            let off = |x: f64| (spline.at(x)[0] - libm::sin(x) - 0.2 * libm::cos(2.0 * x)).abs();
+            let off = |x: f64| (spline.values_at(x)[0] - libm::sin(x) - 0.2 * libm::cos(2.0 * x)).abs();
             (0..1000).map(place).map(off).fold(0.0, f64::max)
         };
         let ratio = error(40) / error(80);
@@ -350,14 +356,14 @@ mod tests {
             let (spline, _) = spline(n);
             (0..=999)
                 .map(|i| 0.002 * f64::from(i))
-                .map(|x| (spline.at(x)[0] - libm::sin(3.0 * x)).abs())
+                .map(|x| (spline.values_at(x)[0] - libm::sin(3.0 * x)).abs())
                 .fold(0.0, f64::max)
         };
         let ratio = error(20) / error(40);
         assert!((12.0..24.0).contains(&ratio), "{ratio}");
         let (spline, knots) = spline(12);
         for knot in &knots[1..12] {
-            let (left, right) = (spline.at(knot - 1e-12), spline.at(*knot));
+            let (left, right) = (spline.values_at(knot - 1e-12), spline.values_at(*knot));
             for order in 0..3 {
                 assert!((left[order] - right[order]).abs() < 1e-9, "order {order} at {knot}");
             }

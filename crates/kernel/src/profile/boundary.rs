@@ -79,7 +79,7 @@ pub fn of_cutter(curves: Curves<'_>, cutter_radius: f64) -> Result<Vec<BoundaryS
             all.extend(cut(index, piece, *range, period.is_none()));
             if let Some(gap) = gaps.iter().find(|gap| gap.arc != 0.0 && outline::starts_at(gap, range.1, period)) {
                 let start = parallel.in_piece(index, range.1).point;
-                all.push(arc_stretch(start, parallel.at(gap.to, BreakSide::After).point, gap.arc));
+                all.push(arc_stretch(start, parallel.point_at(gap.to, BreakSide::After).point, gap.arc));
             }
         }
         let whole = ranges.last().is_some_and(|range| range.1 == piece.end);
@@ -89,7 +89,7 @@ pub fn of_cutter(curves: Curves<'_>, cutter_radius: f64) -> Result<Vec<BoundaryS
             && whole
         {
             let start = parallel.in_piece(index, piece.end).point;
-            all.push(arc_stretch(start, parallel.at(piece.end, BreakSide::After).point, corner.turn));
+            all.push(arc_stretch(start, parallel.point_at(piece.end, BreakSide::After).point, corner.turn));
         }
     }
     Ok(all)

@@ -103,7 +103,7 @@ impl Parallel<'_> {
     }
 
     /// The curve at any parameter, on the given side of a break.
-    pub(crate) fn at(&self, parameter: f64, side: BreakSide) -> CurvePoint {
+    pub(crate) fn point_at(&self, parameter: f64, side: BreakSide) -> CurvePoint {
         let motion = self.curves.motion;
         let (piece, inside) = motion.locate(parameter);
         let pieces = motion.pieces();
@@ -163,7 +163,8 @@ struct Branches<'a> {
 
 impl<'a> Branches<'a> {
     fn new(parallel: Parallel<'a>, fold: (f64, f64)) -> Self {
-        let (before, after) = (parallel.at(fold.0, BreakSide::Before), parallel.at(fold.1, BreakSide::After));
+        let (before, after) =
+            (parallel.point_at(fold.0, BreakSide::Before), parallel.point_at(fold.1, BreakSide::After));
         let by_points = after.point - before.point;
         let narrow = by_points.norm() <= NARROW * before.point.norm();
         let step = if narrow { parallel.step(fold) } else { by_points };
@@ -176,7 +177,7 @@ impl<'a> Branches<'a> {
         if self.narrow {
             return -self.parallel.sum((parameter, self.fold.0));
         }
-        self.parallel.at(parameter, BreakSide::Before).point - self.origin
+        self.parallel.point_at(parameter, BreakSide::Before).point - self.origin
     }
 
     /// A point of the branch after it.
@@ -184,7 +185,7 @@ impl<'a> Branches<'a> {
         if self.narrow {
             return self.step + self.parallel.sum((self.fold.1, parameter));
         }
-        self.parallel.at(parameter, BreakSide::After).point - self.origin
+        self.parallel.point_at(parameter, BreakSide::After).point - self.origin
     }
 
     /// How far a branch must be followed until it has passed a place along the tangent; `None` where it never does.
@@ -199,7 +200,7 @@ impl<'a> Branches<'a> {
                 Some(_) => start + sign * within,
                 None => (start + sign * within).clamp(first, last),
             };
-            if !(self.parallel.at(parameter, side).tangent.dot(&self.along) > 0.0) {
+            if !(self.parallel.point_at(parameter, side).tangent.dot(&self.along) > 0.0) {
                 return None;
             }
             let point = if sign < 0.0 { self.before(parameter) } else { self.after(parameter) };
@@ -275,7 +276,8 @@ impl Parallel<'_> {
             [-period, 0.0, period].iter().any(|turn| fold.0 <= corner.at + turn && corner.at + turn <= fold.1)
         });
         let steps = inside.map(|corner| {
-            let (before, after) = (self.at(corner.at, BreakSide::Before), self.at(corner.at, BreakSide::After));
+            let (before, after) =
+                (self.point_at(corner.at, BreakSide::Before), self.point_at(corner.at, BreakSide::After));
             (before.outward() - after.outward()) * self.distance
         });
         self.sum(fold) + steps.sum::<Vector2<f64>>()
@@ -285,7 +287,7 @@ impl Parallel<'_> {
 /// How far the follower drops onto the edge at a loop.
 fn loss(profile: Parallel<'_>, ParallelLoop { from, to }: ParallelLoop) -> UndercutLoss {
     let curves = profile.curves;
-    let edge = profile.at(from, BreakSide::Before).point;
+    let edge = profile.point_at(from, BreakSide::Before).point;
     let drop = |parameter: f64| drop_onto(curves, parameter, edge);
     let worst = extremum::largest_without_slope(drop, (from, to), LOSS_CELLS, extremum::TO_ROUNDING);
     UndercutLoss { from, to, lost: worst.value.max(0.0), lost_at: worst.at }

@@ -210,7 +210,7 @@ impl<'a> FollowerOnChain<'a> {
     /// Lift, velocity and acceleration as cut at a value of the motion's parameter, by that parameter; `None` where the chain
     /// is not touched.
     #[must_use]
-    pub fn at(&self, parameter: f64) -> Option<Jet> {
+    pub fn jet_at(&self, parameter: f64) -> Option<Jet> {
         self.at_known_lift(parameter, None)
     }
 
@@ -346,7 +346,7 @@ fn line(point: Vector2<f64>, tangent: Vector2<f64>, offset: f64) -> Guide {
 fn touching(curves: Curves<'_>, out: f64, edge: &Edge, parameter: f64) -> Option<Guide> {
     let (reach, period) = (MILLIMETRES * out, curves.motion.period());
     let ahead = |share: f64| {
-        let (point, tangent) = edge.at(share);
+        let (point, tangent) = edge.point_and_tangent(share);
         let normal = outward(tangent);
         let here = curves.follower.parameter_of((point + normal * reach) / MILLIMETRES, normal);
         nearest(here, parameter, period) - parameter
@@ -358,7 +358,7 @@ fn touching(curves: Curves<'_>, out: f64, edge: &Edge, parameter: f64) -> Option
     } else {
         root::bracketed(ahead, 0.0, 1.0, 0.0).ok()?
     };
-    let ((point, tangent), curvature) = (edge.at(share), edge.curvature(share));
+    let ((point, tangent), curvature) = (edge.point_and_tangent(share), edge.curvature(share));
     let face = curves.element() == Element::Face;
     if curvature.abs() * MILLIMETRES < STRAIGHT {
         return (!face).then(|| line(point, tangent, out));

@@ -103,7 +103,7 @@ impl<'a> FollowerOnTable<'a> {
 
     /// The errors at a parameter of an interval.
     fn off_at(&self, run: &IntervalRun<'_>, part: &PieceRange, at: f64) -> [f64; 2] {
-        let Some(point) = run.curve.at(run.interval, at) else { return [f64::INFINITY; 2] };
+        let Some(point) = run.curve.point_at(run.interval, at) else { return [f64::INFINITY; 2] };
         self.off(part, self.parameter_near(&point, run.near(at)), self.guide(&point))
     }
 
@@ -111,7 +111,7 @@ impl<'a> FollowerOnTable<'a> {
     fn interval(&self, curve: &Interpolant, interval: usize, wanted: [bool; 2]) -> [f64; 2] {
         const NOT_FOLLOWED: [f64; 2] = [f64::INFINITY; 2];
         let Some(range) = curve.range(interval).filter(|(from, to)| from < to) else { return [0.0; 2] };
-        let (Some(first), Some(last)) = (curve.at(interval, range.0), curve.at(interval, range.1)) else {
+        let (Some(first), Some(last)) = (curve.point_at(interval, range.0), curve.point_at(interval, range.1)) else {
             return NOT_FOLLOWED;
         };
         if curve.is_straight() && self.curves.element() == Element::Face {
@@ -188,7 +188,7 @@ impl IntervalRun<'_> {
         let exactly = ROOT * (self.range.1 - self.range.0);
         root::bracketed(
             |at| {
-                let point = self.curve.at(self.interval, at);
+                let point = self.curve.point_at(self.interval, at);
                 point.map_or(f64::NAN, |point| on.parameter_near(&point, self.near(at)) - parameter)
             },
             self.range.0,

@@ -68,7 +68,7 @@ impl Worst {
 impl Contact {
     /// A follower with this lift at a parameter of its motion.
     #[must_use]
-    pub fn of(follower: &dyn Follower, parameter: f64, lift: Jet) -> Self {
+    pub fn new(follower: &dyn Follower, parameter: f64, lift: Jet) -> Self {
         let touch = follower.touch(parameter, &lift);
         let (curve, drive, normal) = (touch.curve, touch.drive, touch.curve.outward());
         // The normal turns at the rate κ ℓ of the tangent, the drive at its own rate.
@@ -92,7 +92,7 @@ impl<'a> Curves<'a> {
     /// The follower's curve and the pressure angle at a parameter of a piece of the motion.
     #[must_use]
     pub fn contact(&self, piece: usize, parameter: f64) -> Contact {
-        Contact::of(self.follower, parameter, self.motion.jet(piece, parameter))
+        Contact::new(self.follower, parameter, self.motion.jet(piece, parameter))
     }
 
     /// The profile at a parameter of a piece: the parallel of the follower's curve.

@@ -118,12 +118,15 @@ fn sampled(motion: &dyn Motion, follower: &dyn Follower) -> Option<SizeSamples> 
             (at, motion.jet(index, at))
         })
     });
-    Some(SizeSamples { lifts: lifts.collect(), place: follower.place().map(|place| (place, place.of(follower))) })
+    Some(SizeSamples {
+        lifts: lifts.collect(),
+        place: follower.place().map(|place| (place, place.chosen_by(follower))),
+    })
 }
 
 impl SizeProblem<'_> {
     /// A quantity of the disc with a radius; NaN, which does not pass, where the follower does not reach.
-    fn at(&self, radius: f64, excess: impl Fn(Curves<'_>) -> f64) -> f64 {
+    fn excess_at(&self, radius: f64, excess: impl Fn(Curves<'_>) -> f64) -> f64 {
         let follower = self.sized(radius);
         follower.map_or(f64::NAN, |follower| excess(Curves { motion: self.motion, follower: &*follower }))
     }
@@ -135,9 +138,9 @@ impl SizeProblem<'_> {
 
     fn pressure(&self, radius: f64) -> f64 {
         if self.required.pressure_angles.iter().all(|limit| limit.is_infinite()) {
-            return self.at(radius, |_| f64::NEG_INFINITY);
+            return self.excess_at(radius, |_| f64::NEG_INFINITY);
         }
-        self.at(radius, |curves| {
+        self.excess_at(radius, |curves| {
             let [rising, falling] = extremes::pressure_angles(curves);
             let [most, least] = self.required.pressure_angles;
             worse(rising.value - most, falling.value - least)
@@ -169,7 +172,7 @@ impl SizeProblem<'_> {
 
     /// By how much the curve is too sharp at a cam angle of a piece.
     fn sharpness_at(&self, radius: f64, piece: usize, angle: f64) -> f64 {
-        self.at(radius, |curves| match curves.element() {
+        self.excess_at(radius, |curves| match curves.element() {
             Element::Roller { radius: roller } => {
                 let rolled = curves.motion.is_rolled(piece);
                 let least = if rolled { self.required.convex_radius } else { CLOSING_OVER_ROLLER * roller };
@@ -188,7 +191,7 @@ impl SizeProblem<'_> {
     /// root.
     fn first_not_too_sharp(&self, low: f64) -> Result<f64, NoRadius> {
         let passes_everywhere = self.required.convex_radius == 0.0 && self.motion.is_rolled_throughout();
-        if passes_everywhere && self.at(low, |_| 0.0) == 0.0 {
+        if passes_everywhere && self.excess_at(low, |_| 0.0) == 0.0 {
             return Ok(low);
         }
         let mut radius = low;
@@ -260,7 +263,7 @@ impl SizeProblem<'_> {
     /// gives the least u0 of every lift. `None` under other followers, and without a limit.
     fn by_pressure_angle(&self) -> Option<f64> {
         let place = self.follower.place().filter(|place| matches!(place, FollowerPlacement::Offset { .. }))?;
-        let offset = place.of(self.follower);
+        let offset = place.chosen_by(self.follower);
         let [most, least] = self.required.pressure_angles;
         let limits = [(most, false), (least, true)].into_iter().filter(|(limit, _)| limit.is_finite());
         let heights = limits.map(|(limit, falling)| {

@@ -82,7 +82,7 @@ fn quintic_jet([c0, c1, c2, c3, c4, c5]: [f64; 6], t: f64, length: f64) -> Jet {
 /// The work of the disc at an angle of the working stretch; NaN beyond a limit of the frame that was not found before.
 fn work(holding: &TensionHolding, series: Option<&SeriesGroup<4>>, angle: f64) -> WorkJet {
     if let Some(series) = series {
-        let [energy, torque, torque_slope, torque_second] = series.at(angle);
+        let [energy, torque, torque_slope, torque_second] = series.values_at(angle);
         return WorkJet { energy, torque, torque_slope, torque_second };
     }
     let nothing = DiscWork { energy: f64::NAN, torque: f64::NAN, torque_slope: f64::NAN, torque_second: f64::NAN };

@@ -52,7 +52,7 @@ pub(super) fn as_cut(
 ) -> Option<TensionAsCut> {
     let followed = FollowerOnChain::on(curves, outline, &[mirrored]);
     let end = disc.holding().total_angle();
-    let at = |angle: f64| tension(disc, angle, followed.at(angle)?);
+    let at = |angle: f64| tension(disc, angle, followed.jet_at(angle)?);
     let mut points = vec![at(0.0)?, at(end)?];
     let mut peaks = Vec::new();
     let turn = curves.motion.period().unwrap_or(f64::INFINITY);

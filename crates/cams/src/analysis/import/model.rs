@@ -233,7 +233,7 @@ impl Model {
         let (start, end) = (self.start(index), self.end(index));
         let width = end - start;
         let x = ((angle - start) / width).clamp(0.0, 1.0);
-        let [share, slope, ..] = curve.at(curve.part_of(x), x);
+        let [share, slope, ..] = curve.values_at(curve.part_of(x), x);
         let (from, to) = (self.level(segment.from), self.level(segment.to));
         let travel = to - from;
         slopes.push((index, travel * slope * (x - 1.0) / width));
@@ -241,7 +241,7 @@ impl Model {
         slopes.push((nodes + segment.from, 1.0 - share));
         slopes.push((nodes + segment.to, share));
         if let (Some(near), Some(value)) = (near, law.parameter.value()) {
-            let changed = near.at(near.part_of(x), x)[0];
+            let changed = near.values_at(near.part_of(x), x)[0];
             let change = if value > 0.4 { -CHANGE } else { CHANGE };
             let own = self.parameters().take_while(|other| *other < index).count();
             slopes.push((nodes + levels + own, travel * (changed - share) / change));

@@ -280,7 +280,7 @@ fn inverse(curve: &LawCurve, share: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..24 {
         let middle = 0.5 * (low + high);
-        if curve.at(curve.part_of(middle), middle)[0] < share {
+        if curve.values_at(curve.part_of(middle), middle)[0] < share {
             low = middle;
         } else {
             high = middle;

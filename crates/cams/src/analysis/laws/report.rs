@@ -274,7 +274,7 @@ pub(super) fn plot(name: &str, rows: &[LawRow], rise: Rise) -> Plot {
             let (low, high) = row.curve.range_of(part);
             (0..=PLACES).map(move |place| {
                 let x = low + (high - low) * f64::from(place) / f64::from(PLACES);
-                let value = row.curve.at(part, x).get(order).copied().unwrap_or(0.0);
+                let value = row.curve.values_at(part, x).get(order).copied().unwrap_or(0.0);
                 [over * x, value]
             })
         });

@@ -302,7 +302,7 @@ fn needs_a_roller() -> Refusal {
 /// How the follower of a machine carries its roller over a whole lift, m or rad.
 fn path_of(machine: &Machine, top: f64) -> Result<RollerPath, Refusal> {
     let follower = &machine.follower;
-    let place = || follower.shape.place().map(|place| place.of(&*follower.shape));
+    let place = || follower.shape.place().map(|place| place.chosen_by(&*follower.shape));
     match follower.shape.carrier() {
         Carrier::Arm { .. } => {
             let arm = follower.arm.ok_or_else(needs_a_roller)?;

@@ -130,7 +130,7 @@ fn follower(main: &Disc, data: &CounterData, top: f64) -> Result<(Arc<dyn Follow
     let (place, prime) = shape.place().zip(shape.prime_radius()).ok_or_else(unknown)?;
     match place {
         FollowerPlacement::Offset { radius } => {
-            let offset = place.of(&**shape);
+            let offset = place.chosen_by(&**shape);
             let height = height(prime, offset);
             let distance = data.distance.unwrap_or(2.0 * height + top);
             let own = distance - height - top;
@@ -143,7 +143,7 @@ fn follower(main: &Disc, data: &CounterData, top: f64) -> Result<(Arc<dyn Follow
             Ok((Arc::new(roller), own_prime, PI))
         }
         FollowerPlacement::Pivot { arm, radius, side } => {
-            let pivot = place.of(&**shape);
+            let pivot = place.chosen_by(&**shape);
             let start = angle(pivot, arm, prime);
             let included = data.included_angle.unwrap_or(2.0 * start + top);
             let (own, own_arm) = (included - start - top, data.arm.unwrap_or(arm));
@@ -172,7 +172,7 @@ fn angle(pivot: f64, arm: f64, prime: f64) -> f64 {
 fn lowest(follower: &dyn Follower) -> Option<f64> {
     let (place, prime) = follower.place().zip(follower.prime_radius())?;
     Some(match place {
-        FollowerPlacement::Offset { .. } => height(prime, place.of(follower)),
-        FollowerPlacement::Pivot { arm, .. } => angle(place.of(follower), arm, prime),
+        FollowerPlacement::Offset { .. } => height(prime, place.chosen_by(follower)),
+        FollowerPlacement::Pivot { arm, .. } => angle(place.chosen_by(follower), arm, prime),
     })
 }

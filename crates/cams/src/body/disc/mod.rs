@@ -306,7 +306,7 @@ impl Disc {
         let state = self.load.as_ref().and_then(|load| load.state_and_lift(piece, angle));
         let (state, lift) =
             state.map_or_else(|| (None, curves.motion.jet(piece, angle)), |(state, lift)| (Some(state), lift));
-        let contact = Contact::of(curves.follower, angle, lift);
+        let contact = Contact::new(curves.follower, angle, lift);
         let profile = contact.curve.offset_inward(curves.offset());
         Row {
             cam_deg: Some(at.cam_deg),

@@ -141,7 +141,7 @@ fn beside(shape: &dyn Follower, by: f64) -> Result<(Arc<dyn Follower>, f64), Ref
     };
     match place {
         FollowerPlacement::Offset { radius } => {
-            let offset = place.of(shape);
+            let offset = place.chosen_by(shape);
             let height = ((prime - offset) * (prime + offset)).sqrt() + by;
             if !(height > 0.0) {
                 return Err(too_near());
@@ -150,7 +150,7 @@ fn beside(shape: &dyn Follower, by: f64) -> Result<(Arc<dyn Follower>, f64), Ref
             Ok((Arc::new(TranslatingRoller::new(prime, offset, radius)), prime))
         }
         FollowerPlacement::Pivot { arm, radius, side } => {
-            let pivot = place.of(shape);
+            let pivot = place.chosen_by(shape);
             let start = libm::acos((pivot * pivot + arm * arm - prime * prime) / (2.0 * pivot * arm));
             let (own_arm, turned) = (libm::hypot(arm, by), start + libm::atan2(by, arm));
             if !(turned > 0.0) {

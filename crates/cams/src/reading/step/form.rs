@@ -161,7 +161,7 @@ fn off_round(
         }
         StepCurve::Spline(curve) => {
             let (first, last) = curve.knots.range();
-            at_places(&|share| curve.at(first + (last - first) * share).0)
+            at_places(&|share| curve.point_and_slope(first + (last - first) * share).0)
         }
         // Reported elsewhere.
         StepCurve::Other(_) => 0.0,
@@ -338,7 +338,12 @@ impl FormRecognizer<'_> {
                 },
                 StepCurve::Spline(curve) => {
                     let (first, last) = curve.knots.range();
-                    ((curve.at(first).0 - start).norm().max((curve.at(last).0 - end).norm()), true)
+                    (
+                        (curve.point_and_slope(first).0 - start)
+                            .norm()
+                            .max((curve.point_and_slope(last).0 - end).norm()),
+                        true,
+                    )
                 }
                 StepCurve::Other(what) => {
                     open.push(format!("{what} is not a kind of edge that a cam has"));
@@ -422,7 +427,7 @@ impl FormRecognizer<'_> {
                 if self.flank == FlankShape::Swept =>
             {
                 let (first, last) = curve.knots.range();
-                let place = |i: u32| curve.at(first + (last - first) * f64::from(i) / f64::from(PLACES)).0;
+                let place = |i: u32| curve.point_and_slope(first + (last - first) * f64::from(i) / f64::from(PLACES)).0;
                 largest(&(0..=PLACES).map(|i| (off_line(place(i), *origin, *axis) - radius).abs()).collect::<Vec<_>>())
             }
             (StepSurface::Cone { origin, axis, .. } | StepSurface::Torus { origin, axis, .. }, curve)
@@ -485,7 +490,7 @@ impl FormRecognizer<'_> {
             let [start, end] = self.ends(*used);
             let fits = |side: &nurbs::NurbsCurve| {
                 let (first, last) = side.knots.range();
-                let ends = [side.at(first).0, side.at(last).0];
+                let ends = [side.point_and_slope(first).0, side.point_and_slope(last).0];
                 let [a, b] = if face.same_sense { ends } else { [ends[1], ends[0]] };
                 (a - start).norm() <= self.reach && (b - end).norm() <= self.reach
             };
@@ -543,7 +548,7 @@ impl FormRecognizer<'_> {
             }
             _ => {
                 let cubics = self.level_of(run.0)?.run(run.1);
-                let (place, tangent) = cubics.get(cubics.len() / 2)?.at(0.5);
+                let (place, tangent) = cubics.get(cubics.len() / 2)?.point_and_tangent(0.5);
                 (place.push(start.z), tangent.push(0.0))
             }
         };

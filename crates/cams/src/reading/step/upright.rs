@@ -154,7 +154,7 @@ impl SweptSurface {
             return None;
         }
         let ((first, _), (from, to)) = (patch.u.range(), patch.v.range());
-        let (from, to) = (patch.at(first, from)[0].z, patch.at(first, to)[0].z);
+        let (from, to) = (patch.point_and_slopes(first, from)[0].z, patch.point_and_slopes(first, to)[0].z);
         let controls = patch.controls.iter().filter_map(|row| row.first().copied()).collect();
         let curve = nurbs::NurbsCurve { knots: patch.u.clone(), controls };
         ((to - from).abs() > reach).then_some(())?;

@@ -124,11 +124,11 @@ impl OccupiedPaper {
         let pieces = (edge.length() / NEAR).ceil().clamp(1.0, MOST) as u32;
         let share = 1.0 / f64::from(pieces);
         let Edge::Segment(arc) = edge else {
-            return (0..=pieces).for_each(|index| self.put_point(edge.at(f64::from(index) * share).0));
+            return (0..=pieces).for_each(|index| self.put_point(edge.point_and_tangent(f64::from(index) * share).0));
         };
         // Each chord is the one before, turned by the same angle: rounding adds up to far less than the finest line.
         let (sin, cos) = libm::sincos(arc.sweep() * share);
-        let (mut point, mut chord) = (arc.start, arc.at(share).0 - arc.start);
+        let (mut point, mut chord) = (arc.start, arc.point_and_tangent(share).0 - arc.start);
         for _ in 0..pieces {
             self.put_point(point);
             point += chord;

@@ -162,7 +162,7 @@ struct BarrierForces {
 }
 
 impl BarrierForces {
-    fn of(sides: &[Slack; 2], aim: f64) -> Self {
+    fn new(sides: &[Slack; 2], aim: f64) -> Self {
         let [(force, stiff), (back, stiff_back)] =
             sides.map(|side| (aim / side.distance, side.multiplier / side.distance));
         Self { force: force - back, on_level: force + back, pull: stiff - stiff_back, stiff: stiff + stiff_back }
@@ -187,7 +187,7 @@ impl ArcNormalEquations {
     fn by(samples: &[NodeSample], aim: f64) -> Self {
         let (mut moments, mut forces, mut corner, mut excess) = ([[0.0; 4]; 4], [[0.0; 2]; 4], 0.0, 0.0);
         for sample in samples {
-            let push = BarrierForces::of(&sample.sides, aim);
+            let push = BarrierForces::new(&sample.sides, aim);
             let [basis] = sample.basis.data.0;
             for row in 0..4 {
                 let weighted = push.stiff * basis[row];
@@ -437,7 +437,7 @@ impl MinimaxProgram {
             let mut pressed = ArcNormalEquations::by(samples, aim);
             pressed.spread(&link.off_by);
             for end in ends.get(index).into_iter().flatten() {
-                pressed.press(&end.off_by, &BarrierForces::of(&end.sides, aim));
+                pressed.press(&end.off_by, &BarrierForces::new(&end.sides, aim));
             }
             (corner, excess) = (corner + pressed.corner, excess + pressed.excess);
             let mut next = if index + 1 == arcs { HELD } else { [[0.0; PAIR]; GROUP] };

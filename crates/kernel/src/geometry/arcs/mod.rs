@@ -110,11 +110,11 @@ impl ArcChain {
 
 /// A curve by its parameter, and the allowed errors of a chain in addition to the distance.
 trait FitTarget {
-    fn at(&self, parameter: f64) -> (CurvePoint, ChainTolerance);
+    fn point_and_tolerance(&self, parameter: f64) -> (CurvePoint, ChainTolerance);
 }
 
 impl<F: Fn(f64) -> (CurvePoint, ChainTolerance)> FitTarget for F {
-    fn at(&self, parameter: f64) -> (CurvePoint, ChainTolerance) {
+    fn point_and_tolerance(&self, parameter: f64) -> (CurvePoint, ChainTolerance) {
         self(parameter)
     }
 }

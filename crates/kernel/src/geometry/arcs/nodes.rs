@@ -196,7 +196,7 @@ pub(super) fn insert(nodes: &mut Vec<CurveSample>, target: &impl FitTarget, para
         }
         let part = (parameter - before.parameter) / (after.parameter - before.parameter);
         let share = before.share + part * (after.share - before.share);
-        nodes.insert(next, CurveSample::new(target.at(parameter), parameter, share, size));
+        nodes.insert(next, CurveSample::new(target.point_and_tolerance(parameter), parameter, share, size));
     }
 }
 
@@ -216,7 +216,7 @@ impl ArcCountIntegral {
         let mut bounds: Vec<(f64, f64)> = parameters.iter().take(1).map(|start| (*start, 0.0)).collect();
         for (start, end) in parameters.iter().zip(parameters.iter().skip(1)) {
             let parameter = 0.5 * (start + end);
-            let (frame, allowed) = target.at(parameter);
+            let (frame, allowed) = target.point_and_tolerance(parameter);
             let densities = density(&frame, allowed, size);
             let share = densest(densities) * frame.speed * (end - start);
             // Written so that a NaN is refused too.
@@ -238,7 +238,9 @@ impl ArcCountIntegral {
         Some(
             self.places((NODES_PER_ARC, NODES_PER_SHORT_ARC, LEAST_NODES), size)?
                 .into_iter()
-                .map(|(parameter, share)| CurveSample::new(target.at(parameter), parameter, share, size))
+                .map(|(parameter, share)| {
+                    CurveSample::new(target.point_and_tolerance(parameter), parameter, share, size)
+                })
                 .collect(),
         )
     }
@@ -300,7 +302,7 @@ mod tests {
     fn the_farthest_lobe_is_that_of_the_longest_arc() {
         for (heading, curvature, times_k) in [(1e-3, 1.0, 12e-3 * 9.0), (1.0, 1e-4, 2e-4 * 81.0)] {
             let place = |i: u32| Vector2::new(100.0 + 0.5 * f64::from(i * (i + 1)), 7.0);
-            let allowed = ChainTolerance::of(heading, curvature);
+            let allowed = ChainTolerance::symmetric(heading, curvature);
             let node = |i: u32| {
                 let (along, still) = (Vector2::new(1.0, 0.0), Vector2::zeros());
                 let point = CurvePoint::from_derivatives(place(i), along, still, still);

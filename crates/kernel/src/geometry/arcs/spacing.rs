@@ -105,7 +105,7 @@ impl ArcSpacing {
     /// Every joint, on the curve with the heading of the best chain; at the ends with that of the curve.
     pub(super) fn places(&self, nodes: &[CurveSample]) -> Vec<JointPlace> {
         let mut pairs = nodes.iter().zip(nodes.iter().skip(1)).peekable();
-        let mut places: Vec<JointPlace> = nodes.iter().take(1).map(JointPlace::at).collect();
+        let mut places: Vec<JointPlace> = nodes.iter().take(1).map(JointPlace::on_curve).collect();
         for stretch in &self.0 {
             let scale = stretch.scale();
             let first = if stretch.clamped.0 { -CLAMPED } else { HALF_OVER };
@@ -124,7 +124,7 @@ impl ArcSpacing {
                 });
             }
         }
-        places.extend(nodes.last().map(JointPlace::at));
+        places.extend(nodes.last().map(JointPlace::on_curve));
         within_half_circles(places, nodes)
     }
 }

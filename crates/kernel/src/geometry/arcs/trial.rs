@@ -29,7 +29,7 @@ pub(super) struct JointPlace {
 
 impl JointPlace {
     /// On the curve, with its heading.
-    pub(super) fn at(node: &CurveSample) -> Self {
+    pub(super) fn on_curve(node: &CurveSample) -> Self {
         Self { parameter: node.parameter, offset: 0.0, slope: 0.0 }
     }
 }
@@ -50,7 +50,7 @@ struct PlaneJoint {
 
 impl PlaneJoint {
     fn new(target: &impl FitTarget, place: JointPlace) -> Self {
-        let (frame, allowed) = target.at(place.parameter);
+        let (frame, allowed) = target.point_and_tolerance(place.parameter);
         let left = -frame.outward();
         let heading = (frame.tangent + left * place.slope).normalize();
         Self { place, frame, point: frame.point + left * place.offset, heading, allowed, length: 0.0, held: false }

@@ -113,7 +113,7 @@ impl<C: Fn(f64) -> CurvePoint> SplineChecker<'_, C> {
     fn place(&self, parameter: f64, frame: CurvePoint, allowed: ChainTolerance, seen: f64) -> Option<SplineComparison> {
         let spans = self.polynomials;
         let index = spans.partition_point(|span| span.to < seen).min(spans.len() - 1);
-        let off = difference(&frame, &spans.get(index)?.at(seen))?;
+        let off = difference(&frame, &spans.get(index)?.derivatives_at(seen))?;
         Some(SplineComparison { parameter, frame, allowed, off, seen })
     }
 
@@ -124,7 +124,7 @@ impl<C: Fn(f64) -> CurvePoint> SplineChecker<'_, C> {
         // From the right at the first place, where the third derivative jumps at a knot.
         let mut from = *a;
         if let Some(span) = knots.get(first.min(knots.len() - 1)).filter(|span| span.from == a.seen) {
-            from.off = difference(&a.frame, &span.at(a.seen))?;
+            from.off = difference(&a.frame, &span.derivatives_at(a.seen))?;
         }
         let (p, q) = (from.off, b.off);
         let whole = first >= last;

@@ -52,7 +52,7 @@ pub(super) fn sample(
     let mut before = f64::NAN;
     let mut round = 0;
     loop {
-        let samples = at(curve, &parameters, tolerance, allowed)?;
+        let samples = nodes_at(curve, &parameters, tolerance, allowed)?;
         round += 1;
         if round > 1 && ((samples.spans - before).abs() <= AGREEMENT * (1.0 + samples.spans) || round >= MOST_ROUNDS) {
             return Ok(samples);
@@ -63,7 +63,7 @@ pub(super) fn sample(
 }
 
 /// The nodes at these parameters.
-fn at(
+fn nodes_at(
     curve: &impl Fn(f64) -> CurvePoint,
     parameters: &[f64],
     tolerance: f64,

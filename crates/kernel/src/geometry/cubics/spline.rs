@@ -31,7 +31,7 @@ pub(super) struct SplineSpan {
 }
 
 impl SplineSpan {
-    pub(super) fn at(&self, parameter: f64) -> SplineDerivatives {
+    pub(super) fn derivatives_at(&self, parameter: f64) -> SplineDerivatives {
         let x = parameter - self.from;
         let [a, b, c, d] = self.coefficients;
         [a + (b + (c + d * x) * x) * x, b + (c * 2.0 + d * (3.0 * x)) * x, c * 2.0 + d * (6.0 * x), d * 6.0]
@@ -50,7 +50,8 @@ impl CubicBSpline {
     pub fn pieces(&self) -> Vec<[Vector2<f64>; 4]> {
         let pieces = self.polynomials().into_iter().map(|span| {
             let third = (span.to - span.from) / 3.0;
-            let ([start, leaves, ..], [end, arrives, ..]) = (span.at(span.from), span.at(span.to));
+            let ([start, leaves, ..], [end, arrives, ..]) =
+                (span.derivatives_at(span.from), span.derivatives_at(span.to));
             [start, start + leaves * third, end - arrives * third, end]
         });
         let mut pieces: Vec<[Vector2<f64>; 4]> = pieces.collect();
@@ -145,7 +146,7 @@ pub(super) fn hit(polynomials: &[SplineSpan], point: Vector2<f64>, tangent: Vect
     let mut parameter = guess.clamp(first, last);
     for _ in 0..STEPS {
         let index = polynomials.partition_point(|span| span.to < parameter).min(polynomials.len() - 1);
-        let [place, slope, ..] = polynomials.get(index)?.at(parameter);
+        let [place, slope, ..] = polynomials.get(index)?.derivatives_at(parameter);
         let (ahead, speed) = ((place - point).dot(&tangent), slope.dot(&tangent));
         if !(speed > 0.0) {
             return None;
@@ -177,14 +178,14 @@ mod tests {
         assert_eq!(spline.spans(), 4);
         let spans = spline.polynomials();
         for pair in spans.windows(2) {
-            let (a, b) = (pair[0].at(pair[0].to), pair[1].at(pair[1].from));
+            let (a, b) = (pair[0].derivatives_at(pair[0].to), pair[1].derivatives_at(pair[1].from));
             for order in 0..3 {
                 assert!((a[order] - b[order]).norm() < 1e-13, "{order}: {} {}", a[order], b[order]);
             }
         }
-        assert!((spans[0].at(0.0)[0] - at(0.0, 0.0)).norm() < 1e-15);
-        assert!((spans[3].at(5.0)[0] - at(8.0, 2.0)).norm() < 1e-14);
-        assert!((spans[0].at(0.0)[1] - at(3.0, 6.0)).norm() < 1e-14);
+        assert!((spans[0].derivatives_at(0.0)[0] - at(0.0, 0.0)).norm() < 1e-15);
+        assert!((spans[3].derivatives_at(5.0)[0] - at(8.0, 2.0)).norm() < 1e-14);
+        assert!((spans[0].derivatives_at(0.0)[1] - at(3.0, 6.0)).norm() < 1e-14);
         for (piece, span) in spline.pieces().iter().zip(&spans) {
             for i in 0..=8 {
                 let t = f64::from(i) / 8.0;
@@ -193,11 +194,11 @@ mod tests {
                     + piece[1] * (3.0 * s * s * t)
                     + piece[2] * (3.0 * s * t * t)
                     + piece[3] * (t * t * t);
-                assert!((point - span.at(span.from + t * (span.to - span.from))[0]).norm() < 1e-13);
+                assert!((point - span.derivatives_at(span.from + t * (span.to - span.from))[0]).norm() < 1e-13);
             }
         }
         let back = spline.reversed();
-        assert!((back.polynomials()[1].at(2.0)[0] - spans[2].at(3.0)[0]).norm() < 1e-13);
+        assert!((back.polynomials()[1].derivatives_at(2.0)[0] - spans[2].derivatives_at(3.0)[0]).norm() < 1e-13);
         // The functions add up to 1, their derivatives to 0.
         for x in [1.0, 1.2, 1.5] {
             let basis = SpanBasis::new(&spline.knots, 1, x);

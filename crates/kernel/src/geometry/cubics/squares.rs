@@ -132,7 +132,7 @@ fn judged(nodes: &[SplineNode], spline: CubicBSpline, seen: Vec<f64>, tolerance:
     for (node, parameter) in nodes.iter().zip(&seen) {
         let before = index;
         let span = span_at(&polynomials, &mut index, *parameter)?;
-        let off = difference(&node.frame, &span.at(*parameter))?;
+        let off = difference(&node.frame, &span.derivatives_at(*parameter))?;
         let shares = [
             off.distance.abs() / tolerance,
             off.heading.abs() / node.allowed.heading,

@@ -122,7 +122,7 @@ fn orders_are_four_three_and_two() {
     let curve = ellipse(60.0, 30.0);
     let range = (0.2, 1.9);
     let spans = |tolerance: f64, heading: f64, curvature: f64| {
-        let allowed = move |_: f64, _: &CurvePoint| ChainTolerance::of(heading, curvature);
+        let allowed = move |_: f64, _: &CurvePoint| ChainTolerance::symmetric(heading, curvature);
         let fitted = fit(&curve, range, tolerance, &allowed).expect("a spline");
         assert!(fitted.deviation <= tolerance && fitted.heading <= heading && fitted.curvature <= curvature);
         let (_, share) = scanned(&curve, range, &fitted, &allowed);
@@ -146,7 +146,7 @@ fn local_tolerances_are_kept() {
     for (a, b) in [(60.0, 40.0), (60.0, 2.0)] {
         let curve = ellipse(a, b);
         for part in [0.1, 0.01, 0.001] {
-            let allowed = |_: f64, point: &CurvePoint| ChainTolerance::of(0.01, part * point.curvature);
+            let allowed = |_: f64, point: &CurvePoint| ChainTolerance::symmetric(0.01, part * point.curvature);
             let fitted = fit(&curve, (-1.4, 1.4), 0.005, &allowed).expect("a spline");
             let (_, share) = scanned(&curve, (-1.4, 1.4), &fitted, &allowed);
             assert!(share <= 1.0, "{a} {b} {part}: {share}");
@@ -189,6 +189,6 @@ fn what_cannot_be_is_refused() {
     assert_eq!(fit(&curve, (0.0, 1.0), 1e-15, &any), Err(FitError::ToleranceTooFine { tolerance: 1e-15 }));
     let broken = |t: f64| CurvePoint { curvature: f64::NAN, ..curve(t) };
     assert!(matches!(fit(broken, (0.0, 1.0), 1e-3, &any), Err(FitError::NotSmooth { .. })));
-    let none = |_: f64, _: &CurvePoint| ChainTolerance::of(0.0, 0.0);
+    let none = |_: f64, _: &CurvePoint| ChainTolerance::symmetric(0.0, 0.0);
     assert!(fit(&curve, (0.0, 1.0), 1e-3, &none).is_err());
 }

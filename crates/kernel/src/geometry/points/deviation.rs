@@ -110,7 +110,7 @@ fn nowhere() -> Refusal {
 
 impl DeviationWalk<'_, '_> {
     fn point(&self, interval: usize, at: f64) -> Result<CurvePoint, Refusal> {
-        self.curve.at(interval, at).ok_or_else(nowhere)
+        self.curve.point_at(interval, at).ok_or_else(nowhere)
     }
 
     fn foot(&self, part: usize, parameter: f64) -> Result<CurvePoint, Refusal> {
@@ -160,7 +160,7 @@ impl DeviationWalk<'_, '_> {
     /// Where the interval crosses the normal of a point of C, between two of its parameters.
     fn over(&self, interval: usize, (from, to): (f64, f64), foot: &CurvePoint) -> f64 {
         let ahead = |at: f64| {
-            self.curve.at(interval, at).map_or(f64::NAN, |point| (point.point - foot.point).dot(&foot.tangent))
+            self.curve.point_at(interval, at).map_or(f64::NAN, |point| (point.point - foot.point).dot(&foot.tangent))
         };
         if ahead(from) >= 0.0 {
             return from;

@@ -117,7 +117,7 @@ impl Interpolant {
 
     /// The point at a parameter of an interval, mm.
     #[must_use]
-    pub fn at(&self, interval: usize, parameter: f64) -> Option<CurvePoint> {
+    pub fn point_at(&self, interval: usize, parameter: f64) -> Option<CurvePoint> {
         let interval = self.intervals.get(interval)?;
         let t = parameter - interval.from;
         let ([a, b, c, d], [y, y1, y2, y3]) = (jet(interval.first, t), jet(interval.second, t));
@@ -219,7 +219,7 @@ mod tests {
                     assert_eq!(curve.count(), rows.len() - 1);
                     for interval in 0..curve.count() {
                         let (from, to) = curve.range(interval).expect("an interval");
-                        let at = |u: f64| curve.at(interval, u).expect("a point");
+                        let at = |u: f64| curve.point_at(interval, u).expect("a point");
                         for (u, point) in [(from, points[interval]), (to, points[interval + 1])] {
                             assert!((at(u).point - Vector2::from(point)).norm() < 1e-12, "{form:?} {between:?}");
                         }
@@ -247,7 +247,7 @@ mod tests {
         assert_eq!(broken.count(), 6);
         for u in [0.1, 0.5, 1.3] {
             let interval = usize::from(u > 50.0_f64.to_radians());
-            assert_eq!(broken.at(interval, u), alone.at(interval, u));
+            assert_eq!(broken.point_at(interval, u), alone.point_at(interval, u));
         }
         assert_eq!(broken.range(2).map(|(from, to)| to - from), Some(0.0));
     }

@@ -65,7 +65,7 @@ impl<'a> ExactPath<'a> {
         let (mut parts, mut start, mut angle): (Vec<PathPart>, f64, Option<f64>) = (Vec::new(), 0.0, None);
         for (index, stretch) in boundary.stretches().iter().enumerate() {
             let length = quadrature::integrate(
-                |at| boundary.at(index, at).map_or(0.0, |point| point.speed),
+                |at| boundary.point_at(index, at).map_or(0.0, |point| point.speed),
                 (stretch.from, stretch.to),
                 1,
             );
@@ -115,7 +115,7 @@ impl<'a> ExactPath<'a> {
 
     /// The point at a place; the index of a stretch counts on round the curve.
     pub(super) fn point(&self, place: PathPlace) -> Option<CurvePoint> {
-        self.boundary.at(self.part(place.part)?.index, place.parameter)
+        self.boundary.point_at(self.part(place.part)?.index, place.parameter)
     }
 
     /// The place at a length from the start, mm; beyond the end of a closed curve it goes on with the first stretch.
@@ -182,7 +182,7 @@ impl<'a> ExactPath<'a> {
     fn is_round(&self, part: &PathPart) -> bool {
         let middle = 0.5 * (part.from + part.to);
         match [part.from, middle, part.to].map(|at| {
-            let point = self.boundary.at(part.index, at)?;
+            let point = self.boundary.point_at(part.index, at)?;
             let radius = point.point.norm();
             ((point.curvature * radius - 1.0).abs() <= ROUND).then_some(radius)
         }) {
@@ -199,7 +199,7 @@ impl<'a> ExactPath<'a> {
         for part in &self.parts {
             for i in 0..=LOOKED_AT {
                 let parameter = part.from + (part.to - part.from) * f64::from(i) / f64::from(LOOKED_AT);
-                let point = self.boundary.at(part.index, parameter);
+                let point = self.boundary.point_at(part.index, parameter);
                 if !point.is_some_and(|point| point.point.perp(&point.tangent) > 0.0) {
                     let polar_deg = point.map_or(f64::NAN, |p| libm::atan2(p.point.y, p.point.x).to_degrees());
                     return Err(not_around(polar_deg));
@@ -220,8 +220,11 @@ impl<'a> ExactPath<'a> {
     pub fn places_of(&self, curve: &Interpolant) -> Result<Vec<f64>, Refusal> {
         let point = |index: usize| {
             let (from, to) = curve.range(index.min(curve.count().saturating_sub(1)))?;
-            let at =
-                if index < curve.count() { curve.at(index, from)? } else { curve.at(index.checked_sub(1)?, to)? };
+            let at = if index < curve.count() {
+                curve.point_at(index, from)?
+            } else {
+                curve.point_at(index.checked_sub(1)?, to)?
+            };
             Some(at.point)
         };
         if !self.closed {
@@ -304,9 +307,10 @@ impl<'a> ExactPath<'a> {
         let around = [found, found + 1, (found + self.parts.len()).saturating_sub(1)];
         for index in around.map(|index| index % self.parts.len()) {
             let part = self.parts.get(index)?;
-            let across = |at: f64| self.boundary.at(part.index, at).map_or(f64::NAN, |point| ray.perp(&point.point));
+            let across =
+                |at: f64| self.boundary.point_at(part.index, at).map_or(f64::NAN, |point| ray.perp(&point.point));
             if let Ok(parameter) = root::bracketed(across, part.from, part.to, 0.0) {
-                let away = self.boundary.at(part.index, parameter)?.point.dot(&ray);
+                let away = self.boundary.point_at(part.index, parameter)?.point.dot(&ray);
                 return Some((self.length_at(PathPlace { part: index, parameter }), away)).filter(|_| away > 0.0);
             }
         }

@@ -172,7 +172,7 @@ struct TableTrial {
 }
 
 impl TableTrial {
-    fn of(goal: &PlacingGoal<'_, '_>, spots: &[RowPlace], limit: f64) -> Result<Self, Refusal> {
+    fn new(goal: &PlacingGoal<'_, '_>, spots: &[RowPlace], limit: f64) -> Result<Self, Refusal> {
         let (path, wish) = (goal.path, goal.wish);
         let twice = wish.between == PointInterpolation::Cubic;
         let (mut rows, mut places) = (Vec::with_capacity(spots.len()), Vec::with_capacity(spots.len()));
@@ -313,7 +313,7 @@ fn by_angle(goal: &PlacingGoal<'_, '_>) -> Result<PointRows, Refusal> {
     let (at_start, breaks) = goal.breaks(start);
     let trial = |count: usize, limit: f64| {
         let spots = even(path, count, (start, at_start), &breaks).ok_or_else(|| not_around(0.0))?;
-        TableTrial::of(goal, &spots, limit)
+        TableTrial::new(goal, &spots, limit)
     };
     let (mut too_few, mut enough): (usize, Option<(usize, TableTrial)>) = (FEWEST - 1, None);
     let mut count = FIRST;
@@ -468,7 +468,7 @@ fn by_error(goal: &PlacingGoal<'_, '_>) -> Result<PointRows, Refusal> {
         if total > goal.most() {
             break;
         }
-        let trial = match TableTrial::of(goal, &spots(&sections), f64::INFINITY) {
+        let trial = match TableTrial::new(goal, &spots(&sections), f64::INFINITY) {
             Ok(trial) => trial,
             Err(error) => {
                 last = error;

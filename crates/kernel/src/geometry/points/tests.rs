@@ -45,7 +45,8 @@ fn the_reported_error_of_a_circle_is_its_distance() {
             for interval in 0..curve.count() {
                 let (from, to) = curve.range(interval).expect("an interval");
                 for i in 0..=40 {
-                    let point = curve.at(interval, from + (to - from) * f64::from(i) / 40.0).expect("a point").point;
+                    let point =
+                        curve.point_at(interval, from + (to - from) * f64::from(i) / 40.0).expect("a point").point;
                     worst = worst.max(((point - Vector2::new(8.0, 3.0)).norm() - 50.0).abs());
                 }
             }
@@ -191,7 +192,7 @@ fn a_corner_may_be_where_the_table_starts() {
                     let (from, to) = curve.range(interval).expect("an interval");
                     for i in 1..40 {
                         let point =
-                            curve.at(interval, from + (to - from) * f64::from(i) / 40.0).expect("a point").point;
+                            curve.point_at(interval, from + (to - from) * f64::from(i) / 40.0).expect("a point").point;
                         let angle = (libm::atan2(point.y, point.x) - turn).rem_euclid(TAU);
                         let radius = 50.0 + 5.0 * libm::sin(0.5 * angle);
                         // The curve departs from the perpendicular of the ray by no more than 2.5 in 50.

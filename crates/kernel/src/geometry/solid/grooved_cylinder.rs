@@ -146,7 +146,7 @@ impl SplineSurface {
             for (v, height) in spans(&self.v) {
                 for (a, wa) in GAUSS {
                     for (b, wb) in GAUSS {
-                        let [p, by_u, by_v] = self.at(u + a * width, v + b * height);
+                        let [p, by_u, by_v] = self.point_and_slopes(u + a * width, v + b * height);
                         volume += p.z * (by_u.x * by_v.y - by_u.y * by_v.x) * wa * wb * width * height;
                     }
                 }

@@ -179,7 +179,7 @@ pub fn not_closed(why: &str) -> Refusal {
     Refusal::new(format!("the solid is not closed: {why}")).remedy(REPORT)
 }
 
-fn at(point: Vector2<f64>, z: f64) -> Point3 {
+fn at_height(point: Vector2<f64>, z: f64) -> Point3 {
     // A negative zero becomes zero.
     Point3::new(point.x + 0.0, point.y + 0.0, z)
 }
@@ -225,11 +225,11 @@ impl ShellBuilder {
         let (mut vertices, mut edges, mut faces) = (Vec::new(), Vec::new(), Vec::new());
         for (i, edge) in sides.iter().enumerate() {
             for (top, z) in [(0, low), (1, high)] {
-                vertices.push(SolidVertex(at(edge.start(), z)));
+                vertices.push(SolidVertex(at_height(edge.start(), z)));
                 let ends = (self.vertex(n, i, top), self.vertex(n, i + 1, top));
                 edges.push(CompressedEdge { vertices: ends, curve: carrier(edge, z) });
             }
-            let upright = EdgeCurve::Line { origin: at(edge.start(), low), direction: Vector3::unit_z() };
+            let upright = EdgeCurve::Line { origin: at_height(edge.start(), low), direction: Vector3::unit_z() };
             edges.push(CompressedEdge { vertices: (self.vertex(n, i, 0), self.vertex(n, i, 1)), curve: upright });
             let around = [self.edge(n, i, 0), self.edge(n, i + 1, 2), self.edge(n, i, 1), self.edge(n, i, 2)];
             faces.push(side(edge, (low, high), around));
@@ -374,16 +374,16 @@ fn carrier(edge: &Edge, z: f64) -> EdgeCurve {
         Edge::Segment(segment) if segment.bulge == 0.0 => {
             let direction = segment.start_tangent();
             let direction = Vector3::new(direction.x + 0.0, direction.y + 0.0, 0.0);
-            EdgeCurve::Line { origin: at(segment.start, z), direction }
+            EdgeCurve::Line { origin: at_height(segment.start, z), direction }
         }
         Edge::Segment(segment) => EdgeCurve::Circle {
-            centre: at(segment.centre(), z),
+            centre: at_height(segment.centre(), z),
             radius: segment.radius().abs(),
             clockwise: segment.bulge < 0.0,
         },
         Edge::Cubic(cubic) => EdgeCurve::Spline(SplineCurve {
             knots: SPAN.to_vec(),
-            controls: cubic.points.iter().map(|point| at(*point, z)).collect(),
+            controls: cubic.points.iter().map(|point| at_height(*point, z)).collect(),
         }),
     }
 }
@@ -400,7 +400,8 @@ fn side(edge: &Edge, (low, high): (f64, f64), [below, end, above, start]: [usize
         Edge::Cubic(cubic) => {
             // Raised to degree 3 in height too, in which it is straight.
             let heights = [low, low + (high - low) / 3.0, low + (high - low) * (2.0 / 3.0), high];
-            let controls = cubic.points.iter().map(|point| heights.iter().map(|z| at(*point, *z)).collect()).collect();
+            let controls =
+                cubic.points.iter().map(|point| heights.iter().map(|z| at_height(*point, *z)).collect()).collect();
             let surface = FaceSurface::Spline(SplineSurface { u: SPAN.to_vec(), v: SPAN.to_vec(), controls });
             return CompressedFace { boundaries: vec![outward], orientation: true, surface };
         }
@@ -409,10 +410,10 @@ fn side(edge: &Edge, (low, high): (f64, f64), [below, end, above, start]: [usize
         let tangent = segment.start_tangent();
         let along = Vector3::new(tangent.x + 0.0, tangent.y + 0.0, 0.0);
         let normal = Vector3::new(tangent.y + 0.0, -tangent.x + 0.0, 0.0);
-        let surface = FaceSurface::Plane { origin: at(segment.start, low), normal, along };
+        let surface = FaceSurface::Plane { origin: at_height(segment.start, low), normal, along };
         return CompressedFace { boundaries: vec![outward], orientation: true, surface };
     }
-    let surface = FaceSurface::Cylinder { origin: at(segment.centre(), low), radius: segment.radius().abs() };
+    let surface = FaceSurface::Cylinder { origin: at_height(segment.centre(), low), radius: segment.radius().abs() };
     if segment.bulge > 0.0 {
         CompressedFace { boundaries: vec![outward], orientation: true, surface }
     } else {

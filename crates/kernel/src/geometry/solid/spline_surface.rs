@@ -12,7 +12,7 @@ const SETTLED: f64 = 1e-11;
 impl SplineSurface {
     /// Point and derivatives by both parameters.
     #[must_use]
-    pub fn at(&self, u: f64, v: f64) -> [Vector3<f64>; 3] {
+    pub fn point_and_slopes(&self, u: f64, v: f64) -> [Vector3<f64>; 3] {
         let (first_u, basis_u, slopes_u) = bspline_basis(&self.u, u);
         let (first_v, basis_v, slopes_v) = bspline_basis(&self.v, v);
         let mut sums = [Vector3::zeros(); 3];
@@ -41,7 +41,7 @@ impl SplineSurface {
     #[must_use]
     pub fn distance(&self, from: &Vector3<f64>, (mut u, mut v): (f64, f64)) -> f64 {
         let [(u0, u1), (v0, v1)] = self.range();
-        let mut place = self.at(u, v);
+        let mut place = self.point_and_slopes(u, v);
         let mut nearest = (from - place[0]).norm();
         for _ in 0..FOOT_STEPS {
             let [point, by_u, by_v] = place;
@@ -57,7 +57,7 @@ impl SplineSurface {
             let before = nearest;
             for _ in 0..FOOT_STEPS {
                 let next = ((u + step.0).clamp(u0, u1), (v + step.1).clamp(v0, v1));
-                let there = self.at(next.0, next.1);
+                let there = self.point_and_slopes(next.0, next.1);
                 let found = (from - there[0]).norm();
                 if found < nearest {
                     (nearest, place, u, v) = (found, there, next.0, next.1);

@@ -57,7 +57,7 @@ impl Formula {
 
     /// Value and three derivatives.
     #[must_use]
-    pub fn at(&self, place: f64) -> [f64; 4] {
+    pub fn values_at(&self, place: f64) -> [f64; 4] {
         let rows = self.text.tape.rows(place, 4);
         let [value, first, second, third] = [0, 1, 2, 3].map(|n| rows.result().get(n).copied().unwrap_or(f64::NAN));
         [value, first, 2.0 * second, 6.0 * third]

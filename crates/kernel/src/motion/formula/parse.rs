@@ -116,7 +116,7 @@ impl Parser<'_> {
         if !known || matches!(operation, TapeOperation::Constant(_)) {
             return Ok(term);
         }
-        let value = tape.rows(0.0, 1).of(term).first().copied().unwrap_or(f64::NAN);
+        let value = tape.rows(0.0, 1).series(term).first().copied().unwrap_or(f64::NAN);
         if !value.is_finite() {
             return self.fault(at, "this has no finite value".into(), None);
         }

@@ -64,13 +64,13 @@ impl<'t> Evaluation<'t> {
     /// The value of the argument of an operation.
     fn argument(&self, operation: TapeOperation) -> Option<f64> {
         let term = operation.arguments().into_iter().flatten().last()?;
-        self.rows.of(term).first().copied()
+        self.rows.series(term).first().copied()
     }
 
     /// The guard of an operation, where it has one.
     fn guard(&self, operation: TapeOperation) -> Option<Guard> {
         let (TapeOperation::Quotient(_, term) | TapeOperation::Of(_, term)) = operation else { return None };
-        let (value, slope) = match self.rows.of(term) {
+        let (value, slope) = match self.rows.series(term) {
             [value, slope, ..] => (*value, *slope),
             _ => (0.0, 0.0),
         };

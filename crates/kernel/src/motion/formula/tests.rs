@@ -30,7 +30,7 @@ fn values_are_those_of_the_rules_of_arithmetic() {
         ("x^x", 0.7_f64.powf(0.7)),
         ("5", 5.0),
     ] {
-        let found = formula(text).at(0.7)[0];
+        let found = formula(text).values_at(0.7)[0];
         assert!((found - value).abs() < 1e-10, "{text}: {found}");
     }
 }
@@ -67,7 +67,7 @@ fn derivatives_are_exact() {
         }),
     ] {
         let found = formula(text);
-        for ((found, wanted), order) in found.at(x).iter().zip(wanted).zip(0..) {
+        for ((found, wanted), order) in found.values_at(x).iter().zip(wanted).zip(0..) {
             near(*found, wanted);
             near(formula(text).derivative(x, order), wanted);
         }
@@ -192,7 +192,7 @@ fn any_text_is_read_or_refused() {
         match Formula::parse(&text, "x") {
             Ok(formula) => {
                 read += 1;
-                let _ = (formula.at(0.0), formula.derivative(1.0, 6));
+                let _ = (formula.values_at(0.0), formula.derivative(1.0, 6));
                 if read % 40 == 0 {
                     let _ = formula.scanned(0.0, 1.0);
                 }

@@ -13,7 +13,7 @@ struct ScaledBernstein {
 }
 
 impl ScaledBernstein {
-    fn of(coefficients: &[f64]) -> Self {
+    fn new(coefficients: &[f64]) -> Self {
         let degree = count(coefficients.len().saturating_sub(1));
         let mut binomial = 1.0;
         let mut scaled = Vec::with_capacity(coefficients.len());
@@ -27,7 +27,7 @@ impl ScaledBernstein {
 
     /// At x with y = 1 − x, by Horner's rule in the smaller ratio of the two.
     #[inline]
-    fn at(&self, x: f64, y: f64) -> f64 {
+    fn value_at(&self, x: f64, y: f64) -> f64 {
         let (larger, sum) = if x <= y {
             let ratio = x / y;
             (y, self.scaled.iter().rev().fold(0.0, |sum, scaled| sum * ratio + scaled))
@@ -98,13 +98,13 @@ impl Bernstein {
         let derivatives = [1, 2, 3].map(|order| {
             row = differences(&row);
             let factor = falling(degree, order);
-            ScaledBernstein::of(&row.iter().map(|b| factor * b).collect::<Vec<_>>())
+            ScaledBernstein::new(&row.iter().map(|b| factor * b).collect::<Vec<_>>())
         });
         Self {
             start,
             end,
-            above_start: ScaledBernstein::of(&from_start),
-            below_end: ScaledBernstein::of(&below),
+            above_start: ScaledBernstein::new(&from_start),
+            below_end: ScaledBernstein::new(&below),
             from_start,
             derivatives,
         }
@@ -112,15 +112,15 @@ impl Bernstein {
 
     /// Value and three derivatives.
     #[inline]
-    pub(super) fn at(&self, x: f64) -> Values {
+    pub(super) fn values_at(&self, x: f64) -> Values {
         let y = 1.0 - x;
         let [first, second, third] = &self.derivatives;
-        [self.value(x, y), first.at(x, y), second.at(x, y), third.at(x, y)]
+        [self.value(x, y), first.value_at(x, y), second.value_at(x, y), third.value_at(x, y)]
     }
 
     #[inline]
     fn value(&self, x: f64, y: f64) -> f64 {
-        if x <= y { self.start + self.above_start.at(x, y) } else { self.end - self.below_end.at(x, y) }
+        if x <= y { self.start + self.above_start.value_at(x, y) } else { self.end - self.below_end.value_at(x, y) }
     }
 
     /// The derivative of an order.
@@ -130,6 +130,6 @@ impl Bernstein {
         }
         let row = (0..order).fold(self.from_start.clone(), |row, _| differences(&row));
         let degree = count(self.from_start.len().saturating_sub(1));
-        ScaledBernstein::of(&row).at(x, 1.0 - x) * falling(degree, order)
+        ScaledBernstein::new(&row).value_at(x, 1.0 - x) * falling(degree, order)
     }
 }

@@ -53,8 +53,8 @@ pub(super) struct PolydyneShape {
 
 impl PolydyneShape {
     /// Value and three derivatives.
-    pub(super) fn at(&self, x: f64) -> Values {
-        let [s, v, a, j] = self.load.at(x);
+    pub(super) fn values_at(&self, x: f64) -> Values {
+        let [s, v, a, j] = self.load.values_at(x);
         let (fourth, fifth) = (self.load.derivative(x, 4), self.load.derivative(x, 5));
         [[s, v, a], [v, a, j], [a, j, fourth], [j, fourth, fifth]]
             .map(|[own, next, after]| own + self.first * next + self.second * after)
@@ -79,22 +79,22 @@ impl CurvePart {
     }
 
     #[inline]
-    pub(super) fn at(&self, x: f64) -> Values {
+    pub(super) fn values_at(&self, x: f64) -> Values {
         match self {
-            CurvePart::Polynomial(polynomial) => polynomial.at(x),
-            CurvePart::Waves { split, early, .. } if x <= *split => early.at(x),
+            CurvePart::Polynomial(polynomial) => polynomial.values_at(x),
+            CurvePart::Waves { split, early, .. } if x <= *split => early.values_at(x),
             CurvePart::Waves { late, .. } => {
-                let [value, first, second, third] = late.at(1.0 - x);
+                let [value, first, second, third] = late.values_at(1.0 - x);
                 [1.0 - value, first, -second, third]
             }
             CurvePart::Stretch { range: (from, width), polynomial } => {
-                let [value, first, second, third] = polynomial.at((x - from) / width);
+                let [value, first, second, third] = polynomial.values_at((x - from) / width);
                 [value, first / width, second / width / width, third / width / width / width]
             }
             CurvePart::Harmonics(harmonics) => [0, 1, 2, 3].map(|order| harmonics.derivative(x, order)),
-            CurvePart::Formula(formula) => formula.at(x),
-            CurvePart::Polydyne(loaded) => loaded.at(x),
-            CurvePart::RestToRest(polynomial) => polynomial.at(x),
+            CurvePart::Formula(formula) => formula.values_at(x),
+            CurvePart::Polydyne(loaded) => loaded.values_at(x),
+            CurvePart::RestToRest(polynomial) => polynomial.values_at(x),
         }
     }
 
@@ -206,8 +206,8 @@ impl LawCurve {
     /// s, s', s'', s''' of a part at x within it, its ends included; of no part 0.
     #[must_use]
     #[inline]
-    pub fn at(&self, part: usize, x: f64) -> Values {
-        self.parts.get(part).map_or([0.0; 4], |part| part.at(x))
+    pub fn values_at(&self, part: usize, x: f64) -> Values {
+        self.parts.get(part).map_or([0.0; 4], |part| part.values_at(x))
     }
 
     /// The derivative of any order of a part at x within it, its ends included; of order 0 s itself, of no part 0.

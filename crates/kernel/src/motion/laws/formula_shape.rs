@@ -14,9 +14,9 @@ pub(super) struct FormulaShape {
 
 impl FormulaShape {
     /// Value and three derivatives.
-    pub(super) fn at(&self, x: f64) -> Values {
+    pub(super) fn values_at(&self, x: f64) -> Values {
         let (unit, width) = (self.unit, self.width);
-        let [value, first, second, third] = self.formula.at(width * x);
+        let [value, first, second, third] = self.formula.values_at(width * x);
         [
             unit * (value - self.less),
             unit * width * first,

@@ -77,7 +77,7 @@ impl LocalPiece {
 
     /// Value and three derivatives.
     #[inline]
-    pub(super) fn at(&self, x: f64) -> Values {
+    pub(super) fn values_at(&self, x: f64) -> Values {
         let t = x - self.from;
         let [p0, p1, p2, p3] = self.polynomial;
         let (mut value, mut first) = (p0 + t * (p1 + t * (p2 + t * p3)), p1 + t * (2.0 * p2 + t * (3.0 * p3)));
@@ -135,7 +135,7 @@ impl LocalPiece {
 
     /// The derivative of an order.
     pub(super) fn derivative(&self, x: f64, order: u32) -> f64 {
-        if let Some(known) = usize::try_from(order).ok().and_then(|order| self.at(x).get(order).copied()) {
+        if let Some(known) = usize::try_from(order).ok().and_then(|order| self.values_at(x).get(order).copied()) {
             return known;
         }
         self.waves

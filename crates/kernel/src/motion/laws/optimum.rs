@@ -215,7 +215,7 @@ mod tests {
             let curve = curve(degree, Objective::PeakAcceleration);
             for i in 0..=100 {
                 let x = f64::from(i) / 100.0;
-                let (found, known) = (curve.at(0, x)[1], velocity(x, coefficients));
+                let (found, known) = (curve.values_at(0, x)[1], velocity(x, coefficients));
                 assert!((found - known).abs() < 4e-15, "degree {degree} at {x}: {found} {known}");
             }
             let found = curve.peaks().acceleration.value;
@@ -233,7 +233,7 @@ mod tests {
         for i in 0..=100 {
             let x = f64::from(i) / 100.0;
             let known = velocity(x, &[2.872_381_208_946_259, -6.981_668_462_623_811]);
-            assert!((found.at(0, x)[1] - known).abs() < 4e-15, "at {x}: {} {known}", found.at(0, x)[1]);
+            assert!((found.values_at(0, x)[1] - known).abs() < 4e-15, "at {x}: {} {known}", found.values_at(0, x)[1]);
         }
         for ratio in [0.8, 1.0, 1.3, 2.0, 2.5, 3.7, 5.0, 8.4, 12.0, 31.0] {
             for degree in LOWEST..=HIGHEST {
@@ -314,7 +314,7 @@ mod tests {
         for least in ALL {
             let curve = curve(15, least);
             assert_eq!(
-                (curve.at(0, 0.0)[..3].to_vec(), curve.at(0, 1.0)[..3].to_vec()),
+                (curve.values_at(0, 0.0)[..3].to_vec(), curve.values_at(0, 1.0)[..3].to_vec()),
                 (vec![0.0; 3], vec![1.0, 0.0, 0.0])
             );
             for order in 0..14 {
@@ -329,8 +329,8 @@ mod tests {
             }
             assert_eq!(curve.derivative(0, 0.3, 16), 0.0);
             // From an end on the position keeps its digits.
-            let jerk = curve.at(0, 0.0)[3];
-            let (x, early) = (1e-7, curve.at(0, 1e-7)[0]);
+            let jerk = curve.values_at(0, 0.0)[3];
+            let (x, early) = (1e-7, curve.values_at(0, 1e-7)[0]);
             assert!((early / (jerk * x * x * x / 6.0) - 1.0).abs() < 1e-4, "{early}");
         }
     }

@@ -73,7 +73,7 @@ impl LawCurve {
     #[must_use]
     pub fn efficiency_of(&self, peaks: &LawPeaks) -> Option<f64> {
         let last = self.parts().saturating_sub(1);
-        let ends = [self.at(0, 0.0), self.at(last, 1.0)];
+        let ends = [self.values_at(0, 0.0), self.values_at(last, 1.0)];
         let [moves, accelerates] = [(1, peaks.velocity), (2, peaks.acceleration)]
             .map(|(order, peak)| ends.iter().any(|end: &[f64; 4]| end[order].abs() > ROUNDING * peak.value));
         if moves {
@@ -89,7 +89,7 @@ impl LawCurve {
     /// The largest sizes of functions of s, s', …, s⁗, which give their values and slopes.
     fn largest<const N: usize>(&self, of: [CurveQuantity; N]) -> [Extremum; N] {
         let all = |part: usize, x: f64| {
-            let [s, first, second, third] = self.at(part, x);
+            let [s, first, second, third] = self.values_at(part, x);
             [s, first, second, third, self.derivative(part, x, 4)]
         };
         let parts = (0..self.parts()).map(|part| {

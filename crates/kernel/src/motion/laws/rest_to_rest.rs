@@ -73,7 +73,7 @@ impl RestToRest {
     }
 
     /// Value and three derivatives.
-    pub(super) fn at(&self, x: f64) -> Values {
+    pub(super) fn values_at(&self, x: f64) -> Values {
         [0, 1, 2, 3].map(|order| self.derivative(x, order))
     }
 }

@@ -96,7 +96,7 @@ impl LawCurve {
                 of_local(early, (low, split), false, &mut terms);
                 of_local(late, (split, high), true, &mut terms);
             } else {
-                let series = LegendreSeries::of(&|x| self.derivative(index, x, 2), (low, high));
+                let series = LegendreSeries::expand(&|x| self.derivative(index, x, 2), (low, high));
                 terms.extend(series.into_iter().map(SpectrumTerm::Series));
             }
         }
@@ -113,7 +113,8 @@ impl LawCurve {
     fn residual_of(&self, spectrum: &AccelerationSpectrum, ratio: f64) -> f64 {
         let w = TAU * ratio;
         let (sin, cos) = libm::sincos(w);
-        let [first, last] = [(0, 0.0), (self.parts().saturating_sub(1), 1.0)].map(|(part, x)| self.at(part, x)[1]);
+        let [first, last] =
+            [(0, 0.0), (self.parts().saturating_sub(1), 1.0)].map(|(part, x)| self.values_at(part, x)[1]);
         (spectrum.transform(w) + first - Complex::new(cos, sin) * last).norm() / w
     }
 

@@ -139,7 +139,7 @@ mod tests {
         let knots = [0.0, 60.0, 130.0, 200.0, 290.0, 360.0].map(|degrees: f64| degrees / 360.0);
         let curve = quintic(&knots, &[0.0, 12.0, 25.0, 18.0, 4.0, 0.0], SplineEnds::Periodic);
         let x = 100.0 / 360.0;
-        let found = curve.at(curve.part_of(x), x);
+        let found = curve.values_at(curve.part_of(x), x);
         let known = [21.632_151_819_059_75, 10.504_873_044_522_27, -13.619_313_166_588_42, -14.696_224_865_491_6];
         for ((order, found), known) in (0..).zip(found).zip(known) {
             let by_angle = (0..order).fold(found, |value, _| value / TAU);
@@ -162,7 +162,7 @@ mod tests {
             let curve = quintic(&knots, &values, ends);
             for index in 0..=200 {
                 let x = f64::from(index) / 200.0;
-                let [s, v, a, j] = curve.at(curve.part_of(x), x);
+                let [s, v, a, j] = curve.values_at(curve.part_of(x), x);
                 let known = [f(x), 30.0 * x * x * (1.0 - x) * (1.0 - x), 60.0 * x * (1.0 - x) * (1.0 - 2.0 * x)];
                 for (found, known) in [s, v, a].iter().zip(known) {
                     assert!((found - known).abs() < 1e-10, "{ends:?} at {x}: {found} {known}");

@@ -24,7 +24,7 @@ fn moving(velocity: f64) -> SegmentEnd {
 }
 
 fn values(curve: &LawCurve, x: f64) -> Values {
-    curve.at(curve.part_of(x), x)
+    curve.values_at(curve.part_of(x), x)
 }
 
 #[track_caller]
@@ -48,7 +48,7 @@ fn sizes(curve: &LawCurve) -> Values {
     for part in 0..curve.parts() {
         let (low, high) = curve.range_of(part);
         for i in 0..=64 {
-            let at = curve.at(part, low + (high - low) * f64::from(i) / 64.0);
+            let at = curve.values_at(part, low + (high - low) * f64::from(i) / 64.0);
             for (size, value) in sizes.iter_mut().zip(at) {
                 *size = f64::max(*size, value.abs());
             }
@@ -117,7 +117,7 @@ fn every_law_keeps_the_contract() {
     for law in LAWS {
         let curve = solved(law.name, &usual(law));
         let last = curve.parts() - 1;
-        let (start, end) = (curve.at(0, 0.0), curve.at(last, 1.0));
+        let (start, end) = (curve.values_at(0, 0.0), curve.values_at(last, 1.0));
         assert!(start[0] == 0.0 && end[0] == 1.0, "{}: {start:?} {end:?}", law.name);
         let peak = |order: u32| size_of(&curve, order);
         if law.serves_rests() {
@@ -246,7 +246,7 @@ fn known_values() {
     for (found, wanted) in values(&double, 0.15).into_iter().zip(wanted) {
         near(found, wanted, 1e-13);
     }
-    near(double.at(0, 1.0)[2], -PI * PI, 1e-14);
+    near(double.values_at(0, 1.0)[2], -PI * PI, 1e-14);
     let mirrored = solved("double-harmonic", &LawTask::between(SegmentEnd::Turn, SegmentEnd::Rest));
     near(values(&mirrored, 0.85)[0], 1.0 - wanted[0], 1e-15);
     for (name, peaks) in [("s-curve", [2.0, 16.0 / 3.0, 128.0 / 3.0]), ("constant-jerk", [2.0, 8.0, 32.0])] {
@@ -291,7 +291,7 @@ fn known_values_with_an_inflection_and_moving_ends() {
     let inflection = curve.inflection().expect("of two halves");
     near(inflection, 2.0 / (2.0 + 3.0_f64.sqrt()), 1e-15);
     near(values(&curve, inflection)[1], 1.666_631_626_593_466, 1e-14);
-    near(curve.at(curve.parts() - 1, 1.0)[2], -5.640_874_221_901_089, 1e-14);
+    near(curve.values_at(curve.parts() - 1, 1.0)[2], -5.640_874_221_901_089, 1e-14);
     assert!(!jumps(&curve, 2, 3) && jumps(&curve, 2, 5), "the jerk is continuous");
     let wanted = [0.209_180_792_563_121_2, 1.185_410_196_624_968, 3.585_398_597_689_867];
     at(&LawTask::between(moving(0.4), moving(0.4)), "cycloidal", 0.3, wanted);
@@ -302,12 +302,12 @@ fn known_values_with_an_inflection_and_moving_ends() {
 fn an_inflection_matches_the_acceleration_at_a_turn() {
     let up = solved("modified-sine", &LawTask::between(SegmentEnd::Rest, SegmentEnd::Turn));
     let (rise, fall) = (100.0_f64.to_radians(), 140.0_f64.to_radians());
-    let at_turn = 30.0 * up.at(up.parts() - 1, 1.0)[2] / (rise * rise);
+    let at_turn = 30.0 * up.values_at(up.parts() - 1, 1.0)[2] / (rise * rise);
     near(at_turn, -55.553_693_145_823_35, 1e-13);
     let inflection = Inflection::Match { acceleration: at_turn * fall * fall / -30.0 };
     let down = solved("modified-sine", &LawTask { inflection, ..LawTask::between(SegmentEnd::Turn, SegmentEnd::Rest) });
     near(down.inflection().expect("of two halves"), 0.242_903_536_761_422_9, 1e-14);
-    near(-30.0 * down.at(0, 0.0)[2] / (fall * fall), at_turn, 1e-12);
+    near(-30.0 * down.values_at(0, 0.0)[2] / (fall * fall), at_turn, 1e-12);
     let too_slow = LawTask {
         inflection: Inflection::Match { acceleration: -0.1 },
         ..LawTask::between(SegmentEnd::Rest, SegmentEnd::Turn)
@@ -337,7 +337,7 @@ fn a_polynomial_keeps_given_conditions() {
         }
         assert_eq!(curve.derivative(0, 0.3, u32::try_from(n + m).expect("few")), 0.0);
     }
-    assert_eq!(polynomial::hermite(&[], &[1.0]).at(0, 1.0)[0], 1.0);
+    assert_eq!(polynomial::hermite(&[], &[1.0]).values_at(0, 1.0)[0], 1.0);
 }
 
 /// Numbers in [0, 1) that repeat: Weyl's sequence of the golden ratio.
@@ -373,7 +373,7 @@ fn random_tasks_are_kept() {
         (solved, turned) = (solved + 1, turned + u32::from(task.to == SegmentEnd::Turn));
         let about = format!("{} {task:?}", law.name);
         let (last, sizes) = (curve.parts() - 1, sizes(&curve));
-        let ends = [(curve.at(0, 0.0), 0.0, task.from), (curve.at(last, 1.0), 1.0, task.to)];
+        let ends = [(curve.values_at(0, 0.0), 0.0, task.from), (curve.values_at(last, 1.0), 1.0, task.to)];
         for ([s, velocity, acceleration, _], value, end) in ends {
             assert_eq!(s, value, "{about}");
             assert!((velocity - end.velocity()).abs() <= 1e-14 * sizes[1], "{about}: {velocity}");
@@ -381,7 +381,7 @@ fn random_tasks_are_kept() {
             assert!(free || acceleration.abs() <= 1e-13 * sizes[2], "{about}: {acceleration}");
         }
         for (part, joint) in (1..=last).zip(curve.joints()) {
-            let (left, right) = (curve.at(part - 1, *joint), curve.at(part, *joint));
+            let (left, right) = (curve.values_at(part - 1, *joint), curve.values_at(part, *joint));
             let orders = if law.continuity < 2 { 2 } else { 3 };
             for order in 0..orders {
                 assert!(

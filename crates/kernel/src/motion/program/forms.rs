@@ -90,7 +90,7 @@ impl<'r> MotionForm<'r> {
         whole: ProgramContext,
         (start, lobes): (f64, u32),
     ) -> Option<Program> {
-        let unit = StartUnit::of(table, whole)?;
+        let unit = StartUnit::read(table, whole)?;
         let (name, (curve, first), at) = match self {
             Self::Formula => ("formula", formula(table, &unit, whole)?, whole.at),
             Self::Fourier(fourier) => ("fourier", series(fourier, &unit)?, whole.at),
@@ -164,7 +164,7 @@ struct StartUnit {
 }
 
 impl StartUnit {
-    fn of(table: &TableReader<'_>, whole: ProgramContext) -> Option<Self> {
+    fn read(table: &TableReader<'_>, whole: ProgramContext) -> Option<Self> {
         let typed = table.typed(&START);
         if let Some((arc, quantity)) = whole.arc.zip(units::parse(&typed, Dimension::Length).ok()) {
             let (symbol, size) = quantity.unit();
@@ -188,7 +188,7 @@ type OffsetCurve = (LawCurve, f64);
 fn formula(table: &TableReader<'_>, unit: &StartUnit, whole: ProgramContext) -> Option<OffsetCurve> {
     let (variable, fill) = if whole.by_travel { ("x", whole.fill / unit.size) } else { ("th", whole.fill) };
     let (formula, scan) = parse_formula(table, &FORMULA, variable, fill)?;
-    let (first, last) = (formula.at(0.0)[0], formula.at(fill)[0]);
+    let (first, last) = (formula.values_at(0.0)[0], formula.values_at(fill)[0]);
     if !whole.by_travel && (last - first).abs() > SAME_PLACE * (scan.range.1 - scan.range.0) {
         let (off, turn) = (unit.shown((last - first) * unit.size), whole.fill.to_degrees());
         let message = format!("the formula does not end where it begins: over {turn} deg the position grows by {off}");
@@ -341,7 +341,7 @@ pub(super) fn formula_curve(segment: &TableReader<'_>) -> Option<LawCurve> {
         return None;
     }
     let (formula, scan) = parse_formula(segment, &SHAPE, "x", 1.0)?;
-    let ends = [formula.at(0.0)[0], formula.at(1.0)[0]];
+    let ends = [formula.values_at(0.0)[0], formula.values_at(1.0)[0]];
     for (end, (found, wanted)) in ends.into_iter().zip([0.0, 1.0]).enumerate() {
         if (found - wanted).abs() > SAME_PLACE {
             let message = format!("the formula gives {found} at x = {end} instead of {wanted}");

@@ -39,7 +39,7 @@ fn given(state: &EndState) -> NodeConstraint {
 
 impl SegmentNodes {
     /// The nodes of a segment, between a state at its start and one at its end.
-    fn of(step: &SegmentSpec, (joined, first, from): (bool, usize, f64), ends: [NodeConstraint; 2]) -> Self {
+    fn new(step: &SegmentSpec, (joined, first, from): (bool, usize, f64), ends: [NodeConstraint; 2]) -> Self {
         let rows = if let Mover::Spline(rows) = &step.mover { Some(rows) } else { None };
         let inner: &[RingNode] = rows.map_or(&[], |rows| &rows.points);
         let nodes: Vec<RingNode> =
@@ -112,7 +112,7 @@ pub(super) fn solve(start: f64, steps: &[SegmentSpec]) -> Result<JoinedSegments,
     for (index, step) in steps.iter().enumerate() {
         let (begin, joined) = (before(steps, index), is_joined(steps, index));
         let begin = given(&if step.free_start { begin.without_acceleration() } else { begin });
-        let segment = SegmentNodes::of(step, (joined, first, from), [begin, given(&step.end)]);
+        let segment = SegmentNodes::new(step, (joined, first, from), [begin, given(&step.end)]);
         intervals.extend(segment.intervals(step));
         all_given.push(begin);
         all_given.extend(segment.inner_given());

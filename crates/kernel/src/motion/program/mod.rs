@@ -399,8 +399,8 @@ impl Program {
         };
         let mut program = Self { stroke, ..Self::empty(quantity, lobes) };
         let width = stroke.unwrap_or(TAU / f64::from(lobes));
-        let (peaks, last) = (curve.peaks(), curve.at(curve.parts().saturating_sub(1), 1.0));
-        let [first, end] = [curve.at(0, 0.0), last].map(|[_, velocity, acceleration, _]| {
+        let (peaks, last) = (curve.peaks(), curve.values_at(curve.parts().saturating_sub(1), 1.0));
+        let [first, end] = [curve.values_at(0, 0.0), last].map(|[_, velocity, acceleration, _]| {
             let [velocity, acceleration] = [(velocity, peaks.velocity.value), (acceleration, peaks.acceleration.value)]
                 .map(|(value, peak)| if value.abs() > ROUNDING * peak { value } else { 0.0 });
             EndState { velocity: velocity / width, acceleration: acceleration / (width * width), ..EndState::default() }
@@ -537,7 +537,7 @@ impl Program {
         let x = ((angle - segment.start) / segment.width).clamp(0.0, 1.0);
         // At a joint between pieces rounding may lead to the neighbour, which has another jerk.
         let part = curve.part_within(x, &source.parts);
-        let [s, ds, dds, ddds] = curve.at(part, x);
+        let [s, ds, dds, ddds] = curve.values_at(part, x);
         let shape = Jet { s, ds, dds, ddds }.by_angle_times(segment.width).scaled(segment.travel);
         Jet { s: segment.from + shape.s, ..shape }
     }

@@ -84,12 +84,12 @@ fn loaded(segment: &ProgramSegment, load: Polydyne) -> ProgramSegment {
     let curve = curve.loaded(2.0 * load.damping * ratio / width, ratio * ratio / (width * width));
     let (peaks, last) = (curve.peaks(), curve.parts().saturating_sub(1));
     let ends = [(0, 0.0), (last, 1.0)].map(|(part, x)| {
-        let [_, velocity, acceleration, _] = curve.at(part, x);
+        let [_, velocity, acceleration, _] = curve.values_at(part, x);
         let [velocity, acceleration] = [(velocity, peaks.velocity.value), (acceleration, peaks.acceleration.value)]
             .map(|(value, peak)| if value.abs() > ROUNDING * peak { value * segment.travel } else { 0.0 });
         EndState { velocity: velocity / width, acceleration: acceleration / (width * width), ..EndState::default() }
     });
-    let to = segment.from + segment.travel * curve.at(last, 1.0)[0];
+    let to = segment.from + segment.travel * curve.values_at(last, 1.0)[0];
     let to = if segment.whole { segment.from } else { to };
     ProgramSegment { curve: Some(curve), ends, to, ..segment.clone() }
 }

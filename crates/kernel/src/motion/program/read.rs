@@ -386,7 +386,7 @@ fn line_end(segment: &TableReader<'_>, velocity: f64, given: Option<f64>) -> Opt
 
 /// Velocity and acceleration at the end of a curve, without rounding.
 fn own_end(curve: &laws::LawCurve) -> [f64; 2] {
-    let (last, peaks) = (curve.at(curve.parts().saturating_sub(1), 1.0), curve.peaks());
+    let (last, peaks) = (curve.values_at(curve.parts().saturating_sub(1), 1.0), curve.peaks());
     let sizes = [(last[1], peaks.velocity.value), (last[2], peaks.acceleration.value)];
     // For a straight line even the peak of the acceleration is rounding.
     sizes.map(|(value, size)| if value.abs() > super::ROUNDING * size.max(1.0) { value } else { 0.0 })

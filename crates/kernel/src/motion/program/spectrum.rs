@@ -39,7 +39,7 @@ fn on_unit_circle(angle: f64) -> Complex<f64> {
 
 impl Accelerations {
     /// The accelerations of segments in their order, each with the angle by which it is shifted; they begin and end with these velocities.
-    fn of<'s>(segments: impl Iterator<Item = (&'s ProgramSegment, f64)>, before: f64, behind: f64) -> Self {
+    fn new<'s>(segments: impl Iterator<Item = (&'s ProgramSegment, f64)>, before: f64, behind: f64) -> Self {
         let (mut moves, mut jumps, mut velocity, mut end) = (Vec::new(), Vec::new(), before, 0.0);
         for (segment, shift) in segments {
             let start = segment.start + shift;
@@ -70,7 +70,7 @@ fn end_velocities(segment: &ProgramSegment) -> [f64; 2] {
     let Some(curve) = &segment.curve else { return [0.0; 2] };
     let scale = segment.travel / segment.width;
     [(0, 0.0), (curve.parts().saturating_sub(1), 1.0)].map(|(part, x)| {
-        let [_, velocity, ..] = curve.at(part, x);
+        let [_, velocity, ..] = curve.values_at(part, x);
         scale * velocity
     })
 }
@@ -111,7 +111,7 @@ impl Program {
     #[must_use]
     pub fn harmonics(&self, count: u32) -> Harmonics {
         let last = self.segments.last().map_or(0.0, |segment| end_velocities(segment)[1]);
-        let all = Accelerations::of(self.segments.iter().map(|segment| (segment, 0.0)), last, last);
+        let all = Accelerations::new(self.segments.iter().map(|segment| (segment, 0.0)), last, last);
         Harmonics {
             mean: self.mean() - self.lowest,
             waves: (1..=count)
@@ -139,7 +139,11 @@ impl Program {
                         + segment.travel
                             * (0..curve.parts())
                                 .map(|index| {
-                                    quadrature::integrate(|x| curve.at(index, x)[0], curve.range_of(index), PANELS)
+                                    quadrature::integrate(
+                                        |x| curve.values_at(index, x)[0],
+                                        curve.range_of(index),
+                                        PANELS,
+                                    )
                                 })
                                 .sum::<f64>())
             })
@@ -161,7 +165,7 @@ impl Program {
         let moving = all.split(|(segment, _)| segment.curve.is_none()).filter(|run| !run.is_empty());
         let movements = moving.filter_map(|run| {
             let ((begin, shift), (end, last_shift)) = (run.first()?, run.last()?);
-            let accelerations = Accelerations::of(run.iter().map(|(s, by)| (*s, by - shift)), 0.0, 0.0);
+            let accelerations = Accelerations::new(run.iter().map(|(s, by)| (*s, by - shift)), 0.0, 0.0);
             let angles = (begin.start, end.start + end.width + (last_shift - shift));
             let ranges = run.iter().map(|(segment, _)| super::summary::range(segment));
             let (low, top) =

@@ -19,7 +19,7 @@ pub enum EndClass {
 }
 
 impl EndClass {
-    fn of(state: &EndState) -> Self {
+    fn from_state(state: &EndState) -> Self {
         match (state.turns, state.velocity == 0.0, state.acceleration == 0.0) {
             (true, ..) | (_, true, false) => Self::Turn,
             (false, true, true) => Self::Rest,
@@ -94,7 +94,7 @@ pub(super) fn range(segment: &super::ProgramSegment) -> (f64, f64) {
     let ranges = (0..curve.parts()).map(|part| {
         let [top, low] = extremum::largest_of_both_signs(
             |x| {
-                let [value, slope, bend, _] = curve.at(part, x).map(|value| segment.travel * value);
+                let [value, slope, bend, _] = curve.values_at(part, x).map(|value| segment.travel * value);
                 [segment.from + value, slope, bend]
             },
             curve.range_of(part),
@@ -111,7 +111,7 @@ fn summary(segment: &super::ProgramSegment) -> SegmentSummary {
     let positions = (segment.from, if segment.curve.is_some() { segment.to } else { segment.from });
     let rest = SegmentSummary {
         law: segment.name,
-        classes: [EndClass::of(begin), EndClass::of(end)],
+        classes: [EndClass::from_state(begin), EndClass::from_state(end)],
         angles,
         positions,
         overshoot: 0.0,

@@ -39,11 +39,11 @@ pub enum ElementaryFunction {
 impl ElementaryFunction {
     /// Writes the coefficients of the function of a series from an index on; those before it are left unchanged.
     pub(super) fn extend(self, a: &[f64], out: &mut [f64], from: usize) {
-        let first = at(a, 0);
+        let first = coefficient(a, 0);
         let mut other = vec![0.0; if matches!(self, Self::Sine | Self::Cosine) { out.len() } else { 0 }];
         match self {
-            Self::Scaled(factor) => fill(out, from, |n, _| factor * at(a, n)),
-            Self::Root => fill(out, from, |n, own| root(at(a, n), own)),
+            Self::Scaled(factor) => fill(out, from, |n, _| factor * coefficient(a, n)),
+            Self::Root => fill(out, from, |n, own| root(coefficient(a, n), own)),
             Self::Sine => sine_cosine(a, out, &mut other),
             Self::Cosine => sine_cosine(a, &mut other, out),
             // (tan a)' = (1 + tan² a) a'.
@@ -65,23 +65,23 @@ impl ElementaryFunction {
                 n => power_of_complement(
                     exponent,
                     n,
-                    |k| at(a, k),
-                    |k| if k == 0 { 1.0 + at(own, 0) } else { at(own, k) },
+                    |k| coefficient(a, k),
+                    |k| if k == 0 { 1.0 + coefficient(own, 0) } else { coefficient(own, k) },
                 ),
             }),
             Self::PowerLessOneOverAbscissa(exponent) => fill(out, from, |n, own| {
                 power_of_complement(
                     exponent,
                     n + 1,
-                    |k| k.checked_sub(1).map_or(0.0, |k| at(a, k)),
-                    |k| k.checked_sub(1).map_or(1.0, |k| at(own, k)),
+                    |k| k.checked_sub(1).map_or(0.0, |k| coefficient(a, k)),
+                    |k| k.checked_sub(1).map_or(1.0, |k| coefficient(own, k)),
                 )
             }),
         }
     }
 }
 
-pub(super) fn at(series: &[f64], n: usize) -> f64 {
+pub(super) fn coefficient(series: &[f64], n: usize) -> f64 {
     series.get(n).copied().unwrap_or(0.0)
 }
 
@@ -98,19 +98,19 @@ pub(super) fn fill(out: &mut [f64], from: usize, coefficient: impl Fn(usize, &[f
 /// a/b.
 pub(super) fn quotient(a: &[f64], b: &[f64], out: &mut [f64], from: usize) {
     let (first, inner) = b.split_first().unwrap_or((&0.0, &[]));
-    fill(out, from, |n, own| (at(a, n) - convolved(inner.get(..n).unwrap_or_default(), own)) / first);
+    fill(out, from, |n, own| (coefficient(a, n) - convolved(inner.get(..n).unwrap_or_default(), own)) / first);
 }
 
 /// Σ k aₖ bₙ₋ₖ over k from 1 to n, or as far as `a` goes.
 fn chained(a: &[f64], b: &[f64], n: usize) -> f64 {
-    (1..a.len().min(n + 1)).map(|k| number(k) * at(a, k) * at(b, n - k)).sum()
+    (1..a.len().min(n + 1)).map(|k| number(k) * coefficient(a, k) * coefficient(b, n - k)).sum()
 }
 
 /// sin a and cos a.
 fn sine_cosine(a: &[f64], sine: &mut [f64], cosine: &mut [f64]) {
     for n in 0..sine.len().min(cosine.len()) {
         let (s, c) = match n {
-            0 => libm::sincos(at(a, 0)),
+            0 => libm::sincos(coefficient(a, 0)),
             n => (chained(a, cosine, n) / number(n), -chained(a, sine, n) / number(n)),
         };
         if let (Some(sine), Some(cosine)) = (sine.get_mut(n), cosine.get_mut(n)) {
@@ -123,7 +123,7 @@ fn sine_cosine(a: &[f64], sine: &mut [f64], cosine: &mut [f64]) {
 fn integral(value: f64, (a, sign): (&[f64], f64), b: &[f64], out: &mut [f64], from: usize) {
     fill(out, from, |n, own| match n {
         0 => value,
-        n => (sign * at(a, n) - chained(own, b, n) / number(n)) / at(b, 0),
+        n => (sign * coefficient(a, n) - chained(own, b, n) / number(n)) / coefficient(b, 0),
     });
 }
 
@@ -137,7 +137,7 @@ fn root_of_complement(a: &[f64], count: usize) -> Vec<f64> {
     let (mut square, mut root) = (one_and_square(-1.0, a, count), vec![0.0; count]);
     // (1 − a)(1 + a) keeps the digits of 1 − a² near a = ±1.
     if let Some(first) = square.first_mut() {
-        *first = (1.0 - at(a, 0)) * (1.0 + at(a, 0));
+        *first = (1.0 - coefficient(a, 0)) * (1.0 + coefficient(a, 0));
     }
     power(&square, 0.5, &mut root, 0);
     root
@@ -145,7 +145,7 @@ fn root_of_complement(a: &[f64], count: usize) -> Vec<f64> {
 
 /// n a₀ yₙ = Σ ((p + 1) k − n) aₖ yₙ₋ₖ.
 fn power(a: &[f64], exponent: f64, out: &mut [f64], from: usize) {
-    let first = at(a, 0);
+    let first = coefficient(a, 0);
     if first == 0.0 {
         let lowest = a.iter().position(|coefficient| *coefficient != 0.0).unwrap_or(a.len());
         let begins = exponent * number(lowest);
@@ -155,7 +155,9 @@ fn power(a: &[f64], exponent: f64, out: &mut [f64], from: usize) {
         0 if exponent == 0.5 => first.sqrt(),
         0 => libm::pow(first, exponent),
         n => {
-            (1..=n).map(|k| ((exponent + 1.0) * number(k) - number(n)) * at(a, k) * at(own, n - k)).sum::<f64>()
+            (1..=n)
+                .map(|k| ((exponent + 1.0) * number(k) - number(n)) * coefficient(a, k) * coefficient(own, n - k))
+                .sum::<f64>()
                 / (number(n) * first)
         }
     });

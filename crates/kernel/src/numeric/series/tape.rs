@@ -2,7 +2,7 @@
 
 pub use super::functions::ElementaryFunction;
 
-use super::functions::{at, fill, quotient};
+use super::functions::{coefficient, fill, quotient};
 use super::product;
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Range, Sub};
@@ -107,7 +107,7 @@ impl TapeNumber<'_> {
 
     /// A function of it.
     #[must_use]
-    pub fn of(self, function: ElementaryFunction) -> Self {
+    pub fn apply(self, function: ElementaryFunction) -> Self {
         self.push(TapeOperation::Of(function, self.term))
     }
 }
@@ -135,7 +135,7 @@ impl Add<f64> for TapeNumber<'_> {
 impl Mul<f64> for TapeNumber<'_> {
     type Output = Self;
     fn mul(self, factor: f64) -> Self {
-        self.of(ElementaryFunction::Scaled(factor))
+        self.apply(ElementaryFunction::Scaled(factor))
     }
 }
 
@@ -165,8 +165,10 @@ impl<'t> SeriesRows<'t> {
                 TapeOperation::Constant(value) => fill(out, from, |n, _| if n == 0 { value } else { 0.0 }),
                 TapeOperation::Abscissa => fill(out, from, |n, _| [self.place, 1.0].get(n).copied().unwrap_or(0.0)),
                 TapeOperation::State => fill(out, from, |_, _| state),
-                TapeOperation::Sum(a, b) => fill(out, from, |n, _| at(row(a), n) + at(row(b), n)),
-                TapeOperation::Difference(a, b) => fill(out, from, |n, _| at(row(a), n) - at(row(b), n)),
+                TapeOperation::Sum(a, b) => fill(out, from, |n, _| coefficient(row(a), n) + coefficient(row(b), n)),
+                TapeOperation::Difference(a, b) => {
+                    fill(out, from, |n, _| coefficient(row(a), n) - coefficient(row(b), n))
+                }
                 TapeOperation::Product(a, b) => fill(out, from, |n, _| product(row(a), row(b), n)),
                 TapeOperation::Quotient(a, b) => quotient(row(a), row(b), out, from),
                 TapeOperation::Of(function, a) => function.extend(row(a), out, from),
@@ -182,14 +184,14 @@ impl<'t> SeriesRows<'t> {
 
     /// The series of an operation.
     #[must_use]
-    pub fn of(&self, term: TapeTerm) -> &[f64] {
+    pub fn series(&self, term: TapeTerm) -> &[f64] {
         self.all.get(term.0 * self.count..(term.0 + 1) * self.count).unwrap_or_default()
     }
 
     /// The series of the function.
     #[must_use]
     pub fn result(&self) -> &[f64] {
-        self.tape.result.map_or(&[], |term| self.of(term))
+        self.tape.result.map_or(&[], |term| self.series(term))
     }
 
     /// The series of all operations, in their order.

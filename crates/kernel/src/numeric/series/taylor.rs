@@ -63,7 +63,7 @@ impl Tape {
 impl TaylorExpansion {
     /// Value and first three derivatives.
     #[must_use]
-    pub fn at(&self, x: f64) -> [f64; 4] {
+    pub fn values_at(&self, x: f64) -> [f64; 4] {
         let t = x - self.centre;
         let (mut value, mut first, mut second, mut third) = (0.0, 0.0, 0.0, 0.0);
         for coefficient in self.coefficients.iter().rev() {

@@ -58,36 +58,39 @@ fn identities_hold_to_the_sixth_order() {
     };
     let itself = of_t(polynomial);
     for functions in [[Sine, ArcSine], [Cosine, ArcCosine], [Tangent, ArcTangent], [Exponential, Logarithm]] {
-        near(&of_t(|t| functions.into_iter().fold(polynomial(t), TapeNumber::of)), &itself, 1e-13);
+        near(&of_t(|t| functions.into_iter().fold(polynomial(t), TapeNumber::apply)), &itself, 1e-13);
     }
     let same = |one: Vec<f64>, other: Vec<f64>| near(&one, &other, 1e-13);
-    same(of_t(|t| polynomial(t).of(Sine) / polynomial(t).of(Cosine)), of_t(|t| polynomial(t).of(Tangent)));
-    same(of_t(|t| polynomial(t).of(Power(2.5))), of_t(|t| polynomial(t).of(Logarithm).of(Scaled(2.5)).of(Exponential)));
+    same(of_t(|t| polynomial(t).apply(Sine) / polynomial(t).apply(Cosine)), of_t(|t| polynomial(t).apply(Tangent)));
+    same(
+        of_t(|t| polynomial(t).apply(Power(2.5))),
+        of_t(|t| polynomial(t).apply(Logarithm).apply(Scaled(2.5)).apply(Exponential)),
+    );
     for root in [Root, Power(0.5)] {
-        same(of_t(|t| polynomial(t).of(root) * polynomial(t).of(root)), itself.clone());
+        same(of_t(|t| polynomial(t).apply(root) * polynomial(t).apply(root)), itself.clone());
     }
-    let power = of_t(|t| (polynomial(t) * -1.0 + 1.0).of(Power(-1.35)) + -1.0);
-    same(of_t(|t| polynomial(t).of(PowerLessOne(1.35))), power);
+    let power = of_t(|t| (polynomial(t) * -1.0 + 1.0).apply(Power(-1.35)) + -1.0);
+    same(of_t(|t| polynomial(t).apply(PowerLessOne(1.35))), power);
     // a t under the power, and over t again.
-    let over = of_t(|t| polynomial(t).of(ElementaryFunction::PowerLessOneOverAbscissa(1.35)));
-    near(&of_t(|t| (polynomial(t) * t).of(PowerLessOne(1.35)))[1..], &over[..6], 1e-13);
+    let over = of_t(|t| polynomial(t).apply(ElementaryFunction::PowerLessOneOverAbscissa(1.35)));
+    near(&of_t(|t| (polynomial(t) * t).apply(PowerLessOne(1.35)))[1..], &over[..6], 1e-13);
 }
 
 /// e^t, sin t, ln(1 + t), arctan t, √(1 + t) by their textbook series.
 #[test]
 fn series_are_those_of_textbooks() {
-    let of = |function| of_t(|t| t.of(function));
+    let of = |function| of_t(|t| t.apply(function));
     let exponential = [1.0, 1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0];
     near(&of(ElementaryFunction::Exponential), &exponential, 1e-13);
     near(
-        &of_t(|t| (t + 1.0).of(ElementaryFunction::Logarithm)),
+        &of_t(|t| (t + 1.0).apply(ElementaryFunction::Logarithm)),
         &[0.0, 1.0, -0.5, 1.0 / 3.0, -0.25, 0.2, -1.0 / 6.0],
         1e-13,
     );
     near(&of(ElementaryFunction::ArcTangent), &[0.0, 1.0, 0.0, -1.0 / 3.0, 0.0, 0.2, 0.0], 1e-13);
     near(&of(ElementaryFunction::Tangent), &[0.0, 1.0, 0.0, 1.0 / 3.0, 0.0, 2.0 / 15.0, 0.0], 1e-13);
     near(&of(ElementaryFunction::ArcSine), &[0.0, 1.0, 0.0, 1.0 / 6.0, 0.0, 3.0 / 40.0, 0.0], 1e-13);
-    near(&of_t(|t| (t + 1.0).of(ElementaryFunction::Power(0.5))), &[1.0, 0.5, -0.125, 0.0625, -5.0 / 128.0], 1e-13);
+    near(&of_t(|t| (t + 1.0).apply(ElementaryFunction::Power(0.5))), &[1.0, 0.5, -0.125, 0.0625, -5.0 / 128.0], 1e-13);
     // t^2.5 is 0 with its first two derivatives, and its third has no bound.
     assert_eq!(of(ElementaryFunction::Power(2.5))[..5], [0.0, 0.0, 0.0, f64::INFINITY, f64::INFINITY]);
 }
@@ -101,9 +104,10 @@ fn solutions_are_known_ones() {
         factorial *= number(n.max(1));
         assert!((coefficient * factorial - 1.0).abs() < 1e-15, "{n}");
     }
-    let sine = Tape::recorded(|_, y| (y * y * -1.0 + 1.0).of(ElementaryFunction::Root)).expand(0.3, libm::sin(0.3), 20);
+    let sine =
+        Tape::recorded(|_, y| (y * y * -1.0 + 1.0).apply(ElementaryFunction::Root)).expand(0.3, libm::sin(0.3), 20);
     let (sin, cos) = (libm::sin(0.45), libm::cos(0.45));
-    near(&sine.at(0.45), &[sin, cos, -sin, -cos], 1e-12);
+    near(&sine.values_at(0.45), &[sin, cos, -sin, -cos], 1e-12);
     let line = Tape::recorded(|x, y| y / x).expand(2.0, 3.0, 6);
     assert!(line.coefficients.iter().skip(2).all(|c| c.abs() < 1e-15), "{line:?}");
     assert!((line.value(5.0) - 7.5).abs() < 1e-14);
@@ -111,7 +115,7 @@ fn solutions_are_known_ones() {
 
 #[test]
 fn a_power_keeps_the_digits_of_a_small_argument() {
-    let tape = Tape::recorded(|x, _| x.of(ElementaryFunction::PowerLessOne(1.35)));
+    let tape = Tape::recorded(|x, _| x.apply(ElementaryFunction::PowerLessOne(1.35)));
     assert!((tape.value(1e-12, 0.0) / 1.35e-12 - 1.0).abs() < 2e-12);
     // ∫ ((1 − x)^−1.35 − 1) dx = ((1 − x)^−0.35 − 1)/0.35 − x.
     let got = tape.expand(0.1, 0.0, 24).value(0.2);
@@ -123,17 +127,17 @@ fn a_power_keeps_the_digits_of_a_small_argument() {
 #[test]
 fn a_removable_singularity_is_started_from() {
     let start =
-        Tape::recorded(|x, w| x.constant(1.0) / (w + 1.0).of(ElementaryFunction::PowerLessOneOverAbscissa(1.35)));
+        Tape::recorded(|x, w| x.constant(1.0) / (w + 1.0).apply(ElementaryFunction::PowerLessOneOverAbscissa(1.35)));
     // w = 1/(1.35 (1 + w)).
     let slope = 0.5 * (-1.0 + (1.0_f64 + 4.0 / 1.35).sqrt());
     assert!((start.value(0.0, slope) - slope).abs() < 1e-15);
     let first = start.expand_from_origin(slope, 24);
-    let tape = Tape::recorded(|x, y| x / (x + y).of(ElementaryFunction::PowerLessOne(1.35)));
+    let tape = Tape::recorded(|x, y| x / (x + y).apply(ElementaryFunction::PowerLessOne(1.35)));
     let mut y = first.value(0.02);
     for step in 0..3 {
         let x = 0.02 + 0.01 * f64::from(step);
         assert!((first.value(x) - y).abs() < 1e-15, "{x}");
-        assert!((first.at(x)[1] - tape.value(x, y)).abs() < 1e-13);
+        assert!((first.values_at(x)[1] - tape.value(x, y)).abs() < 1e-13);
         y = tape.expand(x, y, 24).value(x + 0.01);
     }
 }

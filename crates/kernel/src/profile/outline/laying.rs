@@ -360,7 +360,7 @@ pub fn allowed(frame: &CurvePoint, along_normal: f64, pace: f64, motion: MotionT
         return ChainTolerance::ANY;
     }
     let (lift, speed) = (MILLIMETRES * along_normal.max(LEAST_COSINE), frame.speed.abs() * pace);
-    ChainTolerance::of(motion.velocity * lift / speed, motion.acceleration * lift / (speed * speed))
+    ChainTolerance::symmetric(motion.velocity * lift / speed, motion.acceleration * lift / (speed * speed))
 }
 
 /// The number of arcs that an allowed error of the acceleration requires, where it is more than an outline may have.

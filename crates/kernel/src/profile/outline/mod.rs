@@ -381,8 +381,8 @@ pub fn pitch_within(curves: Curves<'_>, tolerance: f64) -> Result<Outline, Outli
 
 /// The angle by which a parallel turns from before a loop to after it, rad.
 fn turn_over(parallel: Parallel<'_>, from: f64, to: f64) -> f64 {
-    let before = parallel.at(from, BreakSide::Before).tangent;
-    let after = parallel.at(to, BreakSide::After).tangent;
+    let before = parallel.point_at(from, BreakSide::Before).tangent;
+    let after = parallel.point_at(to, BreakSide::After).tangent;
     libm::atan2(before.perp(&after), before.dot(&after))
 }
 

@@ -191,7 +191,7 @@ fn deviation(exact: &ExactFlank<'_>, stretch: AngleStretch, patch: &SplineSurfac
     let (angles, places) = (joints(&patch.u), joints(&patch.v));
     let off = |lifts: &AllStrips, u: f64, v: f64| {
         let (point, _, normal) = exact.at(lifts, u, v);
-        let [found, ..] = patch.at(u, v);
+        let [found, ..] = patch.point_and_slopes(u, v);
         (found.xy() - point).dot(&normal).abs()
     };
     let over = |angles: &[f64], places: &[f64]| {
@@ -224,7 +224,7 @@ fn volume(patch: &SplineSurface) -> f64 {
         for (v, height) in spans(&patch.v) {
             for (a, wa) in GAUSS {
                 for (b, wb) in GAUSS {
-                    let [p, d, _] = patch.at(u + a * width, v + b * height);
+                    let [p, d, _] = patch.point_and_slopes(u + a * width, v + b * height);
                     volume += 0.5 * (p.x * d.y - p.y * d.x) * wa * wb * width * height;
                 }
             }

@@ -141,7 +141,7 @@ impl Conoid {
         let (state, lift) = (section.state(piece, angle), self.lift_of(lifts, z));
         let contact = self.contact_of(&lift, angle, z);
         let jet = Jet { s: lift[0][0], ds: lift[1][0], dds: lift[2][0], ddds: lift[3][0] };
-        let in_plane = Contact::of(&self.follower, angle, jet);
+        let in_plane = Contact::new(&self.follower, angle, jet);
         let cut = self.cut_of(lifts, angle, z).map(|(frame, ..)| frame);
         let force = self.path_force(section, rpm, piece, angle);
         let turned = |point: Vector2<f64>| point_as_turned(&self.machine, point * MILLIMETRES);

@@ -82,7 +82,7 @@ impl<'a> FollowerOnSection<'a> {
     /// The errors at a place of an interval.
     fn off(&self, curve: &Interpolant, interval: usize, place: u32) -> Option<[f64; 2]> {
         let (from, to) = curve.range(interval)?;
-        let point = curve.at(interval, from + (to - from) * f64::from(place) / f64::from(PLACES - 1))?;
+        let point = curve.point_at(interval, from + (to - from) * f64::from(place) / f64::from(PLACES - 1))?;
         let inwards = match place {
             0 => BESIDE,
             place if place + 1 == PLACES => -BESIDE,

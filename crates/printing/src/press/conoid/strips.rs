@@ -96,7 +96,7 @@ pub(super) struct SlopeSeries {
 impl SlopeSeries {
     fn at(&self, piece: usize, section: usize, angle: f64) -> Jet {
         let series = self.pieces.get(piece).and_then(|sections| sections.get(section));
-        let [s, ds, dds, ddds] = series.map_or([f64::NAN; 4], |series| series.at(angle));
+        let [s, ds, dds, ddds] = series.map_or([f64::NAN; 4], |series| series.values_at(angle));
         Jet { s, ds, dds, ddds }
     }
 }

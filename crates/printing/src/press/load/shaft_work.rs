@@ -164,7 +164,7 @@ impl Work for ShaftWork {
         self.reversal.lobes()
     }
 
-    fn at(&self, piece: usize, angle: f64) -> WorkJet {
+    fn work_at(&self, piece: usize, angle: f64) -> WorkJet {
         let Some(Origin { piece, shift, compressed }) = self.origins.get(piece).copied() else {
             return WorkJet::default();
         };
@@ -218,7 +218,7 @@ mod tests {
             for (index, piece) in work.pieces().iter().enumerate() {
                 for i in 1..12 {
                     let angle = piece.start + (piece.end - piece.start) * f64::from(i) / 12.0;
-                    let at = |n: f64| work.at(index, angle + n * h);
+                    let at = |n: f64| work.work_at(index, angle + n * h);
                     let difference = |f: fn(WorkJet) -> f64| {
                         (8.0 * (f(at(1.0)) - f(at(-1.0))) - (f(at(2.0)) - f(at(-2.0)))) / (12.0 * h)
                     };
@@ -245,14 +245,14 @@ mod tests {
             assert!((turn - std::f64::consts::TAU).abs() < 1e-13, "{name}: {turn}");
             for (index, piece) in pieces.iter().enumerate() {
                 let next = (index + 1) % pieces.len();
-                let (before, after) = (work.at(index, piece.end), work.at(next, pieces[next].start));
+                let (before, after) = (work.work_at(index, piece.end), work.work_at(next, pieces[next].start));
                 // A corner of the law without transition jumps in velocity: only its work of air is continuous.
                 let smooth = work.inertia == 0.0 || !name.starts_with("None") && !name.contains("Length");
                 if smooth {
                     assert!((before.energy - after.energy).abs() < 1e-9, "{name}: {before:?} {after:?}");
                 }
                 if piece.dwell {
-                    let middle = work.at(index, 0.5 * (piece.start + piece.end));
+                    let middle = work.work_at(index, 0.5 * (piece.start + piece.end));
                     assert_eq!((middle.torque, middle.torque_slope), (0.0, 0.0), "{name}");
                     assert!((middle.energy - before.energy).abs() < 1e-12, "{name}");
                 }

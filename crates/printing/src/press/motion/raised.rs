@@ -24,7 +24,7 @@ impl RaiseSeries {
     /// Value and first four derivatives at a crank angle of the reversal, rad.
     #[must_use]
     pub fn at(&self, crank: f64) -> [f64; 5] {
-        self.orders.at(crank)
+        self.orders.values_at(crank)
     }
 
     /// As a jet by the crank angle.

@@ -69,9 +69,9 @@ impl Wedge {
         let own = flank_edges.len().saturating_sub(1);
         let first = flank_edges.first().map(Edge::start);
         let flip = |point: Vector2<f64>| Vector2::new(point.x, -point.y);
-        let mut vertices = Contour::of(flank_edges.iter().take(own).copied()).vertices;
+        let mut vertices = Contour::from_edges(flank_edges.iter().take(own).copied()).vertices;
         vertices.extend(last.map(|point| Vertex::new(point, 0.0)));
-        vertices.extend(Contour::of(flank_edges.iter().take(own).rev().map(Edge::mirrored_about_x)).vertices);
+        vertices.extend(Contour::from_edges(flank_edges.iter().take(own).rev().map(Edge::mirrored_about_x)).vertices);
         vertices.extend(first.map(|point| Vertex::new(flip(point), 0.0)));
         Ok(Outline {
             contour: Contour { vertices },

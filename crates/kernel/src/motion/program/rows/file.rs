@@ -164,10 +164,11 @@ fn chosen(table: &TableReader<'_>, file: &Columns, quantity: Quantity) -> Option
         table.fail_in(&TABLE, row, message, Some(help));
         return None;
     }
-    let [first, second] = [0, 1].map(|at| match headings.get(at).and_then(|heading| HeadingUnit::of(heading)) {
-        Some(HeadingUnit::Quantity { dimension, .. }) => Some(dimension),
-        _ => None,
-    });
+    let [first, second] =
+        [0, 1].map(|at| match headings.get(at).and_then(|heading| HeadingUnit::in_heading(heading)) {
+            Some(HeadingUnit::Quantity { dimension, .. }) => Some(dimension),
+            _ => None,
+        });
     let swapped = quantity == Quantity::Length && first == Some(Dimension::Length) && second == Some(Dimension::Angle);
     let (angle, position) = if swapped { (1, 0) } else { (0, 1) };
     has_positions(table, file, position).then_some(Chosen { angle: Some(angle), position })

@@ -98,7 +98,7 @@ impl Rows {
     fn turn(&mut self, table: &TableReader<'_>, fill: f64) -> Option<turn::Turn> {
         let mirrored = table.has(&MIRROR) && table.get(&MIRROR)?;
         let rest = if table.has(&REST) { Some(table.get(&REST)?) } else { None };
-        turn::Turn::of(fill, self, (mirrored, rest)).map_err(|fault| self.report(table, fault)).ok()
+        turn::Turn::new(fill, self, (mirrored, rest)).map_err(|fault| self.report(table, fault)).ok()
     }
 
     /// The first and the last row.
@@ -308,7 +308,7 @@ impl RowWishes {
     /// The curve of least jerk through the rows.
     pub const NATURAL: Self = Self { shape: RowShape::Natural, cubic: false, smooth: None };
 
-    fn of(table: &TableReader<'_>, rows: &Rows, (quantity, arc): (Quantity, f64)) -> Option<Self> {
+    fn read(table: &TableReader<'_>, rows: &Rows, (quantity, arc): (Quantity, f64)) -> Option<Self> {
         let shape = if table.has(&BETWEEN) { table.get(&BETWEEN)? } else { RowShape::Natural };
         let degree = table.get(&DEGREE)?;
         if degree != 3.0 && degree != 5.0 {
@@ -369,7 +369,7 @@ pub(super) fn program(
     (start, lobes): (f64, u32),
     mut rows: Rows,
 ) -> Option<Program> {
-    let wishes = RowWishes::of(table, &rows, whole.typed(table))?;
+    let wishes = RowWishes::read(table, &rows, whole.typed(table))?;
     let turn = rows.turn(table, whole.fill)?.moved(whole.at);
     Some(curve::program(&turn, (start, lobes), whole, &rows, wishes))
 }

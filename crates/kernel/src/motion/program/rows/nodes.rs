@@ -324,7 +324,7 @@ fn beyond(width: f64, (from, to): ([f64; 3], [f64; 3])) -> (f64, f64) {
     let curve = spline::chain(&[0.0, 1.0], &[[y0, v0 * h, a0 * square], [y1, v1 * h, a1 * square]]);
     let [top, bottom] = extremum::largest_of_both_signs(
         |x| {
-            let [value, slope, bend, _] = curve.at(0, x);
+            let [value, slope, bend, _] = curve.values_at(0, x);
             [value, slope, bend]
         },
         (0.0, 1.0),

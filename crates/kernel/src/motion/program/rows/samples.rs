@@ -90,7 +90,7 @@ impl Program {
         let mut rows = rows_of(angles, positions)?;
         let wishes = curve.wishes(rows.rounding)?;
         possible(quantity, positions)?;
-        let turn = Turn::of(TAU, &mut rows, (false, None))?;
+        let turn = Turn::new(TAU, &mut rows, (false, None))?;
         let whole = ProgramContext {
             quantity,
             arc: None,

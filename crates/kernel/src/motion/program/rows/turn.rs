@@ -41,7 +41,7 @@ impl Turn {
     ///
     /// # Errors
     /// The fault of a row.
-    pub(super) fn of(
+    pub(super) fn new(
         fill: f64,
         rows: &mut Rows,
         (mirrored, rest): (bool, Option<RestOfTurn>),

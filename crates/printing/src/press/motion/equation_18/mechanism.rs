@@ -245,7 +245,7 @@ impl Mechanism {
     pub(super) fn tape(&self, side: Trend) -> Tape {
         let law = &self.bottom_law;
         Tape::recorded(|x, y| {
-            let air = ((x + y) * (law.stroke() / law.column())).of(ElementaryFunction::PowerLessOne(law.exponent()));
+            let air = ((x + y) * (law.stroke() / law.column())).apply(ElementaryFunction::PowerLessOne(law.exponent()));
             let decelerated = self.share(x).map_or(x, |share| x * share);
             self.slope(decelerated * (law.loading() * law.stroke()) / air, y, side)
         })
@@ -256,7 +256,7 @@ impl Mechanism {
         let law = &self.bottom_law;
         Tape::recorded(|x, w| {
             let argument = (w + 1.0) * (law.stroke() / law.column());
-            let air = argument.of(ElementaryFunction::PowerLessOneOverAbscissa(law.exponent()));
+            let air = argument.apply(ElementaryFunction::PowerLessOneOverAbscissa(law.exponent()));
             let at_origin = law.loading() * law.stroke();
             let load = self.share(x).map_or_else(|| x.constant(at_origin), |share| share * at_origin);
             self.slope(load / air, x * w, side)
@@ -281,7 +281,7 @@ impl Mechanism {
             return if efficiency == 1.0 { surplus } else { surplus * efficiency };
         }
         let sin_psi = y * (self.bottom_law.stroke() / self.bottom_arm);
-        let cos_psi = (sin_psi * sin_psi * -1.0 + 1.0).of(ElementaryFunction::Root);
+        let cos_psi = (sin_psi * sin_psi * -1.0 + 1.0).apply(ElementaryFunction::Root);
         let c = cos_psi * self.arm_ratio;
         let turned = |angle: f64| cos_psi * libm::sin(angle) + sin_psi * libm::cos(angle);
         let (plus, minus) = (turned(self.delta + self.friction_angle), turned(self.delta - self.friction_angle));
@@ -314,6 +314,6 @@ fn both_ways<'t>((b, c): Pair<'t>, (plus, minus): Pair<'t>, (first, second): (f6
     let squares = plus * plus * first + minus * minus * second + (first + second) * q * q;
     let linear = c * squares + twice * ((plus - minus) * q);
     let minus_constant = twice * (plus * minus) - lean;
-    let root = (linear * linear + quadratic * minus_constant * 4.0).of(ElementaryFunction::Root);
+    let root = (linear * linear + quadratic * minus_constant * 4.0).apply(ElementaryFunction::Root);
     c * (minus_constant * 2.0 / (linear + root))
 }

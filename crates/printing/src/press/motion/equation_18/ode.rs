@@ -103,7 +103,7 @@ impl Solution {
     #[must_use]
     pub fn at(&self, x: f64, before: bool) -> [f64; 4] {
         let Some(stretch) = self.stretch(x, before) else { return [f64::NAN; 4] };
-        let [value, first, second, third] = stretch.series.at(x / self.stroke);
+        let [value, first, second, third] = stretch.series.values_at(x / self.stroke);
         let r = self.stroke;
         [value * r, first, second / r, third / (r * r)]
     }
@@ -204,9 +204,10 @@ impl Run<'_> {
         series.end = if reach < 1.0 - x { x + reach } else { 1.0 };
         let sign = if side == Trend::Rising { 1.0 } else { -1.0 };
         let turning = self.mechanism.two_sided();
-        let turn = turning.then(|| first_fall(|at| sign * series.at(at)[1], x, series.end, STEP_CELLS)).flatten();
+        let turn =
+            turning.then(|| first_fall(|at| sign * series.values_at(at)[1], x, series.end, STEP_CELLS)).flatten();
         series.end = turn.unwrap_or(series.end);
-        let slope = series.at(series.end)[1];
+        let slope = series.values_at(series.end)[1];
         self.go(series);
         // The series runs on smoothly past the end of the arm, where cos ψ changes sign; the equation does not.
         let apart = (self.tape(side).value(self.x, self.y) - slope).abs();

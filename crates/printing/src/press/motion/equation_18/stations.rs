@@ -67,7 +67,7 @@ impl Stations {
     /// Δx and its first three derivatives by x, SI: a cubic spline through the stations.
     #[must_use]
     pub fn at(&self, x: f64) -> [f64; 4] {
-        self.spline.at(x)
+        self.spline.values_at(x)
     }
 }
 
