@@ -2,16 +2,14 @@
 
 use super::analyses::judge_and_write_as;
 use super::args::{Speed, TradeArgs, TradeTarget, at_end, machine_with_free};
-use super::brake::loaded;
 use super::input_files::made_of;
 use super::progress::Progress;
 use super::{Failure, Outcome};
 use camgen::analysis::Analysis;
 use camgen::document::similar;
-use camgen::domains::brake::{BrakeOutput, analysis::trade as of_brake};
 use camgen::domains::press::MachineOfPress;
 use camgen::domains::press::analysis::trade as of_press;
-use camgen::domains::press::machine::{DriveMachine, PressCams};
+use camgen::domains::press::machine::PressCams;
 use camgen::domains::shaft::{analysis::trade as of_shaft, machine::ShaftMachine};
 use camgen::machine::Machine;
 use camgen::refusal::Refusal;
@@ -24,8 +22,6 @@ use std::time::Instant;
 /// The default machine of the flags, and those that are measured for it where another is needed.
 const PRESS: &str = "dpi";
 const PROGRAM: &str = "feeder";
-const DRIVE: &str = "dp";
-const BRAKE: &str = "roll";
 const SHAFT: &str = "press-cylinder";
 
 pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
@@ -46,23 +42,9 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
     let run = TradeRun { clock: &clock, progress: &mut progress };
     let (analysis, name, kind) = match target {
         Some(TradeTarget::Shaft) => {
-            args.without_limits(target)?;
+            args.without_limits()?;
             let (machine, name) = shaft(args, file.unwrap_or(SHAFT))?;
             (of_shaft::analysis(&machine, &clock), name, "shaft")
-        }
-        Some(TradeTarget::Drive) => {
-            args.without_limits(target)?;
-            let (machine, name) =
-                made_of(file.unwrap_or(DRIVE), |source| DriveMachine::of_source(source, &args.analysis.set))?;
-            (of_press::drive(&machine, &clock), name, "drive")
-        }
-        Some(TradeTarget::Brake) => {
-            if args.residual.is_some() {
-                return Err(Failure("--residual belongs to the cams of a press: a brake balances no inertia".into()));
-            }
-            args.without_speed("a brake")?;
-            let (machine, name) = loaded(file.unwrap_or(BRAKE), &args.analysis.set, BrakeOutput::Disc)?;
-            (of_brake::analysis(&machine, args.acceleration, run), name, "brake")
         }
         target => of_cam(args, (target, file), run)?,
     };
@@ -139,18 +121,13 @@ fn others(args: &TradeArgs, file: &str, rpm: f64) -> Vec<LeftOver> {
 }
 
 impl TradeArgs {
-    /// Refuses limits of a cam where nothing is cut.
-    fn without_limits(&self, target: Option<TradeTarget>) -> Result<(), Failure> {
-        let what = if target == Some(TradeTarget::Drive) { "a drive" } else { "a shaft" };
+    /// Refuses the limits and the speed of a cam for a shaft, of which nothing is cut.
+    fn without_limits(&self) -> Result<(), Failure> {
         if self.residual.is_some() || self.acceleration.is_some() {
-            return Err(Failure(format!("--residual and --acceleration belong to a cam, not to {what}")));
+            return Err(Failure("--residual and --acceleration belong to a cam, not to a shaft".into()));
         }
-        self.without_speed(what)
-    }
-
-    fn without_speed(&self, what: &str) -> Result<(), Failure> {
         if self.rpm.is_some() {
-            return Err(Failure(format!("--rpm has no effect on the trade of {what}; leave it out")));
+            return Err(Failure("--rpm has no effect on the trade of a shaft; leave it out".into()));
         }
         Ok(())
     }

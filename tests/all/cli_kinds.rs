@@ -325,10 +325,6 @@ fn trade_names_what_limits_and_knows_every_kind() {
     assert!(shaft.and_then(|part| part["residual_n"].as_f64()).is_some_and(|left| left < 1.0), "{cut}");
     let sections = report(&camgen(&["trade", "conoid", "--rpm", "20..35", "--residual", "1N", "--json", "--dry-run"]));
     assert_eq!(sections["flags"], "--rpm 20,25,30,35", "{sections}");
-    let stepped = report(&camgen(&["trade", "drive", "--json", "--dry-run"]));
-    assert!(stepped["rows"].as_array().is_some_and(|rows| rows.len() == 7), "{stepped}");
-    let braked = report(&camgen(&["trade", "brake", "--json", "--dry-run"]));
-    assert!(braked["flags"].as_str().is_some_and(|flags| flags.starts_with("--tolerance ")), "{braked}");
     // A cam that fails a check has no advice, and the check is named, also of a table of points and of sections.
     for (kind, check) in [("rotary", "contact_stress"), ("conoid", "contact_stress")] {
         let rpm: &[&str] = if kind == "conoid" { &["--rpm", "20..35"] } else { &[] };
@@ -343,11 +339,10 @@ fn trade_names_what_limits_and_knows_every_kind() {
     let law = level["chain"][0].clone();
     assert!(law["part"] == "law" && (law["residual_n"].as_f64().expect("a force") - 3389.722).abs() < 1.0, "{law}");
     for wrong in [
-        &["trade", "drive", "--residual", "2N"][..],
-        &["trade", "brake", "--rpm", "3"],
-        &["trade", "shaft", "--rpm", "3"],
+        ["trade", "shaft", "--residual", "2N"],
+        ["trade", "shaft", "--rpm", "3"],
     ] {
-        assert_eq!(camgen(wrong).code, 2, "{wrong:?}");
+        assert_eq!(camgen(&wrong).code, 2, "{wrong:?}");
     }
 }
 

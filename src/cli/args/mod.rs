@@ -363,10 +363,6 @@ pub(super) enum TradeTarget {
     Conoid,
     /// The disc cam of a motion program.
     Make,
-    /// The steps of the paper's method for the drive without a cam, dp by default.
-    Drive,
-    /// The disc of a belt brake, roll by default.
-    Brake,
     /// The first critical speed of a shaft, press-cylinder by default.
     Shaft,
 }
@@ -396,8 +392,7 @@ pub(super) struct TranslatingArgs {
 #[derive(Debug, Args)]
 pub(super) struct TradeArgs {
     /// A machine or motion program, embedded or the path of a file; or, before it, a kind: rotary, translating, conoid (its sections), make (a motion
-    /// program, by default feeder), drive (its steps, by default dp), shaft (the first critical speed, by default press-cylinder) or brake (its disc,
-    /// by default roll) [default: rotary]
+    /// program, by default feeder) or shaft (the first critical speed, by default press-cylinder) [default: rotary]
     #[arg(value_name = "KIND|FILE", value_hint = ValueHint::FilePath)]
     pub(super) kind: Option<String>,
 

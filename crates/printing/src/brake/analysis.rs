@@ -9,7 +9,6 @@ mod judged;
 mod moving;
 mod picture;
 mod sections;
-pub mod trade;
 
 use super::BRAKE;
 use super::tension::TensionAsCut;

@@ -43,7 +43,7 @@ pub const DOMAIN: Domain = Domain {
     read: None,
     cams: &[CamKind::analysis(BRAKE), CamKind::cam(BRAKE_CAM, OF_A_DISC)],
     kinds: &[&KIND],
-    analyses: &[&analysis::KIND, &analysis::trade::KIND],
+    analyses: &[&analysis::KIND],
     checks: &[Added {
         after: "",
         entries: &[

@@ -44,7 +44,6 @@ pub const DOMAIN: Domain = Domain {
         &analysis::drive::KIND,
         &analysis::trade::ROTARY,
         &analysis::trade::CONOID,
-        &analysis::trade::DRIVE,
         &analysis::trade::TRANSLATING,
     ],
     checks: checks::CHECKS,

@@ -1,12 +1,9 @@
 //! Speed against accuracy of the cams of a press.
 
-use super::drive::{self, DriveSolver};
 use crate::press::MachineOfPress;
 use crate::press::SpecOfPress;
 use crate::press::cams;
-use crate::press::checks::closing;
 use crate::press::conoid::Conoid;
-use crate::press::machine::DriveMachine;
 use crate::press::machine::exact_on;
 use crate::press::motion::equation_18::{BedDirection, BottomMotion, Solver};
 use crate::press::scatter::{self, reset::ScrewRule};
@@ -15,7 +12,7 @@ use crate::press::wedge::Wedge;
 use camgen_cams::analysis::Analysis;
 use camgen_cams::body::Kind;
 use camgen_cams::machine::Machine;
-use camgen_cams::pipeline::{Judged, Spec};
+use camgen_cams::pipeline::Spec;
 use camgen_cams::report::{Speeds, failed, shown};
 use camgen_cams::trade::solver::{self, SolverRow, SolverTask};
 use camgen_cams::trade::{
@@ -36,17 +33,11 @@ pub const TRANSLATING: Kind =
 /// The sections of a conoid.
 pub const CONOID: Kind =
     Kind { command: COMMAND, noun: "time and accuracy of the sections of a conoid", keys: cams::CONOID };
-/// The steps of the drive.
-pub const DRIVE: Kind =
-    Kind { command: COMMAND, noun: "time and accuracy of the drive by sections", keys: drive::KIND.keys };
 
-/// Numbers of sections, and steps in degrees that divide a right angle.
+/// Numbers of sections of a conoid.
 const SECTIONS: [u32; 8] = [2, 3, 4, 5, 6, 8, 10, 12];
-const STEPS: [f64; 7] = [10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1];
 /// A conoid whose checks are asked for is drawn to this, m.
 const TOLERANCE: f64 = 5e-6;
-/// Error of the speed that is kept, as a share.
-const DRIVE_SHARE: f64 = 1e-3;
 /// Largest residual force by default, as a share of the largest inertia.
 const SHARE: f64 = 1e-4;
 /// Tolerances of the differential equation, by name in mm and in m, and stations of the paper's method.
@@ -196,38 +187,6 @@ pub fn conoid(
         inputs: machine.inputs(cams::CONOID),
         error: ("residual_n", "N", "largest residual force between the sections of a conoid"),
         limit,
-    };
-    solver::analysis(task, &rows, failing)
-}
-
-/// The steps of the paper's method for a bed that plain buffers brake: the error of the crank's speed.
-///
-/// # Errors
-/// [`Refusal`] when the column is used up within the stroke.
-pub fn drive(machine: &DriveMachine, clock: &dyn Fn() -> Duration) -> Result<Analysis, Refusal> {
-    let row = |degrees: &f64| {
-        let word = shortest(*degrees);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "steps of a quarter of a turn")]
-        let steps = (90.0 / degrees).round() as usize;
-        let setting = (format!("step {word}°"), format!("--solver paper --step {word}deg"), steps);
-        SolverRow::measured(setting, clock, || {
-            drive::error_of_sections(machine, degrees.to_radians()).map_err(Refusal::of)
-        })
-    };
-    let rows: Vec<SolverRow> = STEPS.iter().map(row).collect::<Result<_, _>>()?;
-    let task = SolverTask {
-        kind: &DRIVE,
-        machine: machine.name(),
-        word: "drive",
-        speeds: Speeds::Any(()),
-        inputs: machine.inputs().to_vec(),
-        error: ("error", "", "largest error of the crank's speed by the paper's sections"),
-        limit: DRIVE_SHARE,
-    };
-    // A machine that does not close fails at every step.
-    let failing = |_| {
-        let made = drive::analysis(machine, DriveSolver::Energy, STEPS[0].to_radians()).map_err(Refusal::of)?;
-        Ok(if Judged::new(made).passed() { Vec::new() } else { vec![closing::CHECK.name.to_owned()] })
     };
     solver::analysis(task, &rows, failing)
 }
