@@ -14,7 +14,7 @@ use super::BRAKE;
 use super::tension::TensionAsCut;
 use crate::brake::BrakeDisc;
 use crate::brake::machine::{Arrangement, BeltMode, BrakeMachine, BrakeModel};
-use crate::brake::mechanics::{Brake, BrakeError, FramePose, PaperRoll, RollRotation};
+use crate::brake::mechanics::{Brake, BrakeError, FramePose};
 use braking::LoadedBrake;
 use camgen_cams::analysis::{Analysis, Picture};
 use camgen_cams::body::Kind;
@@ -25,6 +25,7 @@ use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::Motion;
 use camgen_kernel::refusal::Refusal;
 pub use design::FrameGoal;
+use design::FrameNeeds;
 
 /// Belt brakes.
 pub const KIND: Kind = Kind { command: "brake", noun: "belt brake", keys: BRAKE };
@@ -138,23 +139,25 @@ pub fn analysis(
                 .remedy("give [brake.frame] with its pulley radius, and [brake.roll]"))
         }
         (Arrangement::Frame(brake), Some(goal)) => {
-            let of = (*brake.roll(), brake.rotation(), brake.frame().pulley_radius);
-            of_design(machine, of, request, goal)
+            let pulley_radius = brake.frame().pulley_radius;
+            let needs = FrameNeeds { roll: *brake.roll(), rotation: brake.rotation(), pulley_radius };
+            of_design(machine, &needs, request, goal)
         }
         (Arrangement::Roll(roll, rotation, pulley), Some(goal)) => {
-            of_design(machine, (*roll, *rotation, *pulley), request, goal)
+            let needs = FrameNeeds { roll: *roll, rotation: *rotation, pulley_radius: *pulley };
+            of_design(machine, &needs, request, goal)
         }
     }
 }
 
-/// A frame designed for a roll, its sense and pulleys of a radius, m.
+/// A frame that is designed.
 fn of_design(
     machine: &BrakeMachine,
-    of: (PaperRoll, RollRotation, f64),
+    needs: &FrameNeeds,
     request: &BrakeRequest,
     goal: FrameGoal,
 ) -> Result<Analysis, Refusal> {
-    let found = design::designed(of, machine.data.friction, goal, request.seed)?;
+    let found = design::designed(needs, machine.data.friction, goal, request.seed)?;
     of_frame(machine, &found.brake, request, None, Some(design::section(&found, goal)))
 }
 
@@ -171,7 +174,7 @@ fn of_frame(
     let rows =
         braking.radii(request.steps).map(|radius| row(&braking, radius)).collect::<Result<Vec<RadiusRow>, _>>()?;
     let columns = if disc.is_some() { [COLUMNS, COLUMNS_OF_DISC].concat() } else { COLUMNS.to_vec() };
-    let mut sections = vec![sections::brake(&braking, tensions), sections::frame(&braking)];
+    let mut sections = vec![sections::brake(&braking, &tensions), sections::frame(&braking)];
     if machine.data.mode == BeltMode::Slip {
         sections.push(sections::printed(&braking));
     }
@@ -185,7 +188,7 @@ fn of_frame(
         speeds: Speeds::Any(()),
         inputs: inputs(machine, request),
         sections,
-        measures: judged::measures(machine, &braking, (tensions, held.is_some())),
+        measures: judged::measures(machine, &braking, &tensions, held.is_some()),
         notes: notes(machine),
         picture: Picture::Curves(curves::plot(machine.name(), &braking, held)),
         mechanism: Some(moving::mechanism(&braking)),

@@ -102,20 +102,22 @@ pub fn tension_as_cut(
     let Some(cut) = subject
         .curves
         .zip(written.outlines.first())
-        .and_then(|(curves, outline)| as_cut(disc, (curves, mirrored), outline))
+        .and_then(|(curves, outline)| as_cut(disc, curves, mirrored, outline))
     else {
         let note = "the follower leaves this outline: the tension is not known".to_owned();
         return Some(TENSION.measure(f64::NAN, limit).noted(note));
     };
-    let ([at_least, least], [at_largest, largest], wanted) = (cut.least, cut.largest, holding.tension());
-    let worst = if largest - wanted > wanted - least { at_largest } else { at_least };
+    let (least, largest, wanted) = (cut.least.tension, cut.largest.tension, holding.tension());
+    let worst = if largest - wanted > wanted - least { cut.largest.radius } else { cut.least.radius };
     let note = format!(
         "as cut {least:.3} N at {} mm of the roll, {largest:.3} N at {} mm",
-        shown(MILLIMETRES * at_least),
-        shown(MILLIMETRES * at_largest)
+        shown(MILLIMETRES * cut.least.radius),
+        shown(MILLIMETRES * cut.largest.radius)
     );
     let measure = TENSION.measure((largest - least) / largest, limit).noted(note);
-    let placed = |angle: f64| (subject.at)(&Worst { value: measure.value, at: angle, z: 0.0 }).0;
-    let place = holding.angle_at(worst).map_or(measure.place, placed);
+    let place = match holding.angle_at(worst) {
+        Ok(angle) => (subject.at)(&Worst { value: measure.value, at: angle, z: 0.0 }).0,
+        Err(_) => measure.place,
+    };
     Some(measure.placed(place))
 }

@@ -29,11 +29,11 @@ pub fn spec(brake: &BrakeMachine, disc: Arc<BrakeDisc>) -> Option<Spec> {
     let preload = disc.law().spring_force(disc.origin().unwrap_or(0.0));
     let own = brake.of_disc(preload)?;
     let duty = TensionDuty { disc: Arc::clone(&disc), limits: brake.limits };
-    let solve = move |_: &Machine| {
+    let spec = Spec::new(brake.machine()?.clone(), move |_: &Machine| {
         let purpose = Purpose { duty: Some(Arc::new(duty)), ..Purpose::default() };
         Disc::for_purpose(&own, disc, purpose)
-    };
-    Some(Spec::new(brake.machine()?.clone(), solve).with_inputs(Vec::new()))
+    });
+    Some(spec.with_inputs(Vec::new()))
 }
 
 impl Duty for TensionDuty {

@@ -44,7 +44,7 @@ pub struct BrakeDisc {
     series: Option<SeriesGroup<4>>,
     law: CounterTorque,
     /// Coefficients of the closing stretch by its share t = 0…1.
-    closing: [f64; 6],
+    closing: Quintic,
     /// Lift of the law at the lowest point of the disc, m, at most 0.
     lowest: f64,
     /// Work of the disc between its least and its largest, J.
@@ -52,30 +52,37 @@ pub struct BrakeDisc {
     pieces: [Piece; 2],
 }
 
-/// The quintic of t = 0…1 over a length that meets two jets, by powers of t.
-fn quintic(from: Jet, to: Jet, length: f64) -> [f64; 6] {
+/// Coefficients of the powers of t = 0…1.
+#[derive(Debug, Clone, Copy)]
+struct Quintic([f64; 6]);
+
+/// The quintic over a length that meets two jets.
+fn quintic(from: Jet, to: Jet, length: f64) -> Quintic {
     let (slope, bend) = (from.ds * length, from.dds * length * length);
     let rise = to.s - from.s - slope - 0.5 * bend;
     let steepening = to.ds * length - slope - bend;
     let bending = to.dds * length * length - bend;
-    [
+    Quintic([
         from.s,
         slope,
         0.5 * bend,
         10.0 * rise - 4.0 * steepening + 0.5 * bending,
         -15.0 * rise + 7.0 * steepening - bending,
         6.0 * rise - 3.0 * steepening + 0.5 * bending,
-    ]
+    ])
 }
 
-/// A quintic and its derivatives by the angle, where a length is t = 1.
-fn quintic_jet([c0, c1, c2, c3, c4, c5]: [f64; 6], t: f64, length: f64) -> Jet {
-    let n = 1.0 / length;
-    Jet {
-        s: c0 + t * (c1 + t * (c2 + t * (c3 + t * (c4 + t * c5)))),
-        ds: n * (c1 + t * (2.0 * c2 + t * (3.0 * c3 + t * (4.0 * c4 + t * 5.0 * c5)))),
-        dds: n * n * (2.0 * c2 + t * (6.0 * c3 + t * (12.0 * c4 + t * 20.0 * c5))),
-        ddds: n * n * n * (6.0 * c3 + t * (24.0 * c4 + t * 60.0 * c5)),
+impl Quintic {
+    /// Value and derivatives with respect to the angle, of which `length` is t = 1.
+    fn jet(&self, t: f64, length: f64) -> Jet {
+        let [c0, c1, c2, c3, c4, c5] = self.0;
+        let n = 1.0 / length;
+        Jet {
+            s: c0 + t * (c1 + t * (c2 + t * (c3 + t * (c4 + t * c5)))),
+            ds: n * (c1 + t * (2.0 * c2 + t * (3.0 * c3 + t * (4.0 * c4 + t * 5.0 * c5)))),
+            dds: n * n * (2.0 * c2 + t * (6.0 * c3 + t * (12.0 * c4 + t * 20.0 * c5))),
+            ddds: n * n * n * (6.0 * c3 + t * (24.0 * c4 + t * 60.0 * c5)),
+        }
     }
 }
 
@@ -95,6 +102,17 @@ fn work(holding: &TensionHolding, series: Option<&SeriesGroup<4>>, angle: f64) -
     }
 }
 
+/// The largest work over the roll for a sign of 1, the least for −1, J.
+fn extreme_energy(holding: &TensionHolding, series: Option<&SeriesGroup<4>>, sign: f64) -> f64 {
+    let found = extremum::largest(
+        |angle| sign * work(holding, series, angle).energy,
+        |angle| sign * work(holding, series, angle).torque,
+        (0.0, holding.total_angle()),
+        CELLS,
+    );
+    sign * found.value
+}
+
 impl BrakeDisc {
     /// The motion with a spring rate (N/m) and the force of the spring where the law's lift is 0 (N).
     ///
@@ -103,20 +121,20 @@ impl BrakeDisc {
     pub fn new(holding: TensionHolding, rate: f64, preload: f64) -> Result<Self, Refusal> {
         let total = holding.total_angle();
         let series = series_of(&holding);
-        let work = |angle: f64| work(&holding, series.as_ref(), angle);
-        let extreme = |sign: f64| {
-            let (energy, torque) = (|angle: f64| sign * work(angle).energy, |angle: f64| sign * work(angle).torque);
-            sign * extremum::largest(energy, torque, (0.0, total), CELLS).value
-        };
-        let (most, least) = (extreme(1.0), extreme(-1.0));
+        let most = extreme_energy(&holding, series.as_ref(), 1.0);
+        let least = extreme_energy(&holding, series.as_ref(), -1.0);
         let law = CounterTorque::new(rate, preload, most)?;
         let pieces = [Piece { start: 0.0, end: total, dwell: false }, Piece { start: total, end: TAU, dwell: false }];
-        let mut disc = Self { holding, series, law, closing: [0.0; 6], lowest: 0.0, stored: most - least, pieces };
+        let mut disc = Self { holding, series, law, closing: Quintic([0.0; 6]), lowest: 0.0, stored: most - least, pieces };
         let length = TAU - total;
         disc.closing = quintic(disc.working(total), disc.working(0.0), length);
-        let depth = |t: f64| -quintic_jet(disc.closing, t, length).s;
-        let falling = |t: f64| -quintic_jet(disc.closing, t, length).ds;
-        disc.lowest = -extremum::largest(depth, falling, (0.0, 1.0), CELLS).value.max(0.0);
+        let deepest = extremum::largest(
+            |t| -disc.closing.jet(t, length).s,
+            |t| -disc.closing.jet(t, length).ds,
+            (0.0, 1.0),
+            CELLS,
+        );
+        disc.lowest = -deepest.value.max(0.0);
         Ok(disc)
     }
 
@@ -155,7 +173,7 @@ impl Motion for BrakeDisc {
             self.working(parameter)
         } else {
             let length = closing.end - closing.start;
-            quintic_jet(self.closing, (parameter - closing.start) / length, length)
+            self.closing.jet((parameter - closing.start) / length, length)
         };
         Jet { s: jet.s - self.lowest, ..jet }
     }

@@ -151,16 +151,19 @@ fn can_have_a_disc(reader: &Reader<'_>) {
         reader.fail("the file describes no disc on the shaft of the frame".into(), Some(help.into()));
     }
     let Some(table) = reader.find(&SECTION) else { return };
-    let help = |word: &str| Some(format!("use \"{word}\", or omit --cam"));
     if table.get(&MODE) == Some(BeltMode::NoSlip) {
         let message =
             "a disc holds only the tension of a slipping belt: without slip the belt's speed sets the tension";
-        table.fail(&MODE, message.into(), help("slip"));
+        table.fail(&MODE, message.into(), Some(use_or_omit_cam("slip")));
     }
     if table.get(&MODEL) == Some(BrakeModel::Printed) {
         let message = "a disc needs the exact moments: the printed ones omit that of the friction about the pivot";
-        table.fail(&MODEL, message.into(), help("consistent"));
+        table.fail(&MODEL, message.into(), Some(use_or_omit_cam("consistent")));
     }
+}
+
+fn use_or_omit_cam(word: &str) -> String {
+    format!("use \"{word}\", or omit --cam")
 }
 
 fn read_web(table: &TableReader<'_>) -> Option<Web> {

@@ -13,7 +13,7 @@ pub use builder::{BrakeSettings, BuilderOfBrake};
 pub use disc::{KIND, spec};
 pub use disc_motion::BrakeDisc;
 pub use machine::{BrakeMachine, BrakeOutput};
-pub use tension::{TensionAsCut, as_written};
+pub use tension::{RollTension, TensionAsCut, as_written};
 
 use camgen_cams::domain::{Added, Domain};
 use camgen_cams::machine::Embedded;

@@ -18,7 +18,6 @@ use crate::press::machine::LinkageData;
 use air::{AirForce, Buffers};
 use camgen_cams::analysis::{Analysis, Picture};
 use camgen_cams::body::Kind;
-use camgen_cams::check::Check;
 use camgen_cams::check::Measure;
 use camgen_cams::machine::Machine;
 use camgen_cams::report::plot::{self, Plot, PlotCurve, PlotPanel};
@@ -67,8 +66,8 @@ const COLUMNS: &[ListedColumn<LinkageRow>] = &[
     ("rod_deg", |row| row.rod),
 ];
 
-/// Behind them, where buffers balance the bed.
-const TOLD_OF_AIR: &[ListedColumn<LinkageRow>] = &[
+/// Further columns, with buffers that balance the bed.
+const COLUMNS_OF_AIR: &[ListedColumn<LinkageRow>] = &[
     ("air_n", |row| row.air.map_or(f64::NAN, |air| air.force)),
     ("dx_mm", |row| row.air.map_or(f64::NAN, |air| MILLIMETRES * air.displacement)),
     ("residual_n", |row| row.air.map_or(f64::NAN, |air| row.inertia - air.force)),
@@ -198,16 +197,16 @@ pub fn analysis(machine: &Machine, rpm: f64, goal: Option<DragLinkGoal>) -> Resu
         Linkage::SixBar(link, slider) => Some(over_base::diagram(link, slider)),
         Linkage::Yoke | Linkage::CrankSlider(_) => None,
     };
-    let (speed, linkage_figures) = (bed.crank_speed(rpm), figures(data, &found, (bed, rpm)));
+    let (speed, linkage_figures) = (bed.crank_speed(rpm), figures(data, &found, bed, rpm));
     let buffers = machine.press().ok().and_then(|press| Buffers::new(press, data.linkage, rpm));
-    let row = |i: u32| row(data, (bed, buffers.as_ref()), speed, f64::from(i) / f64::from(ROWS));
-    let rows: Vec<LinkageRow> = (0..ROWS).map(row).collect();
-    let of_air = if buffers.is_some() { TOLD_OF_AIR } else { &[] };
+    let rows: Vec<LinkageRow> =
+        (0..ROWS).map(|i| row(data, bed, buffers.as_ref(), speed, f64::from(i) / f64::from(ROWS))).collect();
+    let of_air = if buffers.is_some() { COLUMNS_OF_AIR } else { &[] };
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs(KIND.keys));
     inputs.push(Input::number("rpm", rpm));
     inputs.extend(goal.map(|goal| Input::word("synthesize", format!("{goal:?}"))));
-    let mut sections = vec![Section::new(KIND.command, &linkage_figures).with_words(words(&linkage_figures))];
+    let mut sections = vec![Section::new(KIND.command, &linkage_figures).with_words(describe(&linkage_figures))];
     sections.extend(goal.and_then(|_| design(data)));
     Ok(Analysis {
         kind: &KIND,
@@ -220,7 +219,7 @@ pub fn analysis(machine: &Machine, rpm: f64, goal: Option<DragLinkGoal>) -> Resu
         picture: Picture::Curves(Plot {
             own: own.into_iter().collect(),
             scheme: Some(picture::scheme(&lying)),
-            ..curves(machine.name(), data, (bed, data.to_line(found.outer)), &rows)
+            ..curves(machine.name(), data, bed, data.to_line(found.outer), &rows)
         }),
         mechanism: Some(moving::mechanism(&lying, ROWS, speed)),
         document: described::lines(data).map(|lines| lines.join("\n") + "\n"),
@@ -243,7 +242,8 @@ fn from_base(data: &LinkageData, crank: f64) -> f64 {
     crank - data.to_line(0.0)
 }
 
-fn row(data: &LinkageData, (bed, buffers): (&Bed, Option<&Buffers>), speed: f64, turn: f64) -> LinkageRow {
+/// The row at a share of a turn, with the speed of the driving crank, rad/s.
+fn row(data: &LinkageData, bed: &Bed, buffers: Option<&Buffers>, speed: f64, turn: f64) -> LinkageRow {
     let theta = from_base(data, TAU * turn);
     let motion = data.linkage.position(theta).map(|value| bed.crank_radius * value);
     let [_, first, second, ..] = motion;
@@ -256,11 +256,11 @@ fn row(data: &LinkageData, (bed, buffers): (&Bed, Option<&Buffers>), speed: f64,
         torque: force * first,
         transmission: data.linkage.transmission_angle(theta).map_or(f64::NAN, f64::to_degrees),
         rod: data.linkage.rod_angle(theta).to_degrees(),
-        air: buffers.and_then(|buffers| buffers.at(theta)),
+        air: buffers.and_then(|buffers| buffers.force_at(theta)),
     }
 }
 
-fn figures(data: &LinkageData, found: &Characteristics, (bed, rpm): (&Bed, f64)) -> LinkageFigures {
+fn figures(data: &LinkageData, found: &Characteristics, bed: &Bed, rpm: f64) -> LinkageFigures {
     let linkage = &data.linkage;
     let (stroke, speed) = (bed.crank_radius * found.stroke, bed.crank_speed(rpm));
     let torque = bed.mass * speed * speed * stroke * stroke * found.power.value / (PI * PI * PI);
@@ -295,8 +295,6 @@ fn least_transmission(linkage: &Linkage) -> Option<(f64, f64)> {
 fn measures(machine: &Machine, data: &LinkageData, found: &Characteristics) -> Vec<Measure> {
     let limits = machine.linkage_limits();
     let mut all = Vec::new();
-    let mut add =
-        |check: &'static Check, value, limit, note: Option<String>| all.push(check.measure(value, limit).noted(note));
     if let Linkage::SixBar(link, _) = data.linkage {
         let margins = [
             1.0 - link.base,
@@ -305,28 +303,29 @@ fn measures(machine: &Machine, data: &LinkageData, found: &Characteristics) -> V
         ];
         let passing = link.remedies().base;
         let note = format!("of driving cranks; with the other links a base below {} turns", shown(passing.below));
-        add(&GRASHOF, margins.into_iter().fold(f64::INFINITY, f64::min), Some(0.0), Some(note));
-        add(&LINK_RATIO, link.coupler.min(link.follower), Some(limits.link_ratio), None);
+        let margin = margins.into_iter().fold(f64::INFINITY, f64::min);
+        all.push(GRASHOF.measure(margin, Some(0.0)).noted(note));
+        all.push(LINK_RATIO.measure(link.coupler.min(link.follower), Some(limits.link_ratio)));
     }
     if let Some((angle, at)) = least_transmission(&data.linkage) {
         let place = format!("where the driving crank stands at {}° from the base", shown(at.to_degrees()));
         let limit = Some(limits.transmission_angle.to_degrees());
-        add(&TRANSMISSION_ANGLE, angle.to_degrees(), limit, Some(place));
+        all.push(TRANSMISSION_ANGLE.measure(angle.to_degrees(), limit).noted(place));
     }
     if data.linkage != Linkage::Yoke {
         let angle = data.linkage.largest_rod_angle().to_degrees();
-        add(&ROD_ANGLE, angle, Some(limits.rod_angle.to_degrees()), None);
+        all.push(ROD_ANGLE.measure(angle, Some(limits.rod_angle.to_degrees())));
     }
     let [outer, inner] = [found.outer, found.inner].map(|at| shown(degrees(data.to_line(at))));
     let place = format!("from the outer one at {outer}° to the inner at {inner}°");
-    add(&DEAD_POINTS, found.forward_angle.to_degrees(), None, Some(place));
+    all.push(DEAD_POINTS.measure(found.forward_angle.to_degrees(), None).noted(place));
     #[expect(clippy::cast_precision_loss, reason = "a handful")]
-    add(&REVERSALS, found.zeros.len() as f64, Some(2.0), None);
+    let zeros = found.zeros.len() as f64;
+    all.push(REVERSALS.measure(zeros, Some(2.0)));
     all
 }
 
-fn words(linkage_figures: &LinkageFigures) -> Vec<String> {
-    let share = |share: f64| format!("{:+.2} %", 100.0 * share);
+fn describe(linkage_figures: &LinkageFigures) -> Vec<String> {
     let mut lines = vec![
         format!(
             "stroke {} mm, dead points at {}° (outer) and {}°, K_φ {:.5}",
@@ -355,40 +354,50 @@ fn words(linkage_figures: &LinkageFigures) -> Vec<String> {
         let comparison = &linkage_figures.compared;
         lines.push(format!(
             "transmission angle at least {angle:.3}°; compared with the crank-slider alone: C {}, W {}, speed {} at equal force",
-            share(comparison.c),
-            share(comparison.w),
-            share(comparison.speed)
+            signed_percent(comparison.c),
+            signed_percent(comparison.w),
+            signed_percent(comparison.speed)
         ));
     }
     lines
 }
 
+fn signed_percent(share: f64) -> String {
+    format!("{:+.2} %", 100.0 * share)
+}
+
 /// x, x' and x'' over a turn, with those of the crank-slider alone after them, from the same outer dead point on: figure 3 of the paper.
-fn curves(machine: &str, data: &LinkageData, (bed, outer): (&Bed, f64), rows: &[LinkageRow]) -> Plot {
-    let alone = match data.linkage {
-        Linkage::SixBar(_, slider) => Some(Linkage::CrankSlider(slider)),
+fn curves(machine: &str, data: &LinkageData, bed: &Bed, outer: f64, rows: &[LinkageRow]) -> Plot {
+    let own: Vec<[f64; 6]> = rows.iter().map(|row| row.motion).collect();
+    let alone: Option<Vec<[f64; 6]>> = match data.linkage {
+        Linkage::SixBar(_, slider) => {
+            let plain = Linkage::CrankSlider(slider);
+            let [own_outer, _] = plain.dead_points();
+            let cranks = rows.iter().map(|row| row.crank.to_radians() - outer + own_outer);
+            Some(cranks.map(|crank| plain.position(crank).map(|x| bed.crank_radius * x)).collect())
+        }
         _ => None,
     };
-    let panel = |name: &str, order: usize| {
-        let value = |motion: &[f64; 6]| MILLIMETRES * motion.get(order).copied().unwrap_or(f64::NAN);
-        let own = rows.iter().map(|row| [row.crank, value(&row.motion)]).collect();
-        let mut curves = vec![PlotCurve { name: "bed".into(), colour: 0, bold: true, points: own }];
-        curves.extend(alone.as_ref().map(|plain| {
-            let [own_outer, _] = plain.dead_points();
-            let at = |crank: f64| plain.position(crank.to_radians() - outer + own_outer).map(|x| bed.crank_radius * x);
-            let points = rows.iter().map(|row| [row.crank, value(&at(row.crank))]).collect();
+    let mut panels = Vec::new();
+    for (order, name) in ["Position of the bed, mm", "Velocity, mm/rad", "Acceleration, mm/rad²"].into_iter().enumerate() {
+        let points = by_crank(rows, &own, order);
+        let mut curves = vec![PlotCurve { name: "bed".into(), colour: 0, bold: true, points }];
+        curves.extend(alone.as_ref().map(|alone| {
+            let points = by_crank(rows, alone, order);
             PlotCurve { name: "crank-slider".into(), colour: plot::GREY, bold: false, points }
         }));
-        PlotPanel { name: name.into(), curves }
-    };
+        panels.push(PlotPanel { name: name.into(), curves });
+    }
     Plot {
         title: format!("{machine}: the bed over a turn of the driving crank"),
         places: "crank angle from the line of the slider, degrees".into(),
-        panels: vec![
-            panel("Position of the bed, mm", 0),
-            panel("Velocity, mm/rad", 1),
-            panel("Acceleration, mm/rad²", 2),
-        ],
+        panels,
         ..Plot::default()
     }
+}
+
+/// A derivative of the motion, mm, over the crank angle of the rows.
+fn by_crank(rows: &[LinkageRow], motions: &[[f64; 6]], order: usize) -> Vec<[f64; 2]> {
+    let values = motions.iter().map(|motion| MILLIMETRES * motion.get(order).copied().unwrap_or(f64::NAN));
+    rows.iter().zip(values).map(|(row, value)| [row.crank, value]).collect()
 }

@@ -190,7 +190,8 @@ fn linkage(reader: &Reader<'_>, bed: Option<&Bed>) -> Option<LinkageData> {
 /// A ratio, given as such or as a length over the crank of the slider; what is in neither form is `default`.
 fn ratio(
     table: &TableReader<'_>,
-    (number, length): (&Field<f64>, &Field<f64>),
+    number: &Field<f64>,
+    length: &Field<f64>,
     default: Option<f64>,
     bed: Option<&Bed>,
 ) -> Option<f64> {
@@ -205,30 +206,37 @@ fn ratio(
         (None, None) if table.has(number) || table.has(length) => None,
         (None, None) => {
             if default.is_none() {
-                let help = Some(format!("add it, e.g. {} = {}", number.key.name, number.key.presence.text()));
-                table.fail(number, format!("missing key `linkage.{}`", number.key.name), help);
+                report_missing(table, number);
             }
             default
         }
     }
 }
 
+fn report_missing(table: &TableReader<'_>, field: &Field<f64>) {
+    let help = Some(format!("add it, e.g. {} = {}", field.key.name, field.key.presence.text()));
+    table.fail(field, format!("missing key `linkage.{}`", field.key.name), help);
+}
+
+/// The value of a key; a missing key is a fault.
+fn required(table: &TableReader<'_>, field: &Field<f64>) -> Option<f64> {
+    let value = table.get(field);
+    if value.is_none() && !table.has(field) {
+        report_missing(table, field);
+    }
+    value
+}
+
 fn slider(table: &TableReader<'_>, bed: Option<&Bed>) -> Option<Slider> {
-    let rod = ratio(table, (&ROD_RATIO, &ROD), None, bed);
-    let offset = ratio(table, (&OFFSET_RATIO, &OFFSET), Some(0.0), bed);
+    let rod = ratio(table, &ROD_RATIO, &ROD, None, bed);
+    let offset = ratio(table, &OFFSET_RATIO, &OFFSET, Some(0.0), bed);
     Some(Slider { rod_ratio: rod?, offset_ratio: offset? })
 }
 
 fn drag_link(table: &TableReader<'_>) -> Option<DragLink> {
-    let needed = |field: &Field<f64>| {
-        let value = table.get(field);
-        if value.is_none() && !table.has(field) {
-            let help = Some(format!("add it, e.g. {} = {}", field.key.name, field.key.presence.text()));
-            table.fail(field, format!("missing key `linkage.{}`", field.key.name), help);
-        }
-        value
-    };
-    let (base, coupler, follower) = (needed(&BASE_RATIO), needed(&COUPLER_RATIO), needed(&FOLLOWER_RATIO));
+    let base = required(table, &BASE_RATIO);
+    let coupler = required(table, &COUPLER_RATIO);
+    let follower = required(table, &FOLLOWER_RATIO);
     let turn = table.get(&FOLLOWER_ANGLE)? + table.get(&BASE_ANGLE)?;
     Some(DragLink { base: base?, coupler: coupler?, follower: follower?, turn, branch: Branch::Leading })
 }

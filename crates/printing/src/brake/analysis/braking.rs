@@ -24,7 +24,13 @@ pub(super) struct LoadedBrake<'a> {
     pub(super) ends: [FramePose; 2],
 }
 
-/// Speed of the belt over that of the web: as given while it slips, as the wanted tension needs it while it does not.
+/// The least and the largest web tension over the roll, N, and the radii at which they are, m.
+pub(super) struct TensionRange {
+    pub(super) least: Extremum,
+    pub(super) largest: Extremum,
+}
+
+/// Belt speed / web speed: as given while it slips, as the wanted tension needs it while it does not.
 pub(super) fn belt_speed(data: &BrakeData) -> f64 {
     match (data.mode, &data.web, data.model) {
         (BeltMode::NoSlip, Some(web), BrakeModel::Consistent) => web.belt_speed(data.tension),
@@ -96,17 +102,16 @@ impl<'a> LoadedBrake<'a> {
     /// G h1 = T (q_t + q_s) + P q_t; by (3) both spans are equally tight, at any speed of the belt.
     pub(super) fn belt_tensions(&self, pose: &FramePose) -> (f64, f64) {
         let (grip, tension) = (self.grip(pose), self.tension(pose));
-        let of_slip = |grip: f64| self.brake.belt_tensions(grip, pose);
         match (self.data.model, self.runs_with_roll(pose)) {
-            (BrakeModel::Consistent, false) => of_slip(tension),
-            (BrakeModel::Printed, false) => of_slip(grip),
+            (BrakeModel::Consistent, false) => self.brake.belt_tensions(tension, pose),
+            (BrakeModel::Printed, false) => self.brake.belt_tensions(grip, pose),
             (BrakeModel::Consistent, true) => {
                 let slack = (self.weight * pose.h1 - tension * pose.q_tight) / (pose.q_tight + pose.q_slack);
                 (slack, slack + tension)
             }
             (BrakeModel::Printed, true) => {
                 // (5): 2 T_o = T1 + T, as tight as in the slip.
-                let (slack, tight) = of_slip(grip);
+                let (slack, tight) = self.brake.belt_tensions(grip, pose);
                 let mean = 0.5 * (slack + tight);
                 (mean - 0.5 * tension, mean + 0.5 * tension)
             }
@@ -142,9 +147,12 @@ impl<'a> LoadedBrake<'a> {
     /// Largest of something over the roll, and at which radius, m.
     pub(super) fn largest(&self, value: impl Fn(&FramePose) -> f64) -> Extremum {
         let roll = self.brake.roll();
-        let at = |radius: f64| self.brake.at(radius).map_or(f64::NAN, |pose| value(&pose));
-        let range = (roll.smallest_radius, roll.largest_radius);
-        extremum::largest_without_slope(at, range, CELLS, extremum::TO_ROUNDING)
+        extremum::largest_without_slope(
+            |radius| self.brake.at(radius).map_or(f64::NAN, |pose| value(&pose)),
+            (roll.smallest_radius, roll.largest_radius),
+            CELLS,
+            extremum::TO_ROUNDING,
+        )
     }
 
     /// Least of something over the roll, and at which radius, m.
@@ -154,23 +162,23 @@ impl<'a> LoadedBrake<'a> {
     }
 
     /// Least and largest tension over the roll.
-    pub(super) fn tensions(&self) -> (Extremum, Extremum) {
-        let tension = |pose: &FramePose| self.tension(pose);
-        (self.least(tension), self.largest(tension))
+    pub(super) fn tensions(&self) -> TensionRange {
+        TensionRange { least: self.least(|pose| self.tension(pose)), largest: self.largest(|pose| self.tension(pose)) }
     }
 
     /// Radii from the full roll down in equal steps, both ends included.
     pub(super) fn radii(&self, steps: u32) -> impl Iterator<Item = f64> + Clone + use<> {
         let (from, to) = (self.brake.roll().largest_radius, self.brake.roll().smallest_radius);
-        let at = move |i: u32| {
-            // To the nanometre: 55 mm, not 55.00000000000005.
-            let inside = |radius: f64| (1e9 * radius).round() / 1e9;
-            match i {
-                0 => from,
-                _ if i == steps => to,
-                _ => inside(from + (to - from) * f64::from(i) / f64::from(steps)).clamp(to, from),
+        (0..=steps).map(move |i| {
+            if i == 0 {
+                return from;
             }
-        };
-        (0..=steps).map(at)
+            if i == steps {
+                return to;
+            }
+            // To the nanometre: 55 mm, not 55.00000000000005.
+            let radius = from + (to - from) * f64::from(i) / f64::from(steps);
+            ((1e9 * radius).round() / 1e9).clamp(to, from)
+        })
     }
 }

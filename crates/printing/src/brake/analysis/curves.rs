@@ -45,7 +45,8 @@ pub(super) const DIAGRAMS: &[Diagram] = &[
 ];
 
 /// Wraps of figure 2, and steps of its curves.
-const WRAPS: (f64, f64) = (0.05, PI);
+const LEAST_WRAP: f64 = 0.05;
+const LARGEST_WRAP: f64 = PI;
 const STEPS: u32 = 120;
 /// Range of belt speeds about the strain branch, over the strain at the plateau.
 const AROUND: f64 = 1.6;
@@ -55,8 +56,8 @@ fn curve(name: impl Into<String>, colour: usize, bold: bool, points: Vec<[f64; 2
     PlotCurve { name: name.into(), colour, bold, points }
 }
 
-/// Equal places between two, both included.
-fn between((from, to): (f64, f64)) -> impl Iterator<Item = f64> {
+/// Equal steps from one value to another, both included.
+fn between(from: f64, to: f64) -> impl Iterator<Item = f64> {
     (0..=STEPS).map(move |i| from + (to - from) * f64::from(i) / f64::from(STEPS))
 }
 
@@ -77,23 +78,17 @@ pub(super) fn plot(machine: &str, braking: &LoadedBrake<'_>, held: Option<&Tensi
 
 /// P over R: without a disc, by the printed moment, and with the disc by its law and as cut.
 fn over_roll(braking: &LoadedBrake<'_>, held: Option<&TensionDisc<'_>>) -> PlotPanel {
-    let radii: Vec<f64> = braking.radii(PLACES).collect();
-    let along = |value: &dyn Fn(&FramePose) -> f64| -> Vec<[f64; 2]> {
-        let at = |radius: &f64| Some([MILLIMETRES * radius, value(&braking.brake.at(*radius).ok()?)]);
-        let mut points: Vec<[f64; 2]> = radii.iter().filter_map(at).collect();
-        points.reverse();
-        points
-    };
+    let poses: Vec<FramePose> = braking.radii(PLACES).filter_map(|radius| braking.brake.at(radius).ok()).collect();
     let plain = LoadedBrake { disc: None, ..braking.clone() };
-    let printed = |pose: &FramePose| braking.brake.tension_printed(braking.printed_weight, pose);
+    let printed = by_radius(&poses, |pose| braking.brake.tension_printed(braking.printed_weight, pose));
     let mut curves = vec![
-        curve("printed moment", plot::GREY, false, along(&printed)),
-        curve("this brake", 1, held.is_none(), along(&|pose| plain.tension(pose))),
+        curve("printed moment", plot::GREY, false, printed),
+        curve("this brake", 1, held.is_none(), by_radius(&poses, |pose| plain.tension(pose))),
     ];
     if let Some(held) = held {
-        curves.push(curve("with the disc", 0, true, along(&|pose| braking.tension(pose))));
+        curves.push(curve("with the disc", 0, true, by_radius(&poses, |pose| braking.tension(pose))));
         if let Some(cut) = held.as_cut {
-            let mut points: Vec<[f64; 2]> = cut.points.iter().map(|[r, p]| [MILLIMETRES * r, *p]).collect();
+            let mut points: Vec<[f64; 2]> = cut.points.iter().map(|point| [MILLIMETRES * point.radius, point.tension]).collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             curves.push(curve("as cut", 2, false, points));
         }
@@ -101,14 +96,17 @@ fn over_roll(braking: &LoadedBrake<'_>, held: Option<&TensionDisc<'_>>) -> PlotP
     PlotPanel { name: "Web tension, N".into(), curves }
 }
 
+/// A value over the radius, mm, from the run-down roll on.
+fn by_radius(poses: &[FramePose], value: impl Fn(&FramePose) -> f64) -> Vec<[f64; 2]> {
+    poses.iter().rev().map(|pose| [MILLIMETRES * pose.radius, value(pose)]).collect()
+}
+
 /// Figure 2: K over the wrap for the friction and a fifth more, with marks at the ends of the roll.
-pub(super) fn coefficient(friction: f64, wraps: &[f64; 2]) -> (String, PlotPanel) {
+pub(super) fn coefficient(friction: f64, wraps: &[f64]) -> (String, PlotPanel) {
     let more = 1.2 * friction;
-    let of =
-        |friction: f64| between(WRAPS).map(|wrap| [wrap.to_degrees(), euler_coefficient(wrap, friction)]).collect();
     let mut curves = vec![
-        curve(format!("f = {}", shown(more)), plot::GREY, false, of(more)),
-        curve(format!("f = {}", shown(friction)), 0, true, of(friction)),
+        curve(format!("f = {}", shown(more)), plot::GREY, false, coefficient_by_wrap(more)),
+        curve(format!("f = {}", shown(friction)), 0, true, coefficient_by_wrap(friction)),
     ];
     curves.extend(wraps.iter().map(|wrap| {
         let at = vec![[wrap.to_degrees(), euler_coefficient(*wrap, friction)]];
@@ -116,6 +114,10 @@ pub(super) fn coefficient(friction: f64, wraps: &[f64; 2]) -> (String, PlotPanel
     }));
     let name = "K of (7), rings: full roll and run-down roll".into();
     ("wrap, degrees".into(), PlotPanel { name, curves })
+}
+
+fn coefficient_by_wrap(friction: f64) -> Vec<[f64; 2]> {
+    between(LEAST_WRAP, LARGEST_WRAP).map(|wrap| [wrap.to_degrees(), euler_coefficient(wrap, friction)]).collect()
 }
 
 /// P over the belt's speed: the grip at any speed, the strain branch near V, and the printed (2).
@@ -142,8 +144,9 @@ fn by_strain(web: &Web, grip: f64) -> (String, PlotPanel) {
     let free = 1.0 + web.wound_strain;
     let slowest = free / (1.0 + AROUND * web.strain(grip));
     // Slower from left to right, by thousandths of the web's speed.
-    let point = |ratio: f64| [THOUSANDTHS * (1.0 - ratio), web.tension_within(grip, ratio).max(0.0)];
-    let points = between((free, slowest)).map(point).collect();
+    let points = between(free, slowest)
+        .map(|ratio| [THOUSANDTHS * (1.0 - ratio), web.tension_within(grip, ratio).max(0.0)])
+        .collect();
     let curves = vec![curve("strain, then grip", 0, true, points)];
     let name = "Tension near V, N: strain up to the grip".into();
     ("1 − V_z/V, thousandths".into(), PlotPanel { name, curves })

@@ -15,7 +15,7 @@ const REACH: f64 = 8.0 / 3.0;
 const CLEARANCE: f64 = 1.0 / 30.0;
 /// Generations of the search: they find a frame within 0.05 % in a fraction of a second.
 const GENERATIONS: u32 = 300;
-/// Steps to which places are rounded, m: finer ones where the frame needs it.
+/// Steps to which points are rounded, m: finer ones where the frame needs it.
 const STEPS: [f64; 3] = [1e-3, 1e-4, 1e-5];
 /// Largest increase of the spread of the tension by rounding, as a share of the largest tension.
 const ROUNDING: f64 = 5e-4;
@@ -44,13 +44,22 @@ impl FrameGoal {
     }
 }
 
-/// The best frame for a roll, its sense and pulleys of a radius, m; places in whole millimetres, or finer where it needs that.
+/// What a frame is designed for.
+pub(super) struct FrameNeeds {
+    pub(super) roll: PaperRoll,
+    pub(super) rotation: RollRotation,
+    /// Radius of the pulleys, m.
+    pub(super) pulley_radius: f64,
+}
+
+/// The best frame for a roll; points in whole millimetres, or finer if the frame needs that.
 pub(super) fn designed(
-    (roll, rotation, pulley_radius): (PaperRoll, RollRotation, f64),
+    needs: &FrameNeeds,
     friction: f64,
     goal: FrameGoal,
     seed: u64,
 ) -> Result<DesignedBrake, Refusal> {
+    let FrameNeeds { roll, rotation, pulley_radius } = *needs;
     let task = FrameTask {
         roll,
         friction,
@@ -71,13 +80,12 @@ pub(super) fn designed(
 fn rounded(brake: &Brake, step: f64, task: &FrameTask) -> Result<DesignedBrake, BrakeError> {
     // A quotient is the number nearest to the decimal one.
     let per_metre = (1.0 / step).round();
-    let place = |at: [f64; 2]| at.map(|value| (value * per_metre).round() / per_metre + 0.0);
     let frame = brake.frame();
     let frame = BrakeFrame {
-        pivot: place(frame.pivot),
-        right_pulley: place(frame.right_pulley),
-        left_pulley: place(frame.left_pulley),
-        centre_of_gravity: place(frame.centre_of_gravity),
+        pivot: frame.pivot.map(|metres| to_step(metres, per_metre)),
+        right_pulley: frame.right_pulley.map(|metres| to_step(metres, per_metre)),
+        left_pulley: frame.left_pulley.map(|metres| to_step(metres, per_metre)),
+        centre_of_gravity: frame.centre_of_gravity.map(|metres| to_step(metres, per_metre)),
         pulley_radius: frame.pulley_radius,
     };
     let brake = Brake::new(frame, task.roll, task.friction, task.rotation)?;
@@ -85,35 +93,43 @@ fn rounded(brake: &Brake, step: f64, task: &FrameTask) -> Result<DesignedBrake, 
     Ok(DesignedBrake { brake, spread })
 }
 
+/// A length of a whole number of steps, never −0.
+fn to_step(metres: f64, steps_per_metre: f64) -> f64 {
+    (metres * steps_per_metre).round() / steps_per_metre + 0.0
+}
+
 /// The frame as lines of a machine file.
 pub(super) fn lines(brake: &Brake) -> Vec<String> {
     let frame = brake.frame();
-    let length = |metres: f64| {
-        let millimetres = (1e9 * metres).round() / 1e6;
-        format!("\"{} mm\"", millimetres + 0.0)
-    };
-    let pair = |name: &str, [x, y]: [f64; 2]| format!("{name} = [{}, {}]", length(x), length(y));
-    vec![
-        "[brake.frame]".into(),
-        pair("pivot", frame.pivot),
-        pair("right_pulley", frame.right_pulley),
-        pair("left_pulley", frame.left_pulley),
-        pair("centre_of_gravity", frame.centre_of_gravity),
-        format!("pulley_radius = {}", length(frame.pulley_radius)),
-    ]
+    let points = [
+        ("pivot", frame.pivot),
+        ("right_pulley", frame.right_pulley),
+        ("left_pulley", frame.left_pulley),
+        ("centre_of_gravity", frame.centre_of_gravity),
+    ];
+    let mut lines = vec!["[brake.frame]".to_owned()];
+    for (name, [x, y]) in points {
+        lines.push(format!("{name} = [{}, {}]", quoted_length(x), quoted_length(y)));
+    }
+    lines.push(format!("pulley_radius = {}", quoted_length(frame.pulley_radius)));
+    lines
+}
+
+fn quoted_length(metres: f64) -> String {
+    let millimetres = (1e9 * metres).round() / 1e6;
+    format!("\"{} mm\"", millimetres + 0.0)
 }
 
 /// The section of the report on a design.
 pub(super) fn section(found: &DesignedBrake, goal: FrameGoal) -> Section {
     let (frame, brake) = (found.brake.frame(), &found.brake);
-    let mm = |at: [f64; 2]| at.map(|value| MILLIMETRES * value);
     let value = json!({
         "goal": goal.word(),
         "spread": found.spread,
-        "pivot_mm": mm(frame.pivot),
-        "right_pulley_mm": mm(frame.right_pulley),
-        "left_pulley_mm": mm(frame.left_pulley),
-        "centre_of_gravity_mm": mm(frame.centre_of_gravity),
+        "pivot_mm": frame.pivot.map(|metres| MILLIMETRES * metres),
+        "right_pulley_mm": frame.right_pulley.map(|metres| MILLIMETRES * metres),
+        "left_pulley_mm": frame.left_pulley.map(|metres| MILLIMETRES * metres),
+        "centre_of_gravity_mm": frame.centre_of_gravity.map(|metres| MILLIMETRES * metres),
         "pulley_radius_mm": MILLIMETRES * frame.pulley_radius,
         "rotation": if brake.rotation() == RollRotation::Clockwise { "cw" } else { "ccw" },
     });

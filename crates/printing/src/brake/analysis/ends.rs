@@ -64,7 +64,7 @@ pub(super) fn analysis(machine: &BrakeMachine, ends: &RollEnds) -> Result<Analys
     };
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs().iter().cloned());
-    let mut sections = vec![Section::new("ends", &figures).with_words(words(&figures))];
+    let mut sections = vec![Section::new("ends", &figures).with_words(describe(&figures))];
     sections.extend(sections::web(data, None));
     Ok(Analysis {
         kind: &KIND,
@@ -96,10 +96,21 @@ pub(super) fn analysis(machine: &BrakeMachine, ends: &RollEnds) -> Result<Analys
 
 fn rows(ends: &RollEnds, regulation: &Regulation) -> [EndRow; 2] {
     let ([full, run_down], (k_full, k_run_down)) = (ends.wraps(), ends.coefficients());
-    let row = |wrap, k, press, belt_speed| EndRow { wrap, k, press, belt_speed, standing: k * press };
     [
-        row(full, k_full, regulation.press_full, regulation.belt_speed_full),
-        row(run_down, k_run_down, regulation.press_empty, regulation.belt_speed_empty),
+        EndRow {
+            wrap: full,
+            k: k_full,
+            press: regulation.press_full,
+            belt_speed: regulation.belt_speed_full,
+            standing: k_full * regulation.press_full,
+        },
+        EndRow {
+            wrap: run_down,
+            k: k_run_down,
+            press: regulation.press_empty,
+            belt_speed: regulation.belt_speed_empty,
+            standing: k_run_down * regulation.press_empty,
+        },
     ]
 }
 
@@ -112,7 +123,7 @@ fn measures(machine: &BrakeMachine, regulation: &Regulation) -> Vec<Measure> {
     all
 }
 
-fn words(figures: &EndFigures) -> Vec<String> {
+fn describe(figures: &EndFigures) -> Vec<String> {
     vec![
         format!("(7) K {:.6} on the full roll, {:.6} on the run-down roll", figures.k_full, figures.k_run_down),
         format!(

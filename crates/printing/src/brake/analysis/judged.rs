@@ -1,16 +1,15 @@
 //! The measures of a brake for its checks.
 
-use super::braking::LoadedBrake;
+use super::braking::{LoadedBrake, TensionRange};
 use super::spread;
 use crate::brake::checks::{BELT_RANGE, FRAME_REACH, GRIP, SELF_LOCKING, TENSION, WEB_STRESS};
 use crate::brake::machine::{BeltMode, BrakeMachine, BrakeModel};
-use crate::brake::mechanics::{Brake, FramePose, PaperRoll};
+use crate::brake::mechanics::{Brake, PaperRoll};
 use camgen_cams::check::Measure;
 use camgen_cams::report::shown;
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::numeric::extremum::Extremum;
 
-/// Largest friction over that at which the brake jams.
+/// Largest friction / friction at which the brake jams.
 const LOCKING: f64 = 1.0 / 1.5;
 /// The radius down to which the frame is followed to find its reach, as a share of the smallest radius.
 const BEYOND: f64 = 1e-3;
@@ -19,9 +18,11 @@ const BEYOND: f64 = 1e-3;
 pub(super) fn measures(
     machine: &BrakeMachine,
     braking: &LoadedBrake<'_>,
-    ((least, largest), disc): ((Extremum, Extremum), bool),
+    tensions: &TensionRange,
+    disc: bool,
 ) -> Vec<Measure> {
     let (data, limits) = (&machine.data, &machine.limits);
+    let TensionRange { least, largest } = tensions;
     let mut all = Vec::new();
     if !disc {
         let note = format!(
@@ -59,8 +60,7 @@ pub(super) fn measures(
 /// The friction divided by that at which the brake jams: 0 where it never jams.
 fn self_locking(braking: &LoadedBrake<'_>) -> Measure {
     let friction = braking.brake.friction();
-    let share = |pose: &FramePose| pose.locking_friction().map_or(0.0, |lock| friction / lock);
-    let worst = braking.largest(share);
+    let worst = braking.largest(|pose| pose.locking_friction().map_or(0.0, |lock| friction / lock));
     let note = if worst.value > 0.0 {
         let (lock, radius) = (friction / worst.value, MILLIMETRES * worst.at);
         let place = format!("the brake jams with a friction of {lock:.4} at {} mm", shown(radius));
@@ -90,11 +90,11 @@ fn frame_reach(brake: &Brake) -> Measure {
 fn grip(braking: &LoadedBrake<'_>) -> Measure {
     let (data, brake) = (braking.data, braking.brake);
     let worst = braking.least(|pose| braking.grip(pose) / data.tension);
-    let weight = |pose: &FramePose| match data.model {
+    let weight = braking.largest(|pose| match data.model {
         BrakeModel::Consistent => brake.weight_for(data.tension, pose),
         BrakeModel::Printed => brake.weight_for_printed(data.tension, pose),
-    };
-    let needed = data.grip * braking.largest(weight).value;
+    });
+    let needed = data.grip * weight.value;
     let note = format!(
         "least at {} mm; holding {} times the wanted tension over the whole roll needs a weight of {needed:.2} N: brake.weight = \"{:.2} N\"",
         shown(MILLIMETRES * worst.at),

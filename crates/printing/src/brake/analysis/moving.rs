@@ -43,15 +43,13 @@ pub(super) fn mechanism(braking: &LoadedBrake<'_>) -> MovingMechanism {
 }
 
 fn extents(places: &[BrakeOutline]) -> Extents {
-    let corner = |lying: &BrakeOutline| {
+    let mut points = Vec::new();
+    for lying in places {
         let roll = Vector2::repeat(lying.roll);
         let pulley = Vector2::repeat(lying.pulley);
-        [roll, -roll, lying.pivot, lying.centre, lying.right + pulley, lying.right - pulley]
-            .into_iter()
-            .chain([lying.left + pulley, lying.left - pulley])
-            .collect::<Vec<_>>()
-    };
-    let points: Vec<Vector2<f64>> = places.iter().flat_map(corner).collect();
+        points.extend([roll, -roll, lying.pivot, lying.centre, lying.right + pulley, lying.right - pulley]);
+        points.extend([lying.left + pulley, lying.left - pulley]);
+    }
     let least = points.iter().fold(Vector2::repeat(f64::INFINITY), |low, point| low.inf(point));
     let largest = points.iter().fold(Vector2::repeat(f64::NEG_INFINITY), |high, point| high.sup(point));
     let margin = Vector2::repeat(MARGIN * (largest - least).max());
@@ -62,31 +60,26 @@ fn extents(places: &[BrakeOutline]) -> Extents {
 fn parts(braking: &LoadedBrake<'_>, places: &[BrakeOutline], turned: &[f64]) -> Vec<RigidPart> {
     let Some(full) = places.last() else { return Vec::new() };
     let roll: Vec<f64> = places.iter().map(|lying| lying.roll).collect();
-    let grown = |part: RigidPart| RigidPart {
+    let paper = RigidPart {
         stretch: CoordinateTrack::from(roll.clone()),
-        height: CoordinateTrack::from(roll.clone()),
-        ..part
+        height: CoordinateTrack::from(roll),
+        ..RigidPart::new("bed", vec![circle(0.0, 0.0, 1.0)])
     };
-    let moved = |part: RigidPart, of: fn(&BrakeOutline) -> Vector2<f64>| {
-        let (x, y): (Vec<f64>, Vec<f64>) = places.iter().map(|lying| (of(lying).x, of(lying).y)).unzip();
-        part.at(x, y)
-    };
-    let pulley = || RigidPart::new("roller", vec![circle(0.0, 0.0, full.pulley)]);
-    let own = |at: Vector2<f64>| at - full.pivot;
-    let arm = |at: Vector2<f64>| line((0.0, 0.0), (own(at).x, own(at).y));
-    let frame = RigidPart::new("follower", vec![arm(full.right), arm(full.left), arm(full.centre)]);
-    // The frame's own shape is that at the full roll, the last sample.
+    let pulley = RigidPart::new("roller", vec![circle(0.0, 0.0, full.pulley)]);
+    let arms = [full.right, full.left, full.centre].map(|end| end - full.pivot);
+    let frame = RigidPart::new("follower", arms.map(|arm| line((0.0, 0.0), (arm.x, arm.y))).to_vec());
+    // The frame is drawn as at the full roll, the last sample.
     let frame = frame.at(full.pivot.x, full.pivot.y).turned(turned.to_vec());
     let drop = WEIGHT * MILLIMETRES * braking.brake.roll().largest_radius;
     let weight = RigidPart::new("arrow", vec![line((0.0, 0.0), (0.0, -drop))]);
     vec![
-        grown(RigidPart::new("bed", vec![circle(0.0, 0.0, 1.0)])),
+        paper,
         span(places, 0),
         span(places, 1),
         frame,
-        moved(pulley(), |lying| lying.right).named("p1", 0.0, 0.0),
-        moved(pulley(), |lying| lying.left).named("p2", 0.0, 0.0),
-        moved(weight, |lying| lying.centre).named("G", 0.0, 0.0),
+        moved(pulley.clone(), places, |lying| lying.right).named("p1", 0.0, 0.0),
+        moved(pulley, places, |lying| lying.left).named("p2", 0.0, 0.0),
+        moved(weight, places, |lying| lying.centre).named("G", 0.0, 0.0),
         RigidPart::new("ground", bracket(full.pivot, (0.8 * full.pulley, 1.0))),
         RigidPart::new("pin", vec![circle(full.pivot.x, full.pivot.y, 0.35 * full.pulley)]).named(
             "O",
@@ -95,6 +88,12 @@ fn parts(braking: &LoadedBrake<'_>, places: &[BrakeOutline], turned: &[f64]) -> 
         ),
         RigidPart::new("ground", vec![circle(0.0, 0.0, 0.3 * full.pulley)]),
     ]
+}
+
+/// A part that moves with a point of the frame.
+fn moved(part: RigidPart, places: &[BrakeOutline], point: fn(&BrakeOutline) -> Vector2<f64>) -> RigidPart {
+    let (x, y): (Vec<f64>, Vec<f64>) = places.iter().map(|lying| (point(lying).x, point(lying).y)).unzip();
+    part.at(x, y)
 }
 
 /// A span of the belt between a pulley and the roll: a line of unit length, turned and stretched.

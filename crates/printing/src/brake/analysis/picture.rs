@@ -31,31 +31,23 @@ pub(super) struct BrakeOutline {
 impl BrakeOutline {
     pub(super) fn new(braking: &LoadedBrake<'_>, pose: &FramePose) -> Self {
         let frame = braking.brake.frame();
-        let vector = |[x, y]: [f64; 2]| MILLIMETRES * Vector2::new(x, y);
-        let [right, left, centre] = braking.brake.parts(pose).map(vector);
+        let [right, left, centre] = braking.brake.parts(pose).map(|part| MILLIMETRES * Vector2::from(part));
         let (roll, pulley) = (MILLIMETRES * pose.radius, MILLIMETRES * frame.pulley_radius);
-        // The inner run touches roll and pulley from either side: the normal at both is that from the roll's axis.
-        let touch = |at: Vector2<f64>, hand: f64| {
-            let (distance, sum) = (at.norm(), roll + pulley);
-            let span = ((distance - sum) * (distance + sum)).max(0.0).sqrt();
-            libm::atan2(at.y, at.x) + hand * libm::atan2(span, sum)
-        };
-        let angles = [touch(right, 1.0), touch(left, -1.0)];
-        let ends = |at: Vector2<f64>, angle: f64| {
-            let (sine, cosine) = libm::sincos(angle);
-            let normal = Vector2::new(cosine, sine);
-            [at - normal * pulley, normal * roll]
-        };
-        let [first, last] = angles;
+        let first = touching_angle(right, roll + pulley, 1.0);
+        let last = touching_angle(left, roll + pulley, -1.0);
+        let [first_normal, last_normal] = [first, last].map(|angle| on_circle(Vector2::zeros(), 1.0, angle));
         Self {
-            pivot: vector(frame.pivot),
+            pivot: MILLIMETRES * Vector2::from(frame.pivot),
             right,
             left,
             centre,
             roll,
             pulley,
-            spans: [ends(right, first), ends(left, last)],
-            touches: angles,
+            spans: [
+                [right - first_normal * pulley, first_normal * roll],
+                [left - last_normal * pulley, last_normal * roll],
+            ],
+            touches: [first, last],
         }
     }
 
@@ -67,6 +59,14 @@ impl BrakeOutline {
         let arc = (0..=POINTS).map(|i| on_circle(Vector2::zeros(), self.roll, first + whole * share(i)));
         std::iter::once(from).chain(arc).chain(std::iter::once(to)).collect()
     }
+}
+
+/// The angle at which the inner run touches the roll, from a pulley's centre and the sum of both radii. The run touches roll and pulley
+/// from either side, so the normal at both is the one from the roll's axis.
+fn touching_angle(pulley: Vector2<f64>, radii: f64, hand: f64) -> f64 {
+    let distance = pulley.norm();
+    let span = ((distance - radii) * (distance + radii)).max(0.0).sqrt();
+    libm::atan2(pulley.y, pulley.x) + hand * libm::atan2(span, radii)
 }
 
 fn share(index: u32) -> f64 {
@@ -93,7 +93,7 @@ pub(super) fn scheme(braking: &LoadedBrake<'_>) -> Scheme {
             shown(pose.wrap.to_degrees()),
             shown(braking.tension(pose))
         );
-        at(text, &BrakeOutline::new(braking, pose))
+        drawn_pose(text, &BrakeOutline::new(braking, pose))
     });
     let tight = if braking.brake.rotation() == RollRotation::Clockwise { "left" } else { "right" };
     let notes = vec![
@@ -103,12 +103,15 @@ pub(super) fn scheme(braking: &LoadedBrake<'_>) -> Scheme {
     Scheme { poses: stands.collect(), notes }
 }
 
-fn at(name: String, lying: &BrakeOutline) -> scheme::SchemePose {
-    let link = |name, colour, points: &[Vector2<f64>]| Stroke {
-        name,
-        kind: StrokeKind::Link(colour),
-        points: points.to_vec(),
-    };
+fn link(name: &'static str, colour: usize, points: &[Vector2<f64>]) -> Stroke {
+    Stroke { name, kind: StrokeKind::Link(colour), points: points.to_vec() }
+}
+
+fn joint(letter: &'static str, at: Vector2<f64>, fixed: bool, towards: Vector2<f64>) -> SchemeJoint {
+    SchemeJoint { letter, at, fixed, towards }
+}
+
+fn drawn_pose(name: String, lying: &BrakeOutline) -> scheme::SchemePose {
     let BrakeOutline { pivot, right, left, centre, .. } = *lying;
     let strokes = vec![
         circle("roll", StrokeKind::Body, Vector2::zeros(), lying.roll),
@@ -118,13 +121,11 @@ fn at(name: String, lying: &BrakeOutline) -> scheme::SchemePose {
         link("arm of the weight", FRAME, &[pivot, centre]),
         link("belt", BELT, &lying.belt()),
     ];
-    let joint =
-        |letter, at, fixed, towards: [f64; 2]| SchemeJoint { letter, at, fixed, towards: Vector2::from(towards) };
     let joints = vec![
-        joint("p1", right, false, [1.0, 1.0]),
-        joint("p2", left, false, [-1.0, 1.0]),
-        joint("c", centre, false, [0.0, 1.0]),
-        joint("O", pivot, true, [-1.0, -1.0]),
+        joint("p1", right, false, Vector2::new(1.0, 1.0)),
+        joint("p2", left, false, Vector2::new(-1.0, 1.0)),
+        joint("c", centre, false, Vector2::new(0.0, 1.0)),
+        joint("O", pivot, true, Vector2::new(-1.0, -1.0)),
     ];
     scheme::SchemePose { name, strokes, joints }
 }

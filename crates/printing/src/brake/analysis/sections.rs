@@ -1,12 +1,12 @@
 //! Sections of the report on a brake: the frame at both ends, the tension, the printed equations, power, web.
 
 use super::TensionDisc;
-use super::braking::LoadedBrake;
+use super::braking::{LoadedBrake, TensionRange};
+use crate::brake::BrakeDisc;
 use crate::brake::machine::{BeltMode, BrakeData, BrakeModel};
-use crate::brake::mechanics::{FramePose, PaperRoll};
+use crate::brake::mechanics::{FramePose, PaperRoll, Web};
 use camgen_cams::report::{Section, shown};
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::numeric::extremum::Extremum;
 use serde::Serialize;
 
 /// Change of the friction for which tensions are also reported, as a share.
@@ -100,14 +100,9 @@ struct BrakeFigures {
 }
 
 /// Weight, tension over the roll, and the effect of friction on it.
-pub(super) fn brake(braking: &LoadedBrake<'_>, (least, largest): (Extremum, Extremum)) -> Section {
-    let [full, run_down] = &braking.ends;
-    let friction = braking.brake.friction();
-    let with_share = |share: f64| {
-        let friction = friction * share;
-        let at = |pose: &FramePose| braking.tension_with(pose, friction);
-        OtherFriction { friction, tension_full_n: at(full), tension_run_down_n: at(run_down) }
-    };
+pub(super) fn brake(braking: &LoadedBrake<'_>, tensions: &TensionRange) -> Section {
+    let [full, _] = &braking.ends;
+    let TensionRange { least, largest } = tensions;
     let figures = BrakeFigures {
         model: if braking.data.model == BrakeModel::Consistent { "consistent" } else { "printed" },
         mode: if braking.data.mode == BeltMode::Slip { "slip" } else { "no-slip" },
@@ -121,14 +116,27 @@ pub(super) fn brake(braking: &LoadedBrake<'_>, (least, largest): (Extremum, Extr
         tension_largest_n: largest.value,
         tension_largest_roll_radius_mm: MILLIMETRES * largest.at,
         tension_spread: super::spread(least.value, largest.value),
-        other_friction: vec![with_share(1.0 - FRICTION_CHANGE), with_share(1.0 + FRICTION_CHANGE)],
+        other_friction: vec![other_friction(braking, 1.0 - FRICTION_CHANGE), other_friction(braking, 1.0 + FRICTION_CHANGE)],
     };
-    Section::new("brake", &figures).with_words(words(&figures))
+    Section::new("brake", &figures).with_words(describe_brake(&figures))
 }
 
-fn words(figures: &BrakeFigures) -> Vec<String> {
-    let newtons =
-        |tension: Option<f64>| tension.map_or("the brake jams".to_owned(), |tension| format!("{tension:.2} N"));
+/// The tensions with another friction, as a share of the brake's own.
+fn other_friction(braking: &LoadedBrake<'_>, share: f64) -> OtherFriction {
+    let [full, run_down] = &braking.ends;
+    let friction = braking.brake.friction() * share;
+    OtherFriction {
+        friction,
+        tension_full_n: braking.tension_with(full, friction),
+        tension_run_down_n: braking.tension_with(run_down, friction),
+    }
+}
+
+fn newtons_or_jams(tension: Option<f64>) -> String {
+    tension.map_or("the brake jams".to_owned(), |tension| format!("{tension:.2} N"))
+}
+
+fn describe_brake(figures: &BrakeFigures) -> Vec<String> {
     let mut lines = vec![
         format!(
             "weight {:.2} N; {} N on the full roll needs {:.2} N, or {:.2} N by the printed moment (5)",
@@ -147,8 +155,8 @@ fn words(figures: &BrakeFigures) -> Vec<String> {
         format!(
             "with a friction of {:.3}: {} on the full roll, {} on the run-down roll",
             other.friction,
-            newtons(other.tension_full_n),
-            newtons(other.tension_run_down_n)
+            newtons_or_jams(other.tension_full_n),
+            newtons_or_jams(other.tension_run_down_n)
         )
     }));
     lines
@@ -177,8 +185,7 @@ pub(super) fn printed(braking: &LoadedBrake<'_>) -> Section {
     let ([full, run_down], wanted) = (&braking.ends, braking.data.tension);
     let slip = 1.0 - braking.data.belt_speed_ratio;
     let weight = braking.brake.weight_for_printed(wanted, full) / slip;
-    let stands = |pose: &FramePose| braking.brake.tension_printed(weight, pose);
-    let by_9 = 1.0 - wanted / stands(run_down);
+    let by_9 = 1.0 - wanted / braking.brake.tension_printed(weight, run_down);
     let figures = PrintedFigures {
         press_full_n: weight * full.h1 / full.h2,
         weight_by_8_n: weight,
@@ -232,8 +239,7 @@ pub(super) fn web(data: &BrakeData, roll: Option<&PaperRoll>) -> Option<Section>
     let exact = web.belt_speed(wanted);
     let ratio = super::braking::belt_speed(data);
     let (belt, heat) = web.powers(wanted, ratio);
-    let with = |modulus: f64| crate::brake::mechanics::Web { modulus, ..*web }.tension(exact);
-    let [soft, stiff] = NEWSPRINT;
+    let [soft, stiff] = NEWSPRINT.map(|modulus| Web { modulus, ..*web }.tension(exact));
     let dense = roll.zip(data.density);
     let inertia = dense.map(|(roll, density)| web.inertia(density, roll.largest_radius, roll.smallest_radius));
     let speeding = inertia.zip(roll).filter(|_| data.acceleration > 0.0);
@@ -246,8 +252,8 @@ pub(super) fn web(data: &BrakeData, roll: Option<&PaperRoll>) -> Option<Section>
         belt_speed_ratio_exact: exact,
         speed_sensitivity: web.sensitivity(wanted),
         stretch_mm: web.stretch(wanted).map(|stretch| MILLIMETRES * stretch),
-        tension_4000_mpa_n: with(soft),
-        tension_5000_mpa_n: with(stiff),
+        tension_4000_mpa_n: soft,
+        tension_5000_mpa_n: stiff,
         belt_power_w: belt,
         heat_w: heat,
         roll_inertia_kg_m2: inertia,
@@ -291,25 +297,29 @@ struct DiscFigures {
     tension_as_cut_error_max_n: Option<f64>,
 }
 
+/// Lift of the law at a radius of the roll, mm.
+fn lift_mm(disc: &BrakeDisc, radius: f64) -> f64 {
+    super::of_disc(disc, radius).map_or(f64::NAN, |(_, _, lift)| MILLIMETRES * lift)
+}
+
 /// The disc that holds the tension, by its law and as cut.
 pub(super) fn disc(braking: &LoadedBrake<'_>, held: &TensionDisc<'_>) -> Section {
     let (disc, wanted) = (held.disc, braking.data.tension);
     let [_, run_down] = &braking.ends;
-    let lift = |radius: f64| super::of_disc(disc, radius).map_or(f64::NAN, |(_, _, lift)| MILLIMETRES * lift);
     let roll = braking.brake.roll();
-    let top = braking.radii(super::PLACES).map(lift).fold(0.0, f64::max);
+    let top = braking.radii(super::PLACES).map(|radius| lift_mm(disc, radius)).fold(0.0, f64::max);
     let cut = held.as_cut;
     let figures = DiscFigures {
         turns_per_frame_turn: disc.holding().turns_per_frame_turn(),
         cam_end_deg: disc.holding().total_angle().to_degrees(),
         work_j: disc.stored(),
-        lift_full_mm: lift(roll.largest_radius),
+        lift_full_mm: lift_mm(disc, roll.largest_radius),
         lift_largest_mm: top,
         spring_force_max_n: disc.law().spring_force(top / MILLIMETRES),
         moment_run_down_nm: disc.holding().moment(run_down),
-        tension_as_cut_least_n: cut.map(|cut| cut.least[1]),
-        tension_as_cut_largest_n: cut.map(|cut| cut.largest[1]),
-        tension_as_cut_error_max_n: cut.map(|cut| (cut.largest[1] - wanted).max(wanted - cut.least[1])),
+        tension_as_cut_least_n: cut.map(|cut| cut.least.tension),
+        tension_as_cut_largest_n: cut.map(|cut| cut.largest.tension),
+        tension_as_cut_error_max_n: cut.map(|cut| (cut.largest.tension - wanted).max(wanted - cut.least.tension)),
     };
     let mut words = vec![
         format!(
@@ -326,7 +336,10 @@ pub(super) fn disc(braking: &LoadedBrake<'_>, held: &TensionDisc<'_>) -> Section
         ),
     ];
     words.extend(cut.map(|cut| {
-        format!("as cut the web tension is between {:.3} and {:.3} N over the whole roll", cut.least[1], cut.largest[1])
+        format!(
+            "as cut the web tension is between {:.3} and {:.3} N over the whole roll",
+            cut.least.tension, cut.largest.tension
+        )
     }));
     words.push(
         "it compensates the change of the radius, not of the friction: another friction changes the tension as stated above".into(),

@@ -12,6 +12,7 @@
 //! With the pivot on the right the arms and θ change their sign (`side`), nothing else does.
 
 use super::{BrakeError, BrakeFrame, Pulley};
+use nalgebra::Vector2;
 use std::f64::consts::TAU;
 
 /// Steps of the search for a radius. Bisection alone needs 53; Newton's method four.
@@ -26,11 +27,11 @@ const CLOSED: f64 = 1e-12;
 /// The frame with its belt.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Belt {
-    pub(super) pivot: [f64; 2],
+    pub(super) pivot: Vector2<f64>,
     /// From the pivot, at θ = 0: right pulley, left pulley, centre of gravity.
-    pub(super) right: [f64; 2],
-    pub(super) left: [f64; 2],
-    pub(super) centre: [f64; 2],
+    pub(super) right: Vector2<f64>,
+    pub(super) left: Vector2<f64>,
+    pub(super) centre: Vector2<f64>,
     pub(super) pulley_radius: f64,
     /// Sign of q1 + q2 at the largest radius: −1 with the pivot on the right.
     pub(super) side: f64,
@@ -66,56 +67,52 @@ impl BeltState {
     }
 }
 
-pub(super) fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    let ([ax, ay], [bx, by]) = (a, b);
-    [ax - bx, ay - by]
+/// Where the parts of the frame are.
+pub(super) struct FrameParts {
+    /// Right pulley, from the roll's axis.
+    pub(super) right: Vector2<f64>,
+    /// Left pulley, from the roll's axis.
+    pub(super) left: Vector2<f64>,
+    /// Centre of gravity, from the pivot.
+    pub(super) centre: Vector2<f64>,
 }
 
-pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    let ([ax, ay], [bx, by]) = (a, b);
-    ax * bx + ay * by
+pub(super) fn distance(from: Vector2<f64>, to: Vector2<f64>) -> f64 {
+    libm::hypot(from.x - to.x, from.y - to.y)
 }
 
-fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    let ([ax, ay], [bx, by]) = (a, b);
-    ax * by - ay * bx
-}
-
-pub(super) fn size(a: [f64; 2]) -> f64 {
-    let [x, y] = a;
-    libm::hypot(x, y)
-}
-
-fn turned([x, y]: [f64; 2], (sine, cosine): (f64, f64)) -> [f64; 2] {
-    [cosine * x - sine * y, sine * x + cosine * y]
+pub(super) fn turned(part: Vector2<f64>, angle: f64) -> Vector2<f64> {
+    let (sine, cosine) = libm::sincos(angle);
+    Vector2::new(cosine * part.x - sine * part.y, sine * part.x + cosine * part.y)
 }
 
 /// N of a span: along the pulley's direction by R'/d, across it by ±S/d.
-fn normal([x, y]: [f64; 2], along: f64, across: f64, distance: f64) -> [f64; 2] {
+fn normal(pulley: Vector2<f64>, along: f64, across: f64, distance: f64) -> Vector2<f64> {
     let scale = 1.0 / (distance * distance);
-    [(along * x - across * y) * scale, (along * y + across * x) * scale]
+    Vector2::new((along * pulley.x - across * pulley.y) * scale, (along * pulley.y + across * pulley.x) * scale)
 }
 
 /// Angle from the right pulley to the left about the roll's axis, 0…2π.
-fn opening(right: [f64; 2], left: [f64; 2]) -> f64 {
-    let angle = libm::atan2(cross(right, left), dot(right, left));
+fn opening(right: Vector2<f64>, left: Vector2<f64>) -> f64 {
+    let angle = libm::atan2(right.perp(&left), right.dot(&left));
     if angle < 0.0 { angle + TAU } else { angle }
 }
 
 impl Belt {
     /// The angle between the pulleys about the roll's axis at a turn, 0…2π.
     pub(super) fn opening_at(&self, turn: f64) -> f64 {
-        let [right, left, _] = self.parts(turn);
+        let FrameParts { right, left, .. } = self.parts(turn);
         opening(right, left)
     }
 
     /// The belt of a frame at the largest radius of a roll, and its place there.
     pub(super) fn new(frame: &BrakeFrame, radius: f64) -> Result<(Self, BeltState), BrakeError> {
+        let pivot = Vector2::from(frame.pivot);
         let mut belt = Self {
-            pivot: frame.pivot,
-            right: minus(frame.right_pulley, frame.pivot),
-            left: minus(frame.left_pulley, frame.pivot),
-            centre: minus(frame.centre_of_gravity, frame.pivot),
+            pivot,
+            right: Vector2::from(frame.right_pulley) - pivot,
+            left: Vector2::from(frame.left_pulley) - pivot,
+            centre: Vector2::from(frame.centre_of_gravity) - pivot,
             pulley_radius: frame.pulley_radius,
             side: 1.0,
             length: 0.0,
@@ -125,15 +122,14 @@ impl Belt {
         Ok((belt, belt.place(radius, 0.0)?))
     }
 
-    /// Where the parts of the frame are at a turn φ: pulleys and centre of gravity from the roll's axis, the last from the pivot.
-    pub(super) fn parts(&self, turn: f64) -> [[f64; 2]; 3] {
-        let angle = libm::sincos(-self.side * turn);
-        let [ox, oy] = self.pivot;
-        let about = |part: [f64; 2]| {
-            let [x, y] = turned(part, angle);
-            [ox + x, oy + y]
-        };
-        [about(self.right), about(self.left), turned(self.centre, angle)]
+    /// Where the parts of the frame are at a turn φ.
+    pub(super) fn parts(&self, turn: f64) -> FrameParts {
+        let angle = -self.side * turn;
+        FrameParts {
+            right: self.pivot + turned(self.right, angle),
+            left: self.pivot + turned(self.left, angle),
+            centre: turned(self.centre, angle),
+        }
     }
 
     /// The place at a radius and a turn.
@@ -141,16 +137,15 @@ impl Belt {
     /// # Errors
     /// [`BrakeError::PulleyMeetsRoll`] where a pulley reaches into the roll.
     pub(super) fn place(&self, radius: f64, turn: f64) -> Result<BeltState, BrakeError> {
-        let [right, left, [centre_x, _]] = self.parts(turn);
+        let FrameParts { right, left, centre } = self.parts(turn);
         let inner = radius + self.pulley_radius;
-        let (d1, d2) = (size(right), size(left));
+        let (d1, d2) = (libm::hypot(right.x, right.y), libm::hypot(left.x, left.y));
         for (pulley, distance) in [(Pulley::Right, d1), (Pulley::Left, d2)] {
             if !(distance > inner) {
                 return Err(BrakeError::PulleyMeetsRoll { pulley, radius });
             }
         }
-        let span = |distance: f64| ((distance - inner) * (distance + inner)).sqrt();
-        let (s1, s2) = (span(d1), span(d2));
+        let [s1, s2] = [d1, d2].map(|distance| ((distance - inner) * (distance + inner)).sqrt());
         let wrap = opening(right, left) - libm::atan2(s1, inner) - libm::atan2(s2, inner);
         let (n1, n2) = (normal(right, inner, s1, d1), normal(left, inner, -s2, d2));
         Ok(BeltState {
@@ -158,9 +153,9 @@ impl Belt {
             turn,
             wrap,
             length: inner * wrap + s1 + s2,
-            right_arm: self.side * (radius - dot(self.pivot, n1)),
-            left_arm: self.side * (dot(self.pivot, n2) - radius),
-            weight_arm: self.side * centre_x,
+            right_arm: self.side * (radius - self.pivot.dot(&n1)),
+            left_arm: self.side * (self.pivot.dot(&n2) - radius),
+            weight_arm: self.side * centre.x,
         })
     }
 
@@ -175,9 +170,10 @@ impl Belt {
     /// # Errors
     /// [`BrakeError::PulleyMeetsRoll`] where the belt is too long for the place, [`BrakeError::BeltLeavesRoll`] where it is too short.
     pub(super) fn at_turn(&self, turn: f64, guess: f64) -> Result<BeltState, BrakeError> {
-        let [right, left, _] = self.parts(turn);
-        let (mut low, mut high) = (-self.pulley_radius, size(right).min(size(left)) - self.pulley_radius);
-        let nearer = if size(right) < size(left) { Pulley::Right } else { Pulley::Left };
+        let FrameParts { right, left, .. } = self.parts(turn);
+        let (d1, d2) = (libm::hypot(right.x, right.y), libm::hypot(left.x, left.y));
+        let (mut low, mut high) = (-self.pulley_radius, d1.min(d2) - self.pulley_radius);
+        let nearer = if d1 < d2 { Pulley::Right } else { Pulley::Left };
         let mut radius = if guess > low && guess < high { guess } else { 0.5 * (low + high) };
         let mut miss = f64::NAN;
         for _ in 0..MOST_STEPS {
@@ -209,9 +205,8 @@ impl Belt {
         }
     }
 
-    /// The place at a radius between two turns of which the first leaves the belt too short or just fitting, and the second too
-    /// long; from a guess.
-    pub(super) fn at_radius(&self, radius: f64, (low, high): (f64, f64), guess: f64) -> Result<BeltState, BrakeError> {
+    /// The belt at a radius between two turns, at `low` too short or just fitting, at `high` too long; from a guess.
+    pub(super) fn at_radius(&self, radius: f64, low: f64, high: f64, guess: f64) -> Result<BeltState, BrakeError> {
         let (mut low, mut high) = (low, high);
         let mut turn = guess.clamp(low, high);
         for _ in 0..MOST_STEPS {

@@ -141,25 +141,28 @@ pub(super) fn millimetres(metres: f64) -> f64 {
 
 /// Refuses a length, a speed, a modulus, a friction or a tension (SI) that is not above 0.
 pub(super) fn positive(name: &str, value: f64) -> Result<(), Refusal> {
-    let positive = value > 0.0 && value.is_finite();
-    let refusal = || Refusal::new(format!("the {name} is {value}")).remedy("it must be a number above 0");
-    positive.then_some(()).ok_or_else(refusal)
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(Refusal::new(format!("the {name} is {value}")).remedy("it must be a number above 0"))
 }
 
 /// Refuses a coordinate or a strain that is not finite.
 pub(super) fn finite(name: &str, value: f64) -> Result<(), Refusal> {
-    let refusal = || Refusal::new(format!("the {name} is {value}")).remedy("it must be a finite number");
-    value.is_finite().then_some(()).ok_or_else(refusal)
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(Refusal::new(format!("the {name} is {value}")).remedy("it must be a finite number"))
 }
 
 /// Refuses a roll (m) whose radius does not become smaller.
 pub(super) fn shrinking(roll: &PaperRoll) -> Result<(), Refusal> {
     let PaperRoll { largest_radius: largest, smallest_radius: smallest } = *roll;
-    let refusal = || {
-        Refusal::new(format!("the smallest radius of the roll is {} mm", millimetres(smallest)))
-            .remedy(format!("it must be below the largest, {} mm", millimetres(largest)))
-    };
-    (smallest < largest).then_some(()).ok_or_else(refusal)
+    if smallest < largest {
+        return Ok(());
+    }
+    Err(Refusal::new(format!("the smallest radius of the roll is {} mm", millimetres(smallest)))
+        .remedy(format!("it must be below the largest, {} mm", millimetres(largest))))
 }
 
 /// That a disc would turn past its start, with its turns for a turn of the frame by an angle (rad).

@@ -13,11 +13,12 @@
 //! The disc takes the radius out, not the friction: with another friction the tension is different, but still nearly constant over the roll
 //! (`roll` of the tests, made for 0.25: with 0.30 it is 362.4 and 362.6 N at the ends of the roll, 363.4 N between).
 
-use super::belt::BeltState;
+use super::belt::{BeltState, turned};
 use super::error::{finite, positive};
 use super::{Brake, BrakeError, FramePose, turned_too_far};
 use camgen_kernel::numeric::quadrature;
 use camgen_kernel::numeric::series::PowerSeries;
+use nalgebra::Vector2;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
@@ -47,12 +48,26 @@ pub struct DiscWork {
     pub torque_second: f64,
 }
 
-/// A place of the plane as series.
+/// A point of the plane as series.
 type SeriesPoint = [PowerSeries<3>; 2];
 
 fn along(a: SeriesPoint, b: SeriesPoint) -> PowerSeries<3> {
     let ([ax, ay], [bx, by]) = (a, b);
     ax * bx + ay * by
+}
+
+/// β and O·N of the span at a pulley, with R' = `inner`; `hand` is 1 for the right pulley, −1 for the left.
+fn span(
+    pulley: SeriesPoint,
+    pivot: SeriesPoint,
+    inner: PowerSeries<3>,
+    hand: f64,
+) -> (PowerSeries<3>, PowerSeries<3>) {
+    let [x, y] = pulley;
+    let square = along(pulley, pulley);
+    let length = (square - inner * inner).sqrt();
+    let across = along(pivot, [-y, x]) * length * hand;
+    (length.atan2(inner), (along(pivot, pulley) * inner + across) / square)
 }
 
 /// The moment and the change of the radius as series along the roll.
@@ -202,8 +217,11 @@ impl TensionHolding {
     /// ∫ M dφ from a station to a turn within its step, J.
     fn work_between(&self, from: &BeltState, turn: f64) -> f64 {
         // Within a step of the walk there is a place at every turn.
-        let moment = |turn| self.place_from(from, turn).map_or(f64::NAN, |place| self.moment(&self.brake.pose(&place)));
-        quadrature::integrate(moment, (from.turn, turn), 1)
+        quadrature::integrate(
+            |turn| self.place_from(from, turn).map_or(f64::NAN, |place| self.moment(&self.brake.pose(&place))),
+            (from.turn, turn),
+            1,
+        )
     }
 
     /// M as a series in φ at a place of the roll. The first pass knows R to its slope, and gives the slope of that.
@@ -217,19 +235,12 @@ impl TensionHolding {
     fn series(&self, radius: PowerSeries<3>, turn: f64) -> MomentSeries {
         let belt = &self.brake.belt;
         let (left, right, pivot) =
-            (self.part(belt.left, turn), self.part(belt.right, turn), belt.pivot.map(PowerSeries::constant));
+            (self.part(belt.left, turn), self.part(belt.right, turn), [belt.pivot.x, belt.pivot.y].map(PowerSeries::constant));
         let ([lx, ly], [rx, ry], [ox, oy]) = (left, right, pivot);
         let (left, right) = ([ox + lx, oy + ly], [ox + rx, oy + ry]);
         let inner = radius + belt.pulley_radius;
-        // S, β and O·N of a pulley; `hand` is +1 for the right one.
-        let span = |pulley: SeriesPoint, hand: f64| {
-            let [x, y] = pulley;
-            let square = along(pulley, pulley);
-            let length = (square - inner * inner).sqrt();
-            let across = along(pivot, [-y, x]) * length * hand;
-            (length.atan2(inner), (along(pivot, pulley) * inner + across) / square)
-        };
-        let ((angle1, on1), (angle2, on2)) = (span(right, 1.0), span(left, -1.0));
+        let (angle1, on1) = span(right, pivot, inner, 1.0);
+        let (angle2, on2) = span(left, pivot, inner, -1.0);
         let [ax, ay] = right;
         let [bx, by] = left;
         let wrap = (ax * by - ay * bx).atan2(ax * bx + ay * by) - angle1 - angle2;
@@ -247,11 +258,10 @@ impl TensionHolding {
     }
 
     /// A part of the frame, from the pivot, as a series in φ: d/dφ turns it by a right angle, clockwise with the pivot on the left.
-    fn part(&self, part: [f64; 2], turn: f64) -> SeriesPoint {
+    fn part(&self, part: Vector2<f64>, turn: f64) -> SeriesPoint {
         let side = self.brake.belt.side;
-        let (sine, cosine) = libm::sincos(-side * turn);
-        let [x, y] = part;
-        let (x, y) = (cosine * x - sine * y, sine * x + cosine * y);
+        let part = turned(part, -side * turn);
+        let (x, y) = (part.x, part.y);
         [PowerSeries([x, side * y, -0.5 * x]), PowerSeries([y, -side * x, -0.5 * y])]
     }
 }

@@ -223,9 +223,8 @@ impl Brake {
     /// Right pulley, left pulley and centre of gravity in this position of the frame, m from the roll's axis.
     #[must_use]
     pub fn parts(&self, pose: &FramePose) -> [[f64; 2]; 3] {
-        let [right, left, [x, y]] = self.belt.parts(pose.theta.abs());
-        let [ox, oy] = self.belt.pivot;
-        [right, left, [ox + x, oy + y]]
+        let parts = self.belt.parts(pose.theta.abs());
+        [parts.right.into(), parts.left.into(), (self.belt.pivot + parts.centre).into()]
     }
 
     /// The frame at a radius of the roll, m.
@@ -238,21 +237,17 @@ impl Brake {
 
     fn place(&self, radius: f64) -> Result<BeltState, BrakeError> {
         let PaperRoll { largest_radius: largest, smallest_radius: smallest } = self.roll;
-        let outside = || {
-            let [radius, smallest, largest] = [radius, smallest, largest].map(millimetres);
-            Refusal::new(format!("a radius of {radius} mm is outside the roll"))
-                .remedy(format!("it must be within {smallest}…{largest} mm"))
-        };
-        if !(radius >= smallest && radius <= largest) {
-            return Err(outside().into());
-        }
         let after = self.places.partition_point(|place| place.radius >= radius);
-        let Some(before) = after.checked_sub(1).and_then(|index| self.places.get(index)) else {
-            return Err(outside().into());
+        let before = after.checked_sub(1).and_then(|index| self.places.get(index));
+        let Some(before) = before.filter(|_| radius >= smallest && radius <= largest) else {
+            let [radius, smallest, largest] = [radius, smallest, largest].map(millimetres);
+            return Err(Refusal::new(format!("a radius of {radius} mm is outside the roll"))
+                .remedy(format!("it must be within {smallest}…{largest} mm"))
+                .into());
         };
         let Some(behind) = self.places.get(after) else { return Ok(*before) };
         let guess = before.turn + (radius - before.radius) / before.radius_by_turn();
-        let place = self.belt.at_radius(radius, (before.turn, behind.turn), guess)?;
+        let place = self.belt.at_radius(radius, before.turn, behind.turn, guess)?;
         self.grip.check(place, smallest)
     }
 

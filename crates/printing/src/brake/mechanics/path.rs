@@ -77,7 +77,7 @@ pub(super) fn walk(
         let turn = (-step / here.radius_by_turn()).min(MOST_TURN);
         here = match next(belt, &here, turn, grip, smallest) {
             Ok(place) => place,
-            Err(wall) => before_wall(belt, here, (turn, wall), grip, smallest)?,
+            Err(wall) => before_wall(belt, here, turn, wall, grip, smallest)?,
         };
         places.push(here);
     }
@@ -98,7 +98,8 @@ fn next(belt: &Belt, here: &BeltState, turn: f64, grip: Grip, smallest: f64) -> 
 fn before_wall(
     belt: &Belt,
     here: BeltState,
-    (turn, wall): (f64, BrakeError),
+    turn: f64,
+    wall: BrakeError,
     grip: Grip,
     smallest: f64,
 ) -> Result<BeltState, BrakeError> {

@@ -9,8 +9,10 @@
 //! more than half of the effect. No frame removes the effect of friction: the tension must still be measured.
 
 use super::error::{millimetres, positive, shrinking};
+use super::belt::distance;
 use super::{Brake, BrakeFrame, PaperRoll, RollRotation};
 use camgen_kernel::refusal::Refusal;
+use nalgebra::Vector2;
 
 /// Steps of the roll on which a frame is judged while it is searched: the tension of a smooth frame has two or three extremes.
 const STATIONS: u32 = 16;
@@ -100,7 +102,23 @@ impl SplitMix {
     }
 }
 
+/// How much less than the least a distance is.
+fn shortfall(distance: f64, least: f64) -> f64 {
+    (least - distance).max(0.0)
+}
+
+/// A frame of the search with its cost.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    cost: f64,
+    genes: Coordinates,
+}
+
 impl FrameTask {
+    fn candidate(&self, genes: Coordinates) -> Candidate {
+        Candidate { cost: self.cost(&genes), genes }
+    }
+
     fn frame(&self, genes: &Coordinates) -> BrakeFrame {
         let [ox, oy, rx, ry, lx, ly, gx, gy] = *genes;
         BrakeFrame {
@@ -115,16 +133,14 @@ impl FrameTask {
     /// How far a frame exceeds the reach or its parts are too close, m.
     fn excess(&self, genes: &Coordinates) -> f64 {
         let BrakeFrame { pivot, right_pulley, left_pulley, .. } = self.frame(genes);
-        let size = |[x, y]: [f64; 2]| libm::hypot(x, y);
-        let short = |distance: f64, least: f64| (least - distance).max(0.0);
+        let [pivot, right, left] = [pivot, right_pulley, left_pulley].map(Vector2::from);
         let roll = self.roll.largest_radius + self.clearance;
         let out: f64 = genes.iter().map(|value| (value.abs() - self.reach).max(0.0)).sum();
-        let [[rx, ry], [lx, ly]] = [right_pulley, left_pulley];
-        let pulleys = size([rx - lx, ry - ly]);
-        out + short(size(pivot), roll)
-            + short(size(right_pulley), roll + self.pulley_radius)
-            + short(size(left_pulley), roll + self.pulley_radius)
-            + short(pulleys, 2.0 * self.pulley_radius + self.clearance)
+        let axis = Vector2::zeros();
+        out + shortfall(distance(pivot, axis), roll)
+            + shortfall(distance(right, axis), roll + self.pulley_radius)
+            + shortfall(distance(left, axis), roll + self.pulley_radius)
+            + shortfall(distance(right, left), 2.0 * self.pulley_radius + self.clearance)
     }
 
     /// The cost to be minimised.
@@ -197,30 +213,27 @@ pub fn synthesise(task: &FrameTask) -> Result<DesignedBrake, Refusal> {
     let mut best = polished(task, evolved(task));
     // A second simplex from the end of the first: the first may have collapsed in a narrow valley.
     best = polished(task, best);
-    let brake = Brake::new(task.frame(&best.1), task.roll, task.friction, task.rotation);
-    let none = || {
+    let brake = Brake::new(task.frame(&best.genes), task.roll, task.friction, task.rotation);
+    let Some(brake) = brake.ok().filter(|_| best.cost < WALLED) else {
         let reach = millimetres(task.reach);
-        Refusal::new(format!("no frame within {reach} mm of the axis of the roll brakes the whole roll"))
-            .remedy("allow a larger reach, or smaller pulleys")
+        return Err(Refusal::new(format!("no frame within {reach} mm of the axis of the roll brakes the whole roll"))
+            .remedy("allow a larger reach, or smaller pulleys"));
     };
-    let brake = brake.map_err(|_| none())?;
     let spread = task.spread(&brake);
-    if best.0 < WALLED { Ok(DesignedBrake { brake, spread }) } else { Err(none()) }
+    Ok(DesignedBrake { brake, spread })
 }
 
 /// Differential evolution; the best candidate of the last generation.
-fn evolved(task: &FrameTask) -> (f64, Coordinates) {
+fn evolved(task: &FrameTask) -> Candidate {
     let mut random = SplitMix(task.seed);
-    let mut any = || {
-        let genes: Coordinates = std::array::from_fn(|_| task.reach * (2.0 * random.unit() - 1.0));
-        (task.cost(&genes), genes)
-    };
-    let mut all: Vec<(f64, Coordinates)> = (0..POPULATION).map(|_| any()).collect();
+    let mut all: Vec<Candidate> = (0..POPULATION)
+        .map(|_| task.candidate(std::array::from_fn(|_| task.reach * (2.0 * random.unit() - 1.0))))
+        .collect();
     for _ in 0..task.generations {
         for index in 0..POPULATION {
-            let pick = |random: &mut SplitMix| all.get(random.below(POPULATION)).map_or([0.0; 8], |(_, genes)| *genes);
-            let (base, more, less) = (pick(&mut random), pick(&mut random), pick(&mut random));
-            let Some((cost, mut genes)) = all.get(index).copied() else { continue };
+            let [base, more, less] =
+                [(); 3].map(|()| all.get(random.below(POPULATION)).map_or([0.0; 8], |picked| picked.genes));
+            let Some(Candidate { cost, mut genes }) = all.get(index).copied() else { continue };
             let surely = random.below(genes.len());
             let mutants =
                 base.iter().zip(&more).zip(&less).map(|((base, more), less)| base + DIFFERENCE * (more - less));
@@ -229,13 +242,14 @@ fn evolved(task: &FrameTask) -> (f64, Coordinates) {
                     *gene = mutant;
                 }
             }
-            let new = task.cost(&genes);
-            if let Some(old) = all.get_mut(index).filter(|_| new <= cost) {
-                *old = (new, genes);
+            let new = task.candidate(genes);
+            if let Some(old) = all.get_mut(index).filter(|_| new.cost <= cost) {
+                *old = new;
             }
         }
     }
-    all.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, [0.0; 8]))
+    let best = all.into_iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
+    best.unwrap_or(Candidate { cost: f64::INFINITY, genes: [0.0; 8] })
 }
 
 /// A point on the line from one through another, by a multiple of their distance.
@@ -248,50 +262,46 @@ fn on_line(from: &Coordinates, through: &Coordinates, multiple: f64) -> Coordina
 }
 
 /// Nelder and Mead's simplex about a point.
-fn polished(task: &FrameTask, start: (f64, Coordinates)) -> (f64, Coordinates) {
+fn polished(task: &FrameTask, start: Candidate) -> Candidate {
     let size = 0.02 * task.reach;
-    let corner = |index: usize| {
-        let mut genes = start.1;
+    let mut corners = Vec::with_capacity(start.genes.len() + 1);
+    for index in 0..start.genes.len() {
+        let mut genes = start.genes;
         genes.iter_mut().skip(index).take(1).for_each(|value| *value += size);
-        (task.cost(&genes), genes)
-    };
-    let mut corners: Vec<(f64, Coordinates)> = (0..start.1.len()).map(corner).chain([start]).collect();
+        corners.push(task.candidate(genes));
+    }
+    corners.push(start);
     for _ in 0..POLISH {
-        corners.sort_by(|a, b| a.0.total_cmp(&b.0));
+        corners.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         let (Some(best), Some(worst)) = (corners.first().copied(), corners.pop()) else { return start };
-        if worst.0 - best.0 < AGREED {
+        if worst.cost - best.cost < AGREED {
             return best;
         }
         let mut middle: Coordinates = [0.0; 8];
-        for (_, genes) in &corners {
-            for (sum, value) in middle.iter_mut().zip(genes) {
+        for corner in &corners {
+            for (sum, value) in middle.iter_mut().zip(&corner.genes) {
                 *sum += value / 8.0;
             }
         }
-        let second = corners.last().map_or(worst.0, |corner| corner.0);
-        let at = |multiple: f64| {
-            let genes = on_line(&worst.1, &middle, multiple);
-            (task.cost(&genes), genes)
-        };
-        let mirrored = at(2.0);
-        let new = if mirrored.0 < best.0 {
-            let further = at(3.0);
-            if further.0 < mirrored.0 { further } else { mirrored }
-        } else if mirrored.0 < second {
+        let second = corners.last().map_or(worst.cost, |corner| corner.cost);
+        let mirrored = task.candidate(on_line(&worst.genes, &middle, 2.0));
+        let new = if mirrored.cost < best.cost {
+            let further = task.candidate(on_line(&worst.genes, &middle, 3.0));
+            if further.cost < mirrored.cost { further } else { mirrored }
+        } else if mirrored.cost < second {
             mirrored
         } else {
-            at(if mirrored.0 < worst.0 { 1.5 } else { 0.5 })
+            let multiple = if mirrored.cost < worst.cost { 1.5 } else { 0.5 };
+            task.candidate(on_line(&worst.genes, &middle, multiple))
         };
-        if new.0 < worst.0 {
+        if new.cost < worst.cost {
             corners.push(new);
         } else {
             for corner in corners.iter_mut().skip(1) {
-                let genes = on_line(&corner.1, &best.1, 0.5);
-                *corner = (task.cost(&genes), genes);
+                *corner = task.candidate(on_line(&corner.genes, &best.genes, 0.5));
             }
-            let genes = on_line(&worst.1, &best.1, 0.5);
-            corners.push((task.cost(&genes), genes));
+            corners.push(task.candidate(on_line(&worst.genes, &best.genes, 0.5)));
         }
     }
-    corners.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or(start)
+    corners.into_iter().min_by(|a, b| a.cost.total_cmp(&b.cost)).unwrap_or(start)
 }

@@ -22,6 +22,14 @@ struct BufferPair {
     law: CrankLaw,
 }
 
+impl BufferPair {
+    fn new(press: &Press, linkage: Linkage, rpm: f64, end: End) -> Option<Self> {
+        let end = StrokeEnd::new(linkage, press.bed.crank_radius, end)?;
+        let press = Press { stroke_end: Some(end), ..*press };
+        Some(Self { end, cylinder: press.cylinder(), law: press.bottom_law(rpm) })
+    }
+}
+
 /// The buffers of both ends, each with cylinders and law of its own; between them they take the whole turn.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Buffers([BufferPair; 2]);
@@ -29,18 +37,15 @@ pub(super) struct Buffers([BufferPair; 2]);
 impl Buffers {
     /// The buffers of a press whose bed is moved by this linkage, at a speed of its main shaft, rpm; `None` where no buffer can balance it.
     pub(super) fn new(press: &Press, linkage: Linkage, rpm: f64) -> Option<Self> {
-        let of = |end: End| {
-            let end = StrokeEnd::new(linkage, press.bed.crank_radius, end)?;
-            let press = Press { stroke_end: Some(end), ..*press };
-            Some(BufferPair { end, cylinder: press.cylinder(), law: press.bottom_law(rpm) })
-        };
-        Some(Self([of(End::Outer)?, of(End::Inner)?]))
+        Some(Self([
+            BufferPair::new(press, linkage, rpm, End::Outer)?,
+            BufferPair::new(press, linkage, rpm, End::Inner)?,
+        ]))
     }
 
     /// With the driving crank at θ from the base.
-    pub(super) fn at(&self, theta: f64) -> Option<AirForce> {
-        let acting = |buffer: &&BufferPair| turned(theta - buffer.end.start()) <= buffer.end.angle();
-        let buffer = self.0.iter().find(acting)?;
+    pub(super) fn force_at(&self, theta: f64) -> Option<AirForce> {
+        let buffer = self.0.iter().find(|buffer| turned(theta - buffer.end.start()) <= buffer.end.angle())?;
         let angle = turned(theta - buffer.end.start());
         let displacement = buffer.law.displacement(angle);
         let [x, _] = buffer.law.bed(angle);

@@ -46,8 +46,8 @@ fn parts(lying: &LinkagePicture<'_>, cranks: &[f64]) -> Vec<RigidPart> {
     let thetas: Vec<f64> = cranks.iter().map(|crank| from_base(lying.data, crank.to_radians())).collect();
     let places: Vec<Places> = thetas.iter().map(|theta| lying.places(*theta)).collect();
     let half = HALF * lying.crank;
-    let of = |joint: fn(&Places) -> Vector2<f64>| places.iter().map(joint).collect::<Vec<_>>();
-    let (crank, slider) = (of(|p| p.crank), of(|p| p.slider));
+    let crank: Vec<Vector2<f64>> = places.iter().map(|joints| joints.crank).collect();
+    let slider: Vec<Vector2<f64>> = places.iter().map(|joints| joints.slider).collect();
     let paths = lying.paths().into_iter().map(|(_, points)| SheetShape::Path(points)).collect();
     let [from, to] = lying.guide();
     let mut parts = vec![
@@ -65,9 +65,10 @@ fn parts(lying: &LinkagePicture<'_>, cranks: &[f64]) -> Vec<RigidPart> {
         Linkage::SixBar(link, _) => {
             let beta: Vec<f64> =
                 thetas.iter().map(|theta| lying.data.linkage.slider_crank_angle(*theta).to_degrees()).collect();
-            let joint = |p: &Places, which: usize| p.drag_link.and_then(|joints| joints.get(which).copied());
-            let of = |which| places.iter().filter_map(|p| joint(p, which)).collect::<Vec<_>>();
-            let (shaft, driving, driven) = (of(0).first().copied().unwrap_or_default(), of(1), of(2));
+            let joints: Vec<[Vector2<f64>; 3]> = places.iter().filter_map(|joints| joints.drag_link).collect();
+            let shaft = joints.first().map_or_else(Vector2::zeros, |[shaft, ..]| *shaft);
+            let driving: Vec<Vector2<f64>> = joints.iter().map(|[_, driving, _]| *driving).collect();
+            let driven: Vec<Vector2<f64>> = joints.iter().map(|[.., driven]| *driven).collect();
             parts.push(between(&driving, &driven, half));
             parts.push(driven_crank(lying, &link).turned(beta));
             let arm = bar(&[Vector2::zeros(), Vector2::new(lying.driving_crank(), 0.0)], half);
@@ -81,7 +82,7 @@ fn parts(lying: &LinkagePicture<'_>, cranks: &[f64]) -> Vec<RigidPart> {
         }
     }
     parts.push(shaft_at("O2", Vector2::zeros(), 1.0, lying.crank));
-    parts.extend(pins.into_iter().map(|(letter, above, at)| pin((letter, above), &at, lying.crank)));
+    parts.extend(pins.into_iter().map(|(letter, above, at)| pin(letter, above, &at, lying.crank)));
     parts
 }
 
@@ -95,18 +96,25 @@ fn driven_crank(lying: &LinkagePicture<'_>, link: &DragLink) -> RigidPart {
 
 /// The slider, or the slotted link of a yoke, with its bed.
 fn bed(lying: &LinkagePicture<'_>, slider: &[Vector2<f64>]) -> RigidPart {
-    let rectangle = |[wide, high]: [f64; 2]| {
-        let (x, y) = (0.5 * wide * lying.crank, 0.5 * high * lying.crank);
-        rectangle((-x, x), (-y, y))
-    };
     let [wide, high] = SLOT;
     let pin = 2.0 * HALF * PIN;
     let shapes = match lying.data.linkage {
-        Linkage::Yoke => vec![rectangle(SLOT), rectangle([pin, high - (wide - pin)])],
-        Linkage::CrankSlider(_) | Linkage::SixBar(..) => vec![rectangle(SLIDER)],
+        Linkage::Yoke => {
+            let slot = centred_rectangle(pin, high - (wide - pin), lying.crank);
+            vec![centred_rectangle(wide, high, lying.crank), slot]
+        }
+        Linkage::CrankSlider(_) | Linkage::SixBar(..) => {
+            vec![centred_rectangle(SLIDER[0], SLIDER[1], lying.crank)]
+        }
     };
     let below = if lying.data.linkage == Linkage::Yoke { SLOT[1] } else { SLIDER[1] };
     moved(RigidPart::new("bed", shapes), slider).named("bed", 0.0, -(0.5 * below + 0.2 * LETTER) * lying.crank)
+}
+
+/// A rectangle about the origin, its sides in cranks O2C.
+fn centred_rectangle(wide: f64, high: f64, crank: f64) -> SheetShape {
+    let (x, y) = (0.5 * wide * crank, 0.5 * high * crank);
+    rectangle((-x, x), (-y, y))
 }
 
 /// A link from one joint to another, along its own x.
@@ -131,8 +139,8 @@ fn moved(part: RigidPart, joint: &[Vector2<f64>]) -> RigidPart {
     part.at(x, y)
 }
 
-/// A pin with its letter so far above it, over the crank O2C.
-fn pin((letter, above): (&str, f64), at: &[Vector2<f64>], crank: f64) -> RigidPart {
+/// A pin with its letter at a distance above it, in cranks O2C.
+fn pin(letter: &str, above: f64, at: &[Vector2<f64>], crank: f64) -> RigidPart {
     moved(RigidPart::new("roller", vec![circle(0.0, 0.0, PIN * HALF * crank)]), at).named(letter, 0.0, above * crank)
 }
 
@@ -145,17 +153,22 @@ fn shaft_at(letter: &str, at: Vector2<f64>, side: f64, crank: f64) -> RigidPart 
 /// A body with joints at up to three places: all that is so near to the figure they span.
 fn bar(joints: &[Vector2<f64>], half: f64) -> SheetShape {
     let corners = spanned(joints);
-    let around = |corner: usize| corners.get(corner % corners.len()).copied().unwrap_or_default();
-    let side = |corner: usize| (around(corner + 1) - around(corner)).normalize();
     let mut vertices = Vec::with_capacity(2 * corners.len());
-    for corner in 0..corners.len() {
-        let (before, behind) = (side(corner + corners.len() - 1), side(corner));
-        let outward = |along: Vector2<f64>| half * Vector2::new(along.y, -along.x);
+    for (index, corner) in corners.iter().enumerate() {
+        let before = side(&corners, index + corners.len() - 1);
+        let behind = side(&corners, index);
+        let [end, start] = [before, behind].map(|along| corner + half * Vector2::new(along.y, -along.x));
         let turned = libm::atan2(before.perp(&behind), before.dot(&behind)).abs();
-        vertices.push(Vertex::new(around(corner) + outward(before), libm::tan(0.25 * turned)));
-        vertices.push(Vertex::new(around(corner) + outward(behind), 0.0));
+        vertices.push(Vertex::new(end, libm::tan(0.25 * turned)));
+        vertices.push(Vertex::new(start, 0.0));
     }
     SheetShape::Entity(Entity::Polyline(Contour { vertices }))
+}
+
+/// Direction of the side from a corner to the next, counted around.
+fn side(corners: &[Vector2<f64>], index: usize) -> Vector2<f64> {
+    let [from, to] = [index, index + 1].map(|index| corners.get(index % corners.len()).copied().unwrap_or_default());
+    (to - from).normalize()
 }
 
 /// The corners of the figure that two or three places span, counter-clockwise; of places on one line the two ends.

@@ -23,16 +23,16 @@ pub(super) fn curve(link: DragLink, slider: Slider) -> Vec<[f64; 2]> {
     bases.map(|base| [base, ratio(link, slider, base)]).collect()
 }
 
-/// The diagram with the own design, and what its places are.
+/// The diagram with this design, and the name of its axis.
 pub(super) fn diagram(link: DragLink, slider: Slider) -> (String, PlotPanel) {
     let points = curve(link, slider);
     let end = points.last().map_or(0.0, |[base, _]| *base);
     let own = ratio(link, slider, link.base);
-    let curve = |name: String, colour, bold, points| PlotCurve { name, colour, bold, points };
+    let level = vec![[0.0, 1.0], [end, 1.0]];
     let curves = vec![
-        curve("K_c = 1".into(), plot::GREY, false, vec![[0.0, 1.0], [end, 1.0]]),
-        curve("K_c".into(), 0, true, points),
-        curve("this design".into(), 1, true, vec![[link.base, own]]),
+        PlotCurve { name: "K_c = 1".into(), colour: plot::GREY, bold: false, points: level },
+        PlotCurve { name: "K_c".into(), colour: 0, bold: true, points },
+        PlotCurve { name: "this design".into(), colour: 1, bold: true, points: vec![[link.base, own]] },
     ];
     let (base, found) = (shown(link.base), shown(own));
     let name = format!("K_c over the base, the other links as they are; ring: this design, λ1 = {base}, K_c = {found}");

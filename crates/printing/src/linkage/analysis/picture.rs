@@ -55,11 +55,12 @@ impl<'a> LinkagePicture<'a> {
     /// At an angle of the driving crank from the base, rad.
     pub(super) fn places(&self, theta: f64) -> Places {
         let joints = self.data.linkage.joints(theta, self.pose);
-        let place = |at: [f64; 2]| self.crank * Vector2::from(at);
         Places {
-            drag_link: joints.drag_link.map(|joints| [joints.shaft, joints.driving, joints.driven].map(place)),
-            crank: place(joints.crank),
-            slider: place(joints.slider),
+            drag_link: joints.drag_link.map(|joints| {
+                [joints.shaft, joints.driving, joints.driven].map(|joint| self.crank * Vector2::from(joint))
+            }),
+            crank: self.crank * Vector2::from(joints.crank),
+            slider: self.crank * Vector2::from(joints.slider),
         }
     }
 
@@ -75,13 +76,11 @@ impl<'a> LinkagePicture<'a> {
 
     /// The paths of A, B and C, as far as there are such joints.
     pub(super) fn paths(&self) -> Vec<(&'static str, Vec<Vector2<f64>>)> {
-        let of_drag_link = |which: usize| {
-            let joint = move |places: &Places| places.drag_link.and_then(|joints| joints.get(which).copied());
-            self.path(move |places| joint(places).unwrap_or_else(Vector2::zeros))
-        };
         let mut paths = vec![("path of C", self.path(|places| places.crank))];
         if self.data.linkage.drag_link().is_some() {
-            paths.extend([("path of A", of_drag_link(1)), ("path of B", of_drag_link(2))]);
+            let a = self.path(|places| places.drag_link.map_or_else(Vector2::zeros, |[_, a, _]| a));
+            let b = self.path(|places| places.drag_link.map_or_else(Vector2::zeros, |[.., b]| b));
+            paths.extend([("path of A", a), ("path of B", b)]);
         }
         paths
     }
@@ -146,8 +145,15 @@ pub(super) fn scheme(lying: &LinkagePicture<'_>) -> Scheme {
     Scheme { poses: stands.collect(), notes: notes.into_iter().map(str::to_owned).collect() }
 }
 
+fn stroke(name: &'static str, kind: StrokeKind, points: &[Vector2<f64>]) -> Stroke {
+    Stroke { name, kind, points: points.to_vec() }
+}
+
+fn joint(letter: &'static str, at: Vector2<f64>, fixed: bool, towards: Vector2<f64>) -> SchemeJoint {
+    SchemeJoint { letter, at, fixed, towards }
+}
+
 fn stand(lying: &LinkagePicture<'_>, name: String, places: &Places) -> SchemePose {
-    let stroke = |name, kind, points: &[Vector2<f64>]| Stroke { name, kind, points: points.to_vec() };
     let (o2, c, d) = (Vector2::zeros(), places.crank, places.slider);
     let mut strokes: Vec<Stroke> =
         lying.paths().iter().map(|(name, points)| stroke(*name, StrokeKind::Path, points)).collect();
@@ -157,24 +163,22 @@ fn stand(lying: &LinkagePicture<'_>, name: String, places: &Places) -> SchemePos
     if lying.data.linkage != Linkage::Yoke {
         strokes.push(stroke("rod", StrokeKind::Link(ROD), &[c, d]));
     }
-    let joint =
-        |letter, at, fixed, towards: [f64; 2]| SchemeJoint { letter, at, fixed, towards: Vector2::from(towards) };
-    let mut joints = vec![joint("C", c, false, [0.0, 1.0])];
+    let mut joints = vec![joint("C", c, false, Vector2::new(0.0, 1.0))];
     if lying.data.linkage != Linkage::Yoke {
-        joints.push(joint("D", d, false, [1.0, 1.0]));
+        joints.push(joint("D", d, false, Vector2::new(1.0, 1.0)));
     }
     if let Some([o1, a, b]) = places.drag_link {
         strokes.push(stroke("coupler", StrokeKind::Link(COUPLER), &[a, b]));
         strokes.push(stroke("driven crank", StrokeKind::Link(DRIVEN), &[b, o2, c]));
         strokes.push(stroke("driving crank", StrokeKind::Link(DRIVING), &[o1, a]));
         joints.extend([
-            joint("O1", o1, true, [-1.0, -1.0]),
-            joint("A", a, false, [0.0, 1.0]),
-            joint("B", b, false, [0.0, 1.0]),
+            joint("O1", o1, true, Vector2::new(-1.0, -1.0)),
+            joint("A", a, false, Vector2::new(0.0, 1.0)),
+            joint("B", b, false, Vector2::new(0.0, 1.0)),
         ]);
     } else {
         strokes.push(stroke("driving crank", StrokeKind::Link(DRIVING), &[o2, c]));
     }
-    joints.push(joint("O2", o2, true, [1.0, -1.0]));
+    joints.push(joint("O2", o2, true, Vector2::new(1.0, -1.0)));
     SchemePose { name, strokes, joints }
 }

@@ -92,25 +92,29 @@ fn transmission(link: &DragLink) -> [Dual; 2] {
     })
 }
 
+/// A value less its limit.
+fn less(value: Dual, limit: f64) -> Dual {
+    Dual { value: value.value - limit, ..value }
+}
+
 impl SynthesisProblem {
-    fn at(&self, link: DragLink) -> Option<DesignPoint> {
+    /// The extremes of a drag link and what it misses the limits by; `None` if it does not turn.
+    fn evaluate(&self, link: DragLink) -> Option<DesignPoint> {
         link.turns().then_some(())?;
         let local = local(&link, &self.slider);
         let value = top(&local.outward).value.max(top(&local.inward).value);
-        let beyond = |value: Dual, limit: f64| Dual { value: value.value - limit, ..value };
         let cosine = libm::cos(self.limits.transmission_angle);
         let mut misses: Vec<Dual> =
-            transmission(&link).into_iter().flat_map(|value| [beyond(value, cosine), beyond(-value, cosine)]).collect();
+            transmission(&link).into_iter().flat_map(|value| [less(value, cosine), less(-value, cosine)]).collect();
         if self.limits.symmetric {
-            let uneven = beyond(local.forward, PI);
+            let uneven = less(local.forward, PI);
             misses.extend([uneven, -uneven]);
         }
         if self.limits.power.is_some() {
-            let share = |power: &Dual| Dual {
+            misses.extend(local.power.iter().map(|power| Dual {
                 value: power.value / self.power - 1.0,
                 slope: power.scaled_slope(1.0 / self.power),
-            };
-            misses.extend(local.power.iter().map(share));
+            }));
         }
         value.is_finite().then_some(DesignPoint { link, local, misses, value })
     }
@@ -131,16 +135,19 @@ impl SynthesisProblem {
     /// The step of the linear program in a box, and the merit it promises.
     fn step(&self, point: &DesignPoint, width: f64) -> Option<(DragLink, f64)> {
         let room = self.room(point, width);
-        let dot = |slope: &[f64; LINKS]| slope.iter().zip(&room).map(|(slope, (low, _))| slope * low).sum::<f64>();
-        let extremes = || point.local.outward.iter().chain(&point.local.inward);
-        let steepest = extremes().map(|c| c.slope.iter().map(|slope| slope.abs()).sum()).fold(1.0, f64::max);
+        let extremes: Vec<&Dual> = point.local.outward.iter().chain(&point.local.inward).collect();
+        let steepest = extremes.iter().map(|c| c.slope.iter().map(|slope| slope.abs()).sum()).fold(1.0, f64::max);
         let reference = point.value - width * steepest;
-        let row = |value: &Dual, reference: f64, elastic: [f64; 2]| Inequality {
-            coefficients: value.slope.into_iter().chain(elastic).collect(),
-            right: -(value.value - reference) / width - dot(&value.slope),
-        };
-        let mut rows: Vec<Inequality> = extremes().map(|c| row(c, reference, [-1.0, 0.0])).collect();
-        rows.extend(point.misses.iter().map(|miss| row(miss, 0.0, [0.0, -1.0])));
+        let mut rows = Vec::new();
+        let bounded = extremes.into_iter().map(|extreme| (extreme, reference, [-1.0, 0.0]));
+        let limited = point.misses.iter().map(|miss| (miss, 0.0, [0.0, -1.0]));
+        for (value, reference, elastic) in bounded.chain(limited) {
+            let to_corner = value.slope.iter().zip(&room).map(|(slope, (low, _))| slope * low).sum::<f64>();
+            rows.push(Inequality {
+                coefficients: value.slope.into_iter().chain(elastic).collect(),
+                right: -(value.value - reference) / width - to_corner,
+            });
+        }
         for (index, (low, high)) in room.iter().enumerate() {
             let coefficients = (0..LINKS + 2).map(|other| if other == index { 1.0 } else { 0.0 }).collect();
             rows.push(Inequality { coefficients, right: high - low });
@@ -166,7 +173,7 @@ impl SynthesisProblem {
             if hoped < 1e-14 {
                 break;
             }
-            let kept = self.at(link).map(|next| ((point.merit() - next.merit()) / hoped, next));
+            let kept = self.evaluate(link).map(|next| ((point.merit() - next.merit()) / hoped, next));
             match kept {
                 Some((share, next)) if share > 0.1 => {
                     point = next;
@@ -189,16 +196,16 @@ impl SynthesisProblem {
         let centric = family.filter_map(|follower| centric(follower, self.slider.rod_ratio).ok()?.drag_link());
         let plastic = 1.324_717_957_244_746;
         let spread = (1..=SPREAD).map(|n| {
-            let part = |factor: f64| {
+            let [coupler, follower] = [1.0 / plastic, 1.0 / (plastic * plastic)].map(|factor| {
                 let value = f64::from(n) * factor;
                 least + value - value.floor()
-            };
-            first_order(part(1.0 / plastic), part(1.0 / (plastic * plastic)), &self.slider)
+            });
+            first_order(coupler, follower, &self.slider)
         });
         centric
             .chain(spread)
             .map(|link| DragLink { coupler: link.coupler.max(least), follower: link.follower.max(least), ..link })
-            .filter_map(|link| self.at(link))
+            .filter_map(|link| self.evaluate(link))
             .collect()
     }
 }
@@ -218,7 +225,7 @@ pub fn least(slider: Slider, limits: SynthesisLimits) -> Result<Linkage, Refusal
     ];
     for (name, value, low, high) in inputs {
         if !(value > low && value < high) {
-            return Err(out_of_range(name, value, (low, high)));
+            return Err(out_of_range(name, value, low, high));
         }
     }
     let plain = characteristics(&Linkage::CrankSlider(slider)).power.value;

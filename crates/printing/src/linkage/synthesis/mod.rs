@@ -53,21 +53,23 @@ fn dual_links(drag_link: &DragLink) -> Links<Dual> {
     }
 }
 
+/// x, x' and x'' of the bed with their slopes.
+fn bed_motion(links: &Links<Dual>, slider: &Slider, theta: f64) -> [Dual; 3] {
+    let (cos, sin): (PowerSeries<3, Dual>, _) = links.crank(theta);
+    slider.slide(cos, sin).derivatives()
+}
+
 /// The extremes of a linkage. At a fixed place the slope of an extreme value is that of the value: the place moves along a level
 /// tangent. A dead point moves by −(∂x'/∂link)/x''.
 fn local(drag_link: &DragLink, slider: &Slider) -> Local {
     let linkage = Linkage::SixBar(*drag_link, *slider);
     let links = dual_links(drag_link);
-    let motion = |theta: f64| -> [Dual; 3] {
-        let (cos, sin): (PowerSeries<3, Dual>, _) = links.crank(theta);
-        slider.slide(cos, sin).derivatives()
-    };
     let stroke = slider.stroke();
     let normal = Dual::constant(PI * PI / stroke);
     let grid = grid(&linkage);
     let (mut outward, mut inward) = (Vec::new(), Vec::new());
     for theta in jerk_zeros(&linkage, &grid) {
-        let [_, _, second] = motion(theta);
+        let [_, _, second] = bed_motion(&links, slider, theta);
         let scaled = normal * second;
         if scaled.value < 0.0 {
             outward.push(-scaled);
@@ -75,14 +77,14 @@ fn local(drag_link: &DragLink, slider: &Slider) -> Local {
             inward.push(scaled);
         }
     }
-    let power = |theta: f64| {
-        let [_, first, second] = motion(theta);
+    let mut power = Vec::new();
+    for theta in power_extremes(&linkage, &grid) {
+        let [_, first, second] = bed_motion(&links, slider, theta);
         let product = Dual::constant(PI / stroke) * normal * first * second;
-        if product.value < 0.0 { -product } else { product }
-    };
-    let power = power_extremes(&linkage, &grid).into_iter().map(power).collect();
+        power.push(if product.value < 0.0 { -product } else { product });
+    }
     let [outer, inner] = linkage.dead_points().map(|theta| {
-        let [_, first, second] = motion(theta);
+        let [_, first, second] = bed_motion(&links, slider, theta);
         Dual { value: theta, slope: first.scaled_slope(-1.0 / second.value) }
     });
     let forward = inner - outer;
@@ -95,44 +97,65 @@ fn acceleration_ratio(drag_link: &DragLink, slider: &Slider) -> Dual {
     top(&local.outward) / top(&local.inward)
 }
 
-/// The smallest base in [0, `most`) with K_c = 1; `ratio` gives K_c and its slope along the bases.
+/// K_c at a base, and its slope along the bases.
+#[derive(Clone, Copy)]
+struct RatioAtBase {
+    base: f64,
+    ratio: f64,
+    slope: f64,
+}
+
+/// The range of K_c over the bases that were tried.
+struct RatioRange {
+    least: f64,
+    least_base: f64,
+    largest: f64,
+}
+
+impl RatioRange {
+    fn include(&mut self, tried: RatioAtBase) {
+        if tried.ratio < self.least {
+            (self.least, self.least_base) = (tried.ratio, tried.base);
+        }
+        self.largest = self.largest.max(tried.ratio);
+    }
+}
+
+/// A base with K_c = 1 between two others.
+fn base_between(low: f64, high: f64, ratio: &impl Fn(f64) -> RatioAtBase) -> Option<f64> {
+    root::bracketed(|base| ratio(base).ratio - 1.0, low, high, 0.0).ok()
+}
+
+/// The smallest base in [0, `most`) with K_c = 1.
 ///
 /// Between the points of a grid a change of sign holds a root; where K_c only dips towards 1 its extreme, by its slope, decides.
-fn smallest_base(most: f64, ratio: impl Fn(f64) -> [f64; 2]) -> Result<f64, Refusal> {
-    let excess = |base: f64| ratio(base)[0] - 1.0;
-    let solve = |low: f64, high: f64| root::bracketed(excess, low, high, 0.0).ok();
-    let (mut least, mut least_base, mut largest) = (f64::INFINITY, f64::NAN, f64::NEG_INFINITY);
-    let mut note = |base: f64, ratio: f64| {
-        if ratio < least {
-            (least, least_base) = (ratio, base);
-        }
-        largest = largest.max(ratio);
-    };
-    let mut before = (0.0, ratio(0.0));
-    note(0.0, before.1[0]);
+fn smallest_base(most: f64, ratio: impl Fn(f64) -> RatioAtBase) -> Result<f64, Refusal> {
+    let mut range = RatioRange { least: f64::INFINITY, least_base: f64::NAN, largest: f64::NEG_INFINITY };
+    let mut low = ratio(0.0);
+    range.include(low);
     for cell in 1..BASES {
-        let base = most * (f64::from(cell) / f64::from(BASES));
-        let behind = (base, ratio(base));
-        note(base, behind.1[0]);
-        let ((low, [low_ratio, low_slope]), (high, [high_ratio, high_slope])) = (before, behind);
-        if (low_ratio < 1.0) == (high_ratio < 1.0) {
-            let toward = if low_ratio < 1.0 { -1.0 } else { 1.0 };
-            if toward * low_slope < 0.0
-                && toward * high_slope > 0.0
-                && let Ok(middle) = root::bracketed(|base| ratio(base)[1], low, high, 1e-12)
+        let high = ratio(most * (f64::from(cell) / f64::from(BASES)));
+        range.include(high);
+        if (low.ratio < 1.0) == (high.ratio < 1.0) {
+            let toward = if low.ratio < 1.0 { -1.0 } else { 1.0 };
+            if toward * low.slope < 0.0
+                && toward * high.slope > 0.0
+                && let Ok(middle) = root::bracketed(|base| ratio(base).slope, low.base, high.base, 1e-12)
             {
-                note(middle, ratio(middle)[0]);
-                if toward * excess(middle) < 0.0
-                    && let Some(found) = solve(low, middle)
+                let middle = ratio(middle);
+                range.include(middle);
+                if toward * (middle.ratio - 1.0) < 0.0
+                    && let Some(found) = base_between(low.base, middle.base, &ratio)
                 {
                     return Ok(found);
                 }
             }
-        } else if let Some(found) = solve(low, high) {
+        } else if let Some(found) = base_between(low.base, high.base, &ratio) {
             return Ok(found);
         }
-        before = behind;
+        low = high;
     }
+    let RatioRange { least, least_base, largest } = range;
     Err(Refusal::new(format!(
         "no base makes both largest accelerations equal: their ratio runs from {least} (at a base of {least_base}) to \
          {largest}"
@@ -150,14 +173,14 @@ pub fn equal(drag_link: DragLink, slider: Slider) -> Result<Linkage, Refusal> {
     DragLink { base: 0.0, ..drag_link }.check()?;
     let most = drag_link.remedies().base.below;
     let base = smallest_base(most, |base| {
-        let Dual { value, slope: [slope, ..] } = acceleration_ratio(&DragLink { base, ..drag_link }, &slider);
-        [value, slope]
+        let Dual { value: ratio, slope: [slope, ..] } = acceleration_ratio(&DragLink { base, ..drag_link }, &slider);
+        RatioAtBase { base, ratio, slope }
     })?;
     Linkage::six_bar(DragLink { base, ..drag_link }, slider)
 }
 
-/// That a value is not within a range.
-fn out_of_range(name: &str, value: f64, (low, high): (f64, f64)) -> Refusal {
+/// The refusal of a value that is not between two others.
+fn out_of_range(name: &str, value: f64, low: f64, high: f64) -> Refusal {
     Refusal::new(format!("the {name} is {value}")).remedy(format!("it must be between {low} and {high}"))
 }
 
@@ -171,18 +194,20 @@ pub fn centric(follower: f64, rod_ratio: f64) -> Result<Linkage, Refusal> {
     let slider = Slider { rod_ratio, offset_ratio: 0.0 };
     slider.check()?;
     if !(follower > 0.0 && follower < 1.0) {
-        return Err(out_of_range("follower ratio", follower, (0.0, 1.0)));
+        return Err(out_of_range("follower ratio", follower, 0.0, 1.0));
     }
-    let with = |base: f64| {
-        let coupler = (1.0 + base * base - follower * follower).sqrt();
-        DragLink { base, coupler, follower, turn: PI, branch: Branch::Leading }
-    };
     let base = smallest_base(follower, |base| {
-        let drag_link = with(base);
-        let Dual { value, slope: [by_base, by_coupler, ..] } = acceleration_ratio(&drag_link, &slider);
-        [value, by_base + by_coupler * base / drag_link.coupler]
+        let drag_link = centric_link(base, follower);
+        let Dual { value: ratio, slope: [by_base, by_coupler, ..] } = acceleration_ratio(&drag_link, &slider);
+        RatioAtBase { base, ratio, slope: by_base + by_coupler * base / drag_link.coupler }
     })?;
-    Linkage::six_bar(with(base), slider)
+    Linkage::six_bar(centric_link(base, follower), slider)
+}
+
+/// The drag link of the centric family.
+fn centric_link(base: f64, follower: f64) -> DragLink {
+    let coupler = (1.0 + base * base - follower * follower).sqrt();
+    DragLink { base, coupler, follower, turn: PI, branch: Branch::Leading }
 }
 
 /// The drag link that the first order in λ1 gives for a coupler and a follower, on the leading branch.
@@ -190,6 +215,28 @@ fn first_order(coupler: f64, follower: f64, slider: &Slider) -> DragLink {
     let link = DragLink { base: 0.0, coupler, follower, turn: 0.0, branch: Branch::Leading };
     let mu = libm::acos(link.transmission_cosine(1.0));
     DragLink { base: 0.5 * follower * libm::sin(mu) / slider.rod_ratio, turn: FRAC_PI_2 + mu, ..link }
+}
+
+/// What a drag link misses a symmetric motion by.
+struct SymmetryMiss {
+    /// C⁺ − C⁻.
+    accelerations: Dual,
+    /// φ1 − π, rad.
+    times: Dual,
+}
+
+impl SymmetryMiss {
+    fn new(link: &DragLink, slider: &Slider) -> Self {
+        let local = local(link, slider);
+        Self {
+            accelerations: top(&local.outward) - top(&local.inward),
+            times: local.forward - Dual::constant(PI),
+        }
+    }
+
+    fn size(&self) -> f64 {
+        self.accelerations.value.abs() + self.times.value.abs()
+    }
 }
 
 /// λ1 and δ with K_c = K_φ = 1 for a coupler and a follower: Newton's method on C⁺ − C⁻ = 0 and φ1 = π from the first order.
@@ -201,31 +248,27 @@ pub fn symmetric(coupler: f64, follower: f64, branch: Branch, slider: Slider) ->
     DragLink { base: 0.0, coupler, follower, turn: 0.0, branch }.check()?;
     // A trailing drag link is the mirror image of a leading one.
     let leading = Slider { offset_ratio: branch.sign() * slider.offset_ratio, ..slider };
-    let misses = |link: &DragLink| {
-        let local = local(link, &leading);
-        [top(&local.outward) - top(&local.inward), local.forward - Dual::constant(PI)]
-    };
-    let size = |[unequal, uneven]: [Dual; 2]| unequal.value.abs() + uneven.value.abs();
     let mut link = first_order(coupler, follower, &leading);
     if !link.turns() {
         link.base = 0.5 * link.remedies().base.below;
     }
-    let mut miss = misses(&link);
+    let mut miss = SymmetryMiss::new(&link, &leading);
     for _ in 0..40 {
-        let [Dual { value: f, slope: [fb, .., ft] }, Dual { value: g, slope: [gb, .., gt] }] = miss;
+        let Dual { value: f, slope: [fb, .., ft] } = miss.accelerations;
+        let Dual { value: g, slope: [gb, .., gt] } = miss.times;
         let determinant = fb * gt - ft * gb;
         let step = [(ft * g - gt * f) / determinant, (gb * f - fb * g) / determinant];
         let mut share = 1.0;
         let better = (0..12).find_map(|_| {
             let next = DragLink { base: link.base + share * step[0], turn: link.turn + share * step[1], ..link };
             share *= 0.5;
-            let next_miss = next.turns().then(|| misses(&next))?;
-            (size(next_miss) < size(miss)).then_some((next, next_miss))
+            let next_miss = next.turns().then(|| SymmetryMiss::new(&next, &leading))?;
+            (next_miss.size() < miss.size()).then_some((next, next_miss))
         });
         let Some(better) = better else { break };
         (link, miss) = better;
     }
-    if !(size(miss) < SOLVED) {
+    if !(miss.size() < SOLVED) {
         let local = local(&link, &leading);
         let (ratio, turn) = (top(&local.outward).value / top(&local.inward).value, link.turn.to_degrees());
         return Err(Refusal::new(format!(
