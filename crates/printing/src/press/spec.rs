@@ -112,7 +112,7 @@ pub trait SpecOfPress: Sized {
 
 impl SpecOfPress for Spec {
     fn rotary(machine: Machine, rpm: f64) -> Self {
-        let solve = move |machine: &Machine, wanted| -> Result<SolvedBodies, Refusal> {
+        let spec = Self::of_several(machine, move |machine, wanted| {
             let cam = rotary(machine, rpm)?;
             if wanted == WantedCams::Alone || machine.compensator().is_none() {
                 return Ok(SolvedBodies::alone(cam.disc));
@@ -120,51 +120,55 @@ impl SpecOfPress for Spec {
             let second = cam.compensating_disc()?;
             let by_law = cam.compensated_by(&second)?;
             Ok(SolvedBodies::alone(cam.disc).with(second, by_law))
-        };
-        Self::of_several(machine, solve).for_other_speeds(disc, other_ends).with_inputs(vec![Input::number("rpm", rpm)])
+        });
+        spec.for_other_speeds(disc, other_ends).with_inputs(vec![Input::number("rpm", rpm)])
     }
 
     fn translating(machine: Machine, rpm: f64, solver: Solver, exact_on: ExactOn) -> Self {
-        let solve = move |machine: &Machine, rpm| Wedge::solve(machine, rpm, solver, exact_on);
         let mut inputs = of_wedge(solver, exact_on);
         inputs.push(Input::number("rpm", rpm));
-        Self::new(machine, move |machine| solve(machine, rpm)).for_other_speeds(solve, other_ends).with_inputs(inputs)
+        Self::new(machine, move |machine| Wedge::solve(machine, rpm, solver, exact_on))
+            .for_other_speeds(move |machine, rpm| Wedge::solve(machine, rpm, solver, exact_on), other_ends)
+            .with_inputs(inputs)
     }
 
     fn conoid(machine: Machine, speeds: Vec<f64>, residual_limit: Option<f64>) -> Self {
         let mut inputs = vec![Input::numbers("rpm", &speeds)];
         inputs.extend(residual_limit.map(|limit| Input::quantity("residual", limit, ("N", 1.0))));
-        let solve = move |machine: &Machine| Conoid::solve(machine, &speeds);
-        Self::new(machine, move |machine| solve(machine).map(|conoid| conoid.with_residual_limit(residual_limit)))
-            .with_inputs(inputs)
+        let spec = Self::new(machine, move |machine| {
+            Conoid::solve(machine, &speeds).map(|conoid| conoid.with_residual_limit(residual_limit))
+        });
+        spec.with_inputs(inputs)
     }
 
     fn conoid_within(machine: Machine, speeds: (f64, f64), residual_limit: f64) -> Self {
-        let solve = move |machine: &Machine| between::fewest(machine, speeds, residual_limit);
         let (from, to) = speeds;
         let inputs =
             vec![Input::word("rpm", format!("{from}..{to}")), Input::quantity("residual", residual_limit, ("N", 1.0))];
-        Self::new(machine, move |machine| solve(machine).map(|conoid| conoid.with_residual_limit(Some(residual_limit))))
-            .with_inputs(inputs)
+        let spec = Self::new(machine, move |machine| {
+            let conoid = between::fewest(machine, from, to, residual_limit);
+            conoid.map(|conoid| conoid.with_residual_limit(Some(residual_limit)))
+        });
+        spec.with_inputs(inputs)
     }
 
     fn compensator(machine: Machine, rpm: f64) -> Self {
-        let solve = |machine: &Machine, rpm| -> Result<Disc, Refusal> { rotary(machine, rpm)?.compensating_disc() };
-        Self::new(machine, move |machine| solve(machine, rpm))
-            .for_other_speeds(solve, other_ends)
+        Self::new(machine, move |machine| solve_compensator(machine, rpm))
+            .for_other_speeds(solve_compensator, other_ends)
             .with_inputs(vec![Input::number("rpm", rpm)])
     }
+}
+
+fn solve_compensator(machine: &Machine, rpm: f64) -> Result<Disc, Refusal> {
+    rotary(machine, rpm)?.compensating_disc()
 }
 
 /// The cam of the other end of the bed's stroke.
 fn other_ends(machine: &Machine) -> Vec<Alternative> {
     let other = machine.end().map(End::other).and_then(|end| Some((machine.clone().at_end(end).ok()?, end)));
-    let alternative = |(machine, end): (Machine, End)| Alternative {
-        cause: "end",
-        words: format!("for the {} end of the stroke (--end {})", end.word(), end.word()),
-        machine,
-    };
-    other.into_iter().map(alternative).collect()
+    let Some((machine, end)) = other else { return Vec::new() };
+    let words = format!("for the {} end of the stroke (--end {})", end.word(), end.word());
+    vec![Alternative { cause: "end", words, machine }]
 }
 
 /// The inputs of a wedge, except its speed.

@@ -170,7 +170,7 @@ fn word_of_beam(beam: Beam) -> &'static str {
 /// # Errors
 /// [`Refusal`] when there is no such cam, mode or shaft.
 pub fn analysis(machine: &ShaftMachine, asked: &ShaftOptions) -> Result<Analysis, Refusal> {
-    let carried = CamOnShaft::of(machine, &asked.rpm)?;
+    let carried = CamOnShaft::solve(machine, &asked.rpm)?;
     if carried.is_none() && asked.rpm.len() > 1 {
         return Err(Refusal::new(
             "several speeds are the sections of a conoid, and this file describes no press, or no [conoid]",
@@ -181,23 +181,23 @@ pub fn analysis(machine: &ShaftMachine, asked: &ShaftOptions) -> Result<Analysis
     let shaft = machine.data.shaft.with_discs(carried.as_ref().map_or(own, |carried| discs(machine, carried)))?;
     let own = asked.rpm.first().map(|rpm| rpm * PI / 30.0);
     let speed = carried.as_ref().map_or(own, |carried| carried.speed);
-    let spectrum = CriticalSpeeds::of(&shaft, asked)?;
+    let spectrum = CriticalSpeeds::find(&shaft, asked)?;
     let statics = machine.data.cam_at.map(|at| Statics::new(&shaft, at)).transpose()?;
-    let under = carried.as_ref().zip(statics.as_ref()).and_then(|(carried, statics)| {
-        CamUnderLoad::of(carried, statics, machine.data.drive_at.zip(machine.data.cam_at), &machine.data.shaft)
-    });
+    let under = carried
+        .as_ref()
+        .zip(statics.as_ref())
+        .and_then(|(carried, statics)| CamUnderLoad::new(carried, statics, &machine.data));
     let rigid = match machine.with_rigid_cam() {
         Some(rigid) if carried.as_ref().is_some_and(|carried| !carried.is_conoid()) => {
-            let rigid = CamOnShaft::of(&rigid, &asked.rpm)?;
-            rigid.as_ref().zip(statics.as_ref()).and_then(|(rigid, statics)| {
-                CamUnderLoad::of(rigid, statics, machine.data.drive_at.zip(machine.data.cam_at), &machine.data.shaft)
-            })
+            let rigid = CamOnShaft::solve(&rigid, &asked.rpm)?;
+            let mounted = rigid.as_ref().zip(statics.as_ref());
+            mounted.and_then(|(rigid, statics)| CamUnderLoad::new(rigid, statics, &machine.data))
         }
         _ => None,
     };
-    let unbalanced = UnbalanceFigures::of(&shaft, speed, machine.limits.balance_grade)?;
+    let unbalanced = UnbalanceFigures::new(&shaft, speed, machine.limits.balance_grade)?;
     let found = ShaftResults { machine, asked, shaft, carried, speed, spectrum, statics, under, rigid, unbalanced };
-    let sweep = asked.sweep.map(|range| sweep::rows(&found, range)).transpose()?;
+    let sweep = asked.sweep.map(|(from, to)| sweep::rows(&found, from, to)).transpose()?;
     let shaft_figures = figures(&found);
     let mut tables = vec![("", along::table(&found))];
     tables.extend(sweep.as_ref().map(|rows| ("-sweep", sweep::table(rows, found.spectrum.speeds.len()))));
@@ -207,7 +207,7 @@ pub fn analysis(machine: &ShaftMachine, asked: &ShaftOptions) -> Result<Analysis
         machine: machine.name().to_owned(),
         speeds: speed_of(&found),
         inputs: inputs(machine, asked),
-        sections: vec![Section::new(KIND.command, &shaft_figures).with_words(words(&found, &shaft_figures))],
+        sections: vec![Section::new(KIND.command, &shaft_figures).with_words(describe(&found, &shaft_figures))],
         measures: measures(&found)?,
         notes: notes(&found),
         picture: Picture::Curves(curves::plot(&found, sweep.as_deref())),
@@ -276,7 +276,7 @@ fn figures(found: &ShaftResults<'_>) -> ShaftFigures {
         },
         exact_rpm: matches!(found.asked.solver, CriticalSpeedSolver::Paper { .. }).then(|| rpm(found.spectrum.forward)),
         compliance_um_per_kn: found.statics.as_ref().map(|statics| 1e9 * statics.own_compliance()),
-        twist_compliance_urad_per_nm: drive_to_cam(found).map(|twist| 1e6 * twist),
+        twist_compliance_urad_per_nm: found.machine.data.drive_to_cam().map(|twist| 1e6 * twist),
         lift_error_max_mm: worst.map(|under| 1e3 * under.largest.value),
         lift_error_cam_deg: worst.map(|under| under.largest.at.to_degrees()),
         bending_mm: worst.map(|under| 1e3 * under.there.bending),
@@ -298,7 +298,7 @@ fn figures(found: &ShaftResults<'_>) -> ShaftFigures {
     }
 }
 
-fn words(found: &ShaftResults<'_>, shaft_figures: &ShaftFigures) -> Vec<String> {
+fn describe(found: &ShaftResults<'_>, shaft_figures: &ShaftFigures) -> Vec<String> {
     let speeds: Vec<String> = shaft_figures.critical_rpm.iter().map(|rpm| shown(*rpm)).collect();
     let order = found.spectrum.order.map_or(String::new(), |order| format!(", order {order}"));
     let whirl = if shaft_figures.exact_rpm.is_some() { "planar" } else { shaft_figures.whirl };
@@ -324,7 +324,7 @@ fn words(found: &ShaftResults<'_>, shaft_figures: &ShaftFigures) -> Vec<String> 
         lines.push(format!("compliance at {place} {compliance:.4} µm/kN"));
     }
     if let Some(under) = &found.under {
-        lines.extend(under.words());
+        lines.extend(under.describe());
     }
     if let Some(rigid) = &found.rigid {
         let left = rigid.residual.map_or(String::new(), |worst| format!(", and {:.2} N would be left", worst.value));
@@ -334,7 +334,7 @@ fn words(found: &ShaftResults<'_>, shaft_figures: &ShaftFigures) -> Vec<String> 
         ));
     }
     if shaft_figures.unbalance_g_mm > 0.0 {
-        lines.push(found.unbalanced.words());
+        lines.push(found.unbalanced.describe());
     }
     lines
 }
@@ -405,16 +405,12 @@ fn measures(found: &ShaftResults<'_>) -> Result<Vec<Measure>, Refusal> {
     Ok(all)
 }
 
-/// Twist from the drive to the cam, rad/(N·m).
-fn drive_to_cam(found: &ShaftResults<'_>) -> Option<f64> {
-    let data = &found.machine.data;
-    Some(data.shaft.twist_compliance(data.drive_at?, data.cam_at?))
-}
-
 /// The factor that would pass, in words.
 fn thicker(factor: Option<f64>) -> String {
-    let none = || "; no thicker shaft on these supports would pass: they are too soft".to_owned();
-    factor.map_or_else(none, |factor| format!("; every diameter times {factor:.3} would pass"))
+    match factor {
+        Some(factor) => format!("; every diameter times {factor:.3} would pass"),
+        None => "; no thicker shaft on these supports would pass: they are too soft".to_owned(),
+    }
 }
 
 /// The cam on a shaft of the machine's, thicker by a factor.

@@ -224,6 +224,11 @@ pub(super) fn read(reader: &Reader<'_>, (cam, _): (Option<&CamData>, Option<&Fol
 }
 
 impl ShaftData {
+    /// Twist from the drive to the cam, rad/(N·m); `None` if one of them is not given.
+    pub(super) fn drive_to_cam(&self) -> Option<f64> {
+        Some(self.shaft.twist_compliance(self.drive_at?, self.cam_at?))
+    }
+
     /// The compliance of the shaft at its cam, m from its left end; or why it is not known.
     fn yielding_at(&self, at: f64) -> Result<ShaftCompliance, String> {
         let twist = self.drive_at.map_or(0.0, |drive| self.shaft.twist_compliance(drive, at));
@@ -270,11 +275,13 @@ fn shaft(reader: &Reader<'_>) -> Option<ShaftData> {
     for place in [&CAM_AT, &DRIVE_AT] {
         within_length(&table, place, length);
     }
-    // A place at the end is there, although decimal lengths do not add up exactly.
-    let on = |at: f64| length.map_or(at, |length| at.min(length));
-    let (cam_at, drive_at, beam) = (table.get(&CAM_AT).map(on), table.get(&DRIVE_AT).map(on), table.get(&BEAM)?);
-    let supports = supports?.into_iter().map(|support| Support { at: on(support.at), ..support }).collect();
-    let discs = discs?.into_iter().map(|disc| ShaftDisc { at: on(disc.at), ..disc }).collect();
+    // A position at the end is on the shaft, although decimal lengths do not add up exactly.
+    let end = length.unwrap_or(f64::INFINITY);
+    let cam_at = table.get(&CAM_AT).map(|at| at.min(end));
+    let drive_at = table.get(&DRIVE_AT).map(|at| at.min(end));
+    let beam = table.get(&BEAM)?;
+    let supports = supports?.into_iter().map(|support| Support { at: support.at.min(end), ..support }).collect();
+    let discs = discs?.into_iter().map(|disc| ShaftDisc { at: disc.at.min(end), ..disc }).collect();
     match Shaft::new(known?, supports, discs, beam) {
         Ok(shaft) => Some(ShaftData { shaft, cam_at, drive_at, compensate: table.get(&COMPENSATE)? }),
         Err(error) => {
@@ -349,24 +356,24 @@ fn disc(table: &TableReader<'_>, length: Option<f64>) -> Option<ShaftDisc> {
     let (at, unbalance, angle) = (table.get(&DISC_AT)?, table.get(&UNBALANCE)?, table.get(&ANGLE)?);
     let unbalance = [unbalance * libm::cos(angle), unbalance * libm::sin(angle)];
     let plain = [table.has(&DISC_DIAMETER), table.has(&WIDTH)];
-    let help = || Some("give mass (with its inertias), or diameter and width".into());
+    let help = Some("give mass (with its inertias), or diameter and width".to_owned());
     let (mass, diametral_inertia, polar_inertia) = match (table.has(&MASS), plain) {
         (true, [false, false]) => (table.get(&MASS)?, or_nothing(table, &DIAMETRAL)?, or_nothing(table, &POLAR)?),
         (false, [true, true]) => {
             smaller_bore(table, &DISC_DIAMETER, &DISC_BORE);
             for inertia in [&DIAMETRAL, &POLAR] {
                 if table.has(inertia) {
-                    table.fail(inertia, "a plain disc has the inertias of its size".into(), help());
+                    table.fail(inertia, "a plain disc has the inertias of its size".into(), help.clone());
                 }
             }
             plain_disc(table)?
         }
         (true, _) => {
-            table.fail(&MASS, "a disc has a mass or a size, not both".into(), help());
+            table.fail(&MASS, "a disc has a mass or a size, not both".into(), help.clone());
             return None;
         }
         (false, _) => {
-            table.fail(&DISC_AT, "this disc has neither a mass nor a size".into(), help());
+            table.fail(&DISC_AT, "this disc has neither a mass nor a size".into(), help.clone());
             return None;
         }
     };

@@ -9,6 +9,11 @@ use camgen_kernel::motion::Motion;
 use camgen_kernel::profile::Curves;
 use nalgebra::Vector3;
 
+/// A vector along the roller's path, across it and along the axis, in the axes of the drawing.
+fn turned(v: Vector3<f64>, sin: f64, cos: f64) -> Vector3<f64> {
+    Vector3::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos, v.z)
+}
+
 /// A cam angle with what the sections lift there.
 struct SectionLifts<'a, L> {
     conoid: &'a Conoid,
@@ -61,23 +66,16 @@ impl Surface for Conoid {
 
     fn pitch(&self, piece: usize, angle: f64, z: f64) -> PitchPoint {
         let lift = self.lift(piece, angle, z);
-        let offset = self.roller.offset;
-        let prime = self.prime_radius();
-        let height = ((prime - offset) * (prime + offset)).sqrt() + lift[0][0];
+        let (height, slope) = self.height_and_slope(&lift);
+        let point = Vector3::new(height, self.roller.offset, z);
+        let slopes = [Vector3::new(slope, height, 0.0), Vector3::new(lift[0][1], 0.0, 1.0)];
+        let second = [
+            Vector3::new(lift[2][0] - height, lift[1][0] + slope, 0.0),
+            Vector3::new(lift[1][1], lift[0][1], 0.0),
+            Vector3::new(lift[0][2], 0.0, 0.0),
+        ];
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-        let frame = |along: f64, across: f64, axial: f64| {
-            Vector3::new(along * cos - across * sin, along * sin + across * cos, axial)
-        };
-        let slope = lift[1][0] - offset;
-        (
-            frame(height, offset, z),
-            [frame(slope, height, 0.0), frame(lift[0][1], 0.0, 1.0)],
-            [
-                frame(lift[2][0] - height, lift[1][0] + slope, 0.0),
-                frame(lift[1][1], lift[0][1], 0.0),
-                frame(lift[0][2], 0.0, 0.0),
-            ],
-        )
+        (turned(point, sin, cos), slopes.map(|v| turned(v, sin, cos)), second.map(|v| turned(v, sin, cos)))
     }
 
     fn rate_errors(&self, z: f64, heading: Heading, inwards: f64) -> Option<RateErrors> {

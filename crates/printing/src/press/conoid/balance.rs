@@ -3,7 +3,6 @@
 use super::between::{self, Residual};
 use super::{Conoid, bottom_law_at};
 use crate::press::load::{AirBuffer, Balance, RunUp};
-use crate::press::motion::Reversal;
 use camgen_cams::body::Figures;
 use camgen_kernel::follower::TranslatingRoller;
 use camgen_kernel::geometry::MILLIMETRES;
@@ -25,19 +24,19 @@ impl Conoid {
     /// Least air: of the sections, and of the speed between them at which the forces balance worst.
     pub(super) fn air(&self) -> Worst {
         let speeds = self.speeds.iter().copied().chain([self.largest_residual().rpm]);
-        let of = |rpm: f64| {
+        let mut least = Worst::NONE;
+        for rpm in speeds {
             let (air, at) = between::air_at(self, rpm);
-            Worst { value: -air, at, z: self.position(rpm) }
-        };
-        let least = speeds.map(of).fold(Worst::NONE, Worst::or_larger);
+            least = least.or_larger(Worst { value: -air, at, z: self.position(rpm) });
+        }
         Worst { value: -least.value, ..least }
     }
 
     /// The longest run-up of the sections.
     pub(super) fn ramp(&self) -> Option<RunUp> {
-        let of = |section: &Reversal| AirBuffer::new(self.cylinder, Arc::new(section.clone())).run_up();
-        let larger = |best: RunUp, next: RunUp| if next.travel > best.travel { next } else { best };
-        self.sections.iter().filter_map(of).reduce(larger)
+        let sections = self.sections.iter().map(|section| AirBuffer::new(self.cylinder, Arc::new(section.clone())));
+        let ramps = sections.filter_map(|section| section.run_up());
+        ramps.reduce(|best, next| if next.travel > best.travel { next } else { best })
     }
 
     /// The most that is left at any speed: between the sections, or of a single one.
@@ -49,24 +48,23 @@ impl Conoid {
     /// A larger roller that lowers a contact stress to a limit, as a key of the machine file; the cam is solved for it.
     pub(super) fn roller_for_stress(&self, stress: f64, limit: f64) -> Option<String> {
         // By Hertz a pressure of spheres falls with the power 2/3 of their radii: smaller rollers are not tried.
-        let could = |factor: &f64| factor * factor * limit.powi(3) >= stress.powi(3);
-        let speeds: Vec<f64> = self.sections_cut().iter().map(|(rpm, ..)| *rpm).collect();
-        let keeps = |radius_mm: &f64| {
-            let mut machine = (*self.machine).clone();
-            let radius = radius_mm / MILLIMETRES;
-            if let Some(roller) = &mut machine.follower.roller {
-                roller.radius = radius;
-                machine.follower.shape =
-                    Arc::new(TranslatingRoller::new(1.0 + roller.offset.abs(), roller.offset, radius));
-            }
-            let stress = Conoid::solve(&machine, &speeds).ok().and_then(|conoid| conoid.contact_stress());
-            stress.is_some_and(|stress| stress.value <= limit)
-        };
         LARGER_ROLLERS
             .into_iter()
-            .filter(could)
+            .filter(|factor| factor * factor * limit.powi(3) >= stress.powi(3))
             .map(|factor| (factor * MILLIMETRES * self.roller.radius).ceil())
-            .find(|radius| keeps(radius))
+            .find(|radius| self.stress_with_roller(radius / MILLIMETRES).is_some_and(|stress| stress.value <= limit))
             .map(|radius| format!("follower.roller.radius = \"{radius} mm\""))
+    }
+
+    /// The contact stress of the cam solved for a roller of another radius, m.
+    fn stress_with_roller(&self, radius: f64) -> Option<Worst> {
+        let speeds: Vec<f64> = self.sections_cut().iter().map(|cut| cut.rpm).collect();
+        let mut machine = (*self.machine).clone();
+        if let Some(roller) = &mut machine.follower.roller {
+            roller.radius = radius;
+            machine.follower.shape =
+                Arc::new(TranslatingRoller::new(1.0 + roller.offset.abs(), roller.offset, radius));
+        }
+        Conoid::solve(&machine, &speeds).ok()?.contact_stress()
     }
 }

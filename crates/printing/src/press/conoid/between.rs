@@ -43,13 +43,16 @@ pub struct Residual {
 pub fn residual(conoid: &Conoid, interpolation: Interpolation) -> Residual {
     let pairs = conoid.speeds.iter().copied().zip(conoid.speeds.iter().skip(1).copied());
     let pairs: Vec<(f64, f64)> = pairs.filter(|(low, high)| low < high).collect();
-    let in_strip = |&(low, high): &(f64, f64)| {
+    let worst: Vec<Residual> = parallel::map(&pairs, |strip| {
         let known = AngleCache::default();
-        let force = |rpm: f64| at_speed(conoid, rpm, interpolation, &known).force;
-        let worst = extremum::largest_without_slope(force, (low, high), SPEEDS, SPEED_SECTIONS);
+        let worst = extremum::largest_without_slope(
+            |rpm| at_speed(conoid, rpm, interpolation, &known).force,
+            *strip,
+            SPEEDS,
+            SPEED_SECTIONS,
+        );
         at_speed(conoid, worst.at, interpolation, &known)
-    };
-    let worst: Vec<Residual> = parallel::map(&pairs, in_strip);
+    });
     let none = Residual { force: 0.0, rpm: conoid.speeds.first().copied().unwrap_or(0.0), angle: 0.0 };
     worst.into_iter().fold(none, |best, next| if next.force > best.force { next } else { best })
 }
@@ -68,7 +71,7 @@ struct SectionsAtAngle {
 }
 
 impl AngleCache {
-    fn at(
+    fn sections_at(
         &self,
         conoid: &Conoid,
         interpolation: Interpolation,
@@ -77,13 +80,13 @@ impl AngleCache {
     ) -> Option<Rc<SectionsAtAngle>> {
         let section = conoid.sections.first()?;
         let mut angles = self.angles.borrow_mut();
-        let sections = || {
+        let known = angles.entry((piece, angle.to_bits())).or_insert_with(|| {
             let state = section.state(piece, angle);
             let all = state.reversing && interpolation == Interpolation::Smooth;
             let bottoms = if all { conoid.bottoms(piece, angle).collect() } else { Vec::new() };
             Rc::new(SectionsAtAngle { state, bottoms })
-        };
-        Some(Rc::clone(angles.entry((piece, angle.to_bits())).or_insert_with(sections)))
+        });
+        Some(Rc::clone(known))
     }
 }
 
@@ -93,22 +96,21 @@ fn at_speed(conoid: &Conoid, rpm: f64, interpolation: Interpolation, known: &Ang
     let z = conoid.position(rpm);
     let Some(section) = conoid.sections.first() else { return Residual { force: f64::NAN, rpm, angle: 0.0 } };
     let (unit, slice) = (conoid.cylinder.unit_force(), conoid.slice(z));
-    let left = |piece: usize, angle: f64| {
-        let Some(sections) = known.at(conoid, interpolation, piece, angle) else { return 0.0 };
+    let negligible = unit * rounding_of_balance(&bottom_law);
+    let worst = extremes::largest_size_of_motion(section, (&conoid.acting(), negligible), |piece, angle| {
+        let Some(sections) = known.sections_at(conoid, interpolation, piece, angle) else { return 0.0 };
         let state = &sections.state;
         if !state.reversing {
             return 0.0;
         }
         let bottom = match interpolation {
-            Interpolation::Smooth => slice.of(sections.bottoms.iter().copied()),
+            Interpolation::Smooth => slice.displacement_of(sections.bottoms.iter().copied()),
             Interpolation::Straight => conoid.displacement(piece, angle, z, interpolation),
         };
         let left = bottom_law.loading() * state.deceleration - (bottom_law.pressure_ratio(state.crank, bottom) - 1.0);
         // A bottom that is beyond the piston leaves no air.
         if left.is_nan() { f64::NEG_INFINITY } else { unit * left }
-    };
-    let negligible = unit * rounding_of_balance(&bottom_law);
-    let worst = extremes::largest_size_of_motion(section, (&conoid.acting(), negligible), left);
+    });
     Residual { force: worst.value.max(0.0), rpm, angle: worst.at }
 }
 
@@ -134,7 +136,7 @@ pub(super) fn air_at(conoid: &Conoid, rpm: f64) -> (f64, f64) {
     let bottom_law = bottom_law_at(&conoid.press, &conoid.data, rpm);
     let z = conoid.position(rpm);
     let Some(section) = conoid.sections.first() else { return (f64::NAN, 0.0) };
-    let used = |piece: usize, angle: f64| {
+    let least = extremes::largest_of_motion(section, (&conoid.acting(), 0.0), |piece, angle| {
         let state = section.state(piece, angle);
         let bottom = conoid.displacement(piece, angle, z, Interpolation::Smooth);
         if !state.reversing {
@@ -142,8 +144,7 @@ pub(super) fn air_at(conoid: &Conoid, rpm: f64) -> (f64, f64) {
             return bottom - bottom_law.column();
         }
         bottom - bottom_law.displacement(state.crank) - bottom_law.air_left(state.deceleration)
-    };
-    let least = extremes::largest_of_motion(section, (&conoid.acting(), 0.0), used);
+    });
     (-least.value, least.at)
 }
 
@@ -158,7 +159,8 @@ const NEARLY: f64 = 1.05;
 fn exceeds(conoid: &Conoid, limit: f64) -> bool {
     let Some(section) = conoid.sections.first() else { return false };
     let pairs = conoid.speeds.iter().zip(conoid.speeds.iter().skip(1));
-    let too_much = |(low, high): (&f64, &f64)| {
+    // The strips at the ends are mostly the worst.
+    pairs.rev().any(|(low, high)| {
         let rpm = 0.5 * (low + high);
         let bottom_law = bottom_law_at(&conoid.press, &conoid.data, rpm);
         let z = conoid.position(rpm);
@@ -170,9 +172,7 @@ fn exceeds(conoid: &Conoid, limit: f64) -> bool {
             let air = bottom_law.pressure_ratio(state.crank, bottom) - 1.0;
             conoid.cylinder.unit_force() * (bottom_law.loading() * state.deceleration - air).abs() > limit
         })
-    };
-    // The strips at the ends are mostly the worst.
-    pairs.rev().any(too_much)
+    })
 }
 
 /// The conoid, its size not yet found, with the fewest speeds out of `spaced` between two that leaves no more than a residual
@@ -185,8 +185,8 @@ fn with_fewest(
 ) -> Result<Option<(Conoid, bool)>, Refusal> {
     let ends = Conoid::unsized_of(machine, &spaced(2))?;
     let known = AngleCache::default();
-    let at_end = |rpm: &f64| at_speed(&ends, *rpm, Interpolation::Smooth, &known).force;
-    let own = ends.speeds.iter().map(at_end).fold(0.0, f64::max);
+    let at_ends = ends.speeds.iter().map(|rpm| at_speed(&ends, *rpm, Interpolation::Smooth, &known).force);
+    let own = at_ends.fold(0.0, f64::max);
     let reachable = if own > limit { own * NEARLY } else { limit };
     for count in 2..=MOST_SECTIONS {
         // The size does not change the law: it is found once, when the count is known.
@@ -199,9 +199,9 @@ fn with_fewest(
 }
 
 /// Evenly spaced speeds from one to another, `count` of them.
-fn evenly((first, last): (f64, f64), count: u32) -> Vec<f64> {
-    let step = |i: u32| first + (last - first) * (f64::from(i) / f64::from(count - 1));
-    (0..count).map(|i| if i + 1 == count { last } else { step(i) }).collect()
+fn evenly(first: f64, last: f64, count: u32) -> Vec<f64> {
+    let inner = (0..count - 1).map(|i| first + (last - first) * (f64::from(i) / f64::from(count - 1)));
+    inner.chain([last]).collect()
 }
 
 /// The conoid with the fewest evenly spaced speeds between two that leaves no more than a residual force
@@ -209,20 +209,19 @@ fn evenly((first, last): (f64, f64), count: u32) -> Vec<f64> {
 ///
 /// # Errors
 /// [`Refusal`] when a conoid cannot be made, the force lies in the rounding of the balance, or [`MOST_SECTIONS`] leave more.
-pub fn fewest(machine: &Machine, (from, to): (f64, f64), limit: f64) -> Result<Conoid, Refusal> {
+pub fn fewest(machine: &Machine, from: f64, to: f64, limit: f64) -> Result<Conoid, Refusal> {
     let least = ROUNDING * machine.press()?.largest_inertia(to);
     if limit < least {
         let what = format!("a residual force of {limit:e} N lies in the rounding of the balance");
         return Err(Refusal::new(what).remedy(format!("give a --residual of at least {least:.1e} N")));
     }
-    let found = with_fewest(machine, limit, |count| evenly((from, to), count))?;
-    let too_many = || {
-        Refusal::new(format!(
+    let Some((conoid, _)) = with_fewest(machine, limit, |count| evenly(from, to, count))? else {
+        return Err(Refusal::new(format!(
             "{MOST_SECTIONS} evenly spaced sections from {from} to {to} rpm leave more than {limit} N between them"
         ))
-        .remedy("give a larger --residual, or a narrower range of speeds in --rpm")
+        .remedy("give a larger --residual, or a narrower range of speeds in --rpm"));
     };
-    found.ok_or_else(too_many)?.0.interpolated()
+    conoid.interpolated()
 }
 
 /// Thousandths of a rpm: no shop sets a speed more finely.
@@ -233,16 +232,18 @@ impl Conoid {
     /// force (N) between them; `None` when no number of sections does.
     #[must_use]
     pub fn speeds_within(&self, limit: f64) -> Option<Vec<f64>> {
-        let range = (*self.speeds.first()?, *self.speeds.last()?);
-        let spaced = |count: u32| {
-            let inner = |rpm: f64| (PER_RPM * rpm).round() / PER_RPM;
-            let mut speeds: Vec<f64> = evenly(range, count).into_iter().map(inner).collect();
+        let (slowest, fastest) = (*self.speeds.first()?, *self.speeds.last()?);
+        let found = with_fewest(&self.machine, limit, |count| {
+            let mut speeds = evenly(slowest, fastest, count);
+            for rpm in &mut speeds {
+                *rpm = (PER_RPM * *rpm).round() / PER_RPM;
+            }
             if let [first, .., last] = speeds.as_mut_slice() {
-                (*first, *last) = range;
+                (*first, *last) = (slowest, fastest);
             }
             speeds
-        };
-        let (conoid, kept) = with_fewest(&self.machine, limit, spaced).ok()??;
+        });
+        let (conoid, kept) = found.ok()??;
         kept.then_some(conoid.speeds)
     }
 }
@@ -279,16 +280,16 @@ mod tests {
     #[test]
     fn what_no_sections_leave_is_refused() {
         let machine = Machine::load("dpi", &[]).expect("valid").0;
-        let fine = fewest(&machine, (25.0, 45.0), 1e-9).expect_err("too fine");
+        let fine = fewest(&machine, 25.0, 45.0, 1e-9).expect_err("too fine");
         assert!(fine.what.ends_with("lies in the rounding of the balance"), "{fine}");
-        let wide = fewest(&machine, (1.0, 1e4), 10.0).expect_err("too wide");
+        let wide = fewest(&machine, 1.0, 1e4, 10.0).expect_err("too wide");
         assert!(wide.what.starts_with(&format!("{MOST_SECTIONS} evenly spaced sections")), "{wide}");
     }
 
     #[test]
     fn as_few_sections_as_keep_the_limit() {
         let machine = Machine::load("dpi", &[]).expect("valid").0;
-        let found = fewest(&machine, (20.0, 35.0), 2.0).expect("a conoid");
+        let found = fewest(&machine, 20.0, 35.0, 2.0).expect("a conoid");
         let left = found.residual_between();
         let count = u32::try_from(found.speeds.len()).expect("small");
         assert!(left.force <= 2.0 && residual(&conoid(count - 1, &[]), Interpolation::Smooth).force > 2.0, "{count}");

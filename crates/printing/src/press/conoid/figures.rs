@@ -2,8 +2,6 @@
 
 use super::{Conoid, bottom_law_at};
 use crate::press::load::{Balance, ForceBalanced, RunUp};
-use crate::press::machine::Press;
-use crate::press::motion::Reversal;
 use crate::press::smoother::smoother;
 use camgen_cams::body::{Figures, STRAIGHT, broken_limit, no_radius, passing, radius_of, stress};
 use camgen_cams::check::contact_stress::ContactKind;
@@ -23,11 +21,13 @@ impl Figures for Conoid {
 
     /// By the principal curvatures of the pitch surface.
     fn least_radius(&self) -> Worst {
-        let corner = |z: &f64| {
+        for z in &self.positions {
             let corners = extremes::corners(self.plane_of(&self.slice(*z)));
-            corners.iter().find(|c| c.turn > 0.0).map(|c| Worst { value: 0.0, at: c.at, z: *z })
-        };
-        self.positions.iter().find_map(corner).unwrap_or_else(|| radius_of(self.sharpest_smooth()))
+            if let Some(corner) = corners.iter().find(|corner| corner.turn > 0.0) {
+                return Worst { value: 0.0, at: corner.at, z: *z };
+            }
+        }
+        radius_of(self.sharpest_smooth())
     }
 
     /// The largest ball that fits into the concave parts of the cam's surface.
@@ -43,9 +43,13 @@ impl Figures for Conoid {
 
     /// Of every section.
     fn run_motions(&self) -> Vec<RunMotion<'_>> {
-        let speed = |rpm: f64| Some(self.press.bed.crank_speed(rpm) / f64::from(self.lobes.max(1)));
-        let all = self.sections.iter().zip(&self.positions).zip(&self.speeds);
-        all.map(|((section, z), rpm)| RunMotion { motion: section, z: *z, speed: speed(*rpm) }).collect()
+        self.all_sections()
+            .map(|cut| RunMotion {
+                motion: cut.section,
+                z: cut.z,
+                speed: Some(self.press.bed.crank_speed(cut.rpm) / f64::from(self.lobes.max(1))),
+            })
+            .collect()
     }
 
     /// Metal between the bore and the nearest place of the surface.
@@ -60,21 +64,21 @@ impl Figures for Conoid {
         let material = self.machine.cam.material?.class;
         let radius = self.roller.radius;
         // The cube of the pressure is smooth where the force vanishes.
-        let cubed = self.worst_of_sections(|section, rpm, z, piece, angle| {
-            let contact = self.contact(piece, angle, z);
+        let cubed = self.worst_of_sections(|cut, piece, angle| {
+            let contact = self.contact(piece, angle, cut.z);
             let path = contact.normal.x * libm::cos(angle) + contact.normal.y * libm::sin(angle);
-            let force = self.path_force(section, rpm, piece, angle).max(0.0) / path;
+            let force = self.path_force(cut.section, cut.rpm, piece, angle).max(0.0) / path;
             // The cam's own surface lies a roller's radius inside the pitch surface.
-            let (first, second) = self.principal_curvatures(piece, angle, z);
-            let inside = |curvature: f64| curvature / (1.0 - curvature * radius);
-            let stress = stress::of_sphere(force, radius, (inside(first), inside(second)), material);
+            let (first, second) = self.principal_curvatures(piece, angle, cut.z);
+            let [first, second] = [first, second].map(|curvature| curvature / (1.0 - curvature * radius));
+            let stress = stress::of_sphere(force, radius, (first, second), material);
             stress * stress * stress
         });
         Some(Worst { value: libm::cbrt(cubed.value), ..cubed })
     }
 
     fn largest_lifting_force(&self) -> Worst {
-        self.worst_of_sections(|section, rpm, _, piece, angle| -self.path_force(section, rpm, piece, angle))
+        self.worst_of_sections(|cut, piece, angle| -self.path_force(cut.section, cut.rpm, piece, angle))
     }
 
     fn touching(&self) -> ContactKind {
@@ -86,8 +90,9 @@ impl Figures for Conoid {
     }
 
     fn smoother(&self) -> Option<String> {
-        let laws = |press: &Press| self.speeds.iter().map(|rpm| bottom_law_at(press, &self.data, *rpm)).collect();
-        smoother(&self.machine, laws)
+        smoother(&self.machine, |press| {
+            self.speeds.iter().map(|rpm| bottom_law_at(press, &self.data, *rpm)).collect()
+        })
     }
 
     fn remedy(&self) -> Option<String> {
@@ -113,8 +118,7 @@ impl ForceBalanced for Conoid {
     }
 
     fn columns(&self) -> Vec<(f64, f64)> {
-        let of = |(section, rpm): (&Reversal, &f64)| (section.law().bottom_law.column(), *rpm);
-        self.sections.iter().zip(&self.speeds).map(of).collect()
+        self.all_sections().map(|cut| (cut.section.law().bottom_law.column(), cut.rpm)).collect()
     }
 
     fn run_up(&self) -> Option<RunUp> {

@@ -18,7 +18,20 @@ use nalgebra::Vector2;
 use truck_modeling::Point3;
 
 /// Points and slopes of one cam angle at the stations.
-type StationColumn = (Vec<Vector2<f64>>, Vec<Vector2<f64>>);
+struct StationColumn {
+    points: Vec<Vector2<f64>>,
+    slopes: Vec<Vector2<f64>>,
+}
+
+/// A point of the exact flank in the drawing.
+struct FlankPoint {
+    /// mm.
+    point: Vector2<f64>,
+    /// Derivative with respect to the angle, mm/rad.
+    slope: Vector2<f64>,
+    /// Outward normal in the plane of the cut.
+    normal: Vector2<f64>,
+}
 
 /// Longest patch, rad.
 const LONGEST: f64 = std::f64::consts::PI / 6.0;
@@ -52,43 +65,54 @@ impl ExactFlank<'_> {
         self.conoid.all_lifts(piece, if self.turned { -u } else { u })
     }
 
-    /// Point (mm), derivative by the angle and outward normal in the plane, where the cut at z (mm) has the angle u, at which the
-    /// sections have these lifts.
-    fn at(&self, lifts: &AllStrips, u: f64, z: f64) -> (Vector2<f64>, Vector2<f64>, Vector2<f64>) {
+    /// The cut at z (mm) at the angle u, where the sections have these lifts.
+    fn point(&self, lifts: &AllStrips, u: f64, z: f64) -> FlankPoint {
         let angle = if self.turned { -u } else { u };
-        let nowhere = Vector2::new(f64::NAN, f64::NAN);
         let Some((frame, ..)) = self.conoid.cut_of(lifts, angle, z / MILLIMETRES) else {
-            return (nowhere, nowhere, nowhere);
+            let nowhere = Vector2::new(f64::NAN, f64::NAN);
+            return FlankPoint { point: nowhere, slope: nowhere, normal: nowhere };
         };
-        let mirrored = |v: Vector2<f64>| if self.turned { Vector2::new(v.x, -v.y) } else { v };
         let sense = if self.turned { -1.0 } else { 1.0 };
-        let slope = frame.tangent * (sense * frame.speed * MILLIMETRES);
-        (mirrored(frame.point * MILLIMETRES), mirrored(slope), mirrored(frame.outward()))
+        FlankPoint {
+            point: self.mirrored(frame.point * MILLIMETRES),
+            slope: self.mirrored(frame.tangent * (sense * frame.speed * MILLIMETRES)),
+            normal: self.mirrored(frame.outward()),
+        }
+    }
+
+    fn mirrored(&self, v: Vector2<f64>) -> Vector2<f64> {
+        if self.turned { Vector2::new(v.x, -v.y) } else { v }
+    }
+
+    /// Points and slopes at the stations of an angle.
+    fn column(&self, piece: usize, u: f64, stations: &[f64]) -> StationColumn {
+        let lifts = self.lifts(piece, u);
+        let (points, slopes) = stations
+            .iter()
+            .map(|z| self.point(&lifts, u, *z))
+            .map(|found| (found.point, found.slope))
+            .unzip();
+        StationColumn { points, slopes }
     }
 
     fn stretches(&self) -> Vec<AngleStretch> {
-        let of_piece = |(piece, span): (usize, &camgen_kernel::motion::Piece)| {
-            let count = ((span.end - span.start) / LONGEST - 1e-9).ceil().max(1.0);
-            let mut stretches = Vec::new();
+        let mut stretches = Vec::new();
+        for (piece, span) in self.conoid.pieces().iter().enumerate() {
+            let whole = span.end - span.start;
+            let count = (whole / LONGEST - 1e-9).ceil().max(1.0);
             let mut i = 0.0;
             while i < count {
-                let place = |share: f64| span.start + (span.end - span.start) * share / count;
-                stretches.push(AngleStretch {
-                    piece,
-                    start: place(i),
-                    end: if i + 1.0 < count { place(i + 1.0) } else { span.end },
-                });
+                let start = span.start + whole * i / count;
+                let end = if i + 1.0 < count { span.start + whole * (i + 1.0) / count } else { span.end };
+                stretches.push(AngleStretch { piece, start, end });
                 i += 1.0;
             }
-            stretches
-        };
-        let stretches: Vec<AngleStretch> = self.conoid.pieces().iter().enumerate().flat_map(of_piece).collect();
-        if self.turned {
-            let mirror = |s: &AngleStretch| AngleStretch { piece: s.piece, start: -s.end, end: -s.start };
-            stretches.iter().rev().map(mirror).collect()
-        } else {
-            stretches
         }
+        if self.turned {
+            let mirrored = stretches.iter().rev();
+            return mirrored.map(|s| AngleStretch { piece: s.piece, start: -s.end, end: -s.start }).collect();
+        }
+        stretches
     }
 }
 
@@ -141,35 +165,20 @@ pub fn flank(conoid: &Conoid, tolerance: f64) -> Result<Flank, Refusal> {
 
 /// One patch: `spans` spans over the angle, a station for each of `places` along the axis.
 fn patch(exact: &ExactFlank<'_>, stretch: AngleStretch, spans: u32, places: &[f64]) -> SplineSurface {
-    let angle = |i: u32| {
-        if i == spans {
-            stretch.end
-        } else {
-            stretch.start + (stretch.end - stretch.start) * f64::from(i) / f64::from(spans)
-        }
-    };
-    let angles: Vec<f64> = (0..=spans).map(angle).collect();
-    // Control values along the axis of a quantity known at the stations.
-    let along_axis = |values: &[f64]| Spline::not_a_knot(places, values).controls();
-    let column = |u: &f64| -> StationColumn {
-        let lifts = exact.lifts(stretch.piece, *u);
-        places.iter().map(|z| exact.at(&lifts, *u, *z)).map(|(p, d, _)| (p, d)).unzip()
-    };
-    let columns: Vec<StationColumn> = angles.iter().map(column).collect();
-    let component = |vectors: &[Vector2<f64>], axis: usize| -> Vec<f64> {
-        along_axis(&vectors.iter().map(|v| v.get(axis).copied().unwrap_or(f64::NAN)).collect::<Vec<f64>>())
-    };
-    let heights = along_axis(places);
+    let mut angles: Vec<f64> = (0..spans)
+        .map(|i| stretch.start + (stretch.end - stretch.start) * f64::from(i) / f64::from(spans))
+        .collect();
+    angles.push(stretch.end);
+    let columns: Vec<StationColumn> = angles.iter().map(|u| exact.column(stretch.piece, *u, places)).collect();
+    let heights = Spline::not_a_knot(places, places).controls();
     let mut controls = vec![vec![Point3::new(0.0, 0.0, 0.0); heights.len()]; angles.len() + 2];
     for axis in 0..2 {
-        let values: Vec<Vec<f64>> = columns.iter().map(|(points, _)| component(points, axis)).collect();
-        let slope =
-            |column: Option<&StationColumn>| column.map(|(_, slopes)| component(slopes, axis)).unwrap_or_default();
-        let (first, last) = (slope(columns.first()), slope(columns.last()));
+        let values: Vec<Vec<f64>> = columns.iter().map(|column| component(places, &column.points, axis)).collect();
+        let [first, last] = [columns.first(), columns.last()]
+            .map(|column| column.map(|column| component(places, &column.slopes, axis)).unwrap_or_default());
         for (v, z) in heights.iter().enumerate() {
-            let at = |list: &Vec<f64>| list.get(v).copied().unwrap_or(f64::NAN);
-            let row: Vec<f64> = values.iter().map(at).collect();
-            let around = Spline::clamped(&angles, &row, (at(&first), at(&last))).controls();
+            let row: Vec<f64> = values.iter().map(|list| entry(list, v)).collect();
+            let around = Spline::clamped(&angles, &row, (entry(&first, v), entry(&last, v))).controls();
             for (u, value) in around.into_iter().enumerate() {
                 if let Some(point) = controls.get_mut(u).and_then(|row| row.get_mut(v)) {
                     *if axis == 0 { &mut point.x } else { &mut point.y } = value;
@@ -181,28 +190,49 @@ fn patch(exact: &ExactFlank<'_>, stretch: AngleStretch, spans: u32, places: &[f6
     SplineSurface { u: bspline_knots(&angles), v: bspline_knots(places), controls }
 }
 
+/// Control values along the axis of a component of vectors at the stations.
+fn component(stations: &[f64], vectors: &[Vector2<f64>], axis: usize) -> Vec<f64> {
+    let values: Vec<f64> = vectors.iter().map(|v| v.get(axis).copied().unwrap_or(f64::NAN)).collect();
+    Spline::not_a_knot(stations, &values).controls()
+}
+
+fn entry(list: &[f64], index: usize) -> f64 {
+    list.get(index).copied().unwrap_or(f64::NAN)
+}
+
 /// Largest distance of a patch from the exact surface at the middles of its spans, along the normal in the plane of the
 /// cut: between the angles on the stations, and between the stations.
 fn deviation(exact: &ExactFlank<'_>, stretch: AngleStretch, patch: &SplineSurface) -> [f64; 2] {
-    let joints =
-        |knots: &[f64]| -> Vec<f64> { knots.get(3..knots.len().saturating_sub(3)).unwrap_or_default().to_vec() };
-    let middles =
-        |list: &[f64]| -> Vec<f64> { list.iter().zip(list.iter().skip(1)).map(|(a, b)| 0.5 * (a + b)).collect() };
     let (angles, places) = (joints(&patch.u), joints(&patch.v));
-    let off = |lifts: &AllStrips, u: f64, v: f64| {
-        let (point, _, normal) = exact.at(lifts, u, v);
-        let [found, ..] = patch.point_and_slopes(u, v);
-        (found.xy() - point).dot(&normal).abs()
-    };
-    let over = |angles: &[f64], places: &[f64]| {
-        let at_angle = |u: &f64| {
-            let lifts = exact.lifts(stretch.piece, *u);
-            places.iter().map(|v| off(&lifts, *u, *v)).fold(0.0, larger)
-        };
-        angles.iter().map(at_angle).fold(0.0, larger)
-    };
-    let both = over(&middles(&angles), &middles(&places));
-    [over(&middles(&angles), &places), larger(over(&angles, &middles(&places)), both)]
+    let (angles_between, places_between) = (middles(angles), middles(places));
+    let both = distance(exact, stretch.piece, patch, &angles_between, &places_between);
+    [
+        distance(exact, stretch.piece, patch, &angles_between, places),
+        larger(distance(exact, stretch.piece, patch, angles, &places_between), both),
+    ]
+}
+
+/// The knots at which spans meet.
+fn joints(knots: &[f64]) -> &[f64] {
+    knots.get(3..knots.len().saturating_sub(3)).unwrap_or_default()
+}
+
+fn middles(list: &[f64]) -> Vec<f64> {
+    list.iter().zip(list.iter().skip(1)).map(|(a, b)| 0.5 * (a + b)).collect()
+}
+
+/// Largest distance of a patch from the exact surface at these angles and places along the axis (mm), mm.
+fn distance(exact: &ExactFlank<'_>, piece: usize, patch: &SplineSurface, angles: &[f64], places: &[f64]) -> f64 {
+    let mut largest = 0.0;
+    for u in angles {
+        let lifts = exact.lifts(piece, *u);
+        for v in places {
+            let FlankPoint { point, normal, .. } = exact.point(&lifts, *u, *v);
+            let [found, ..] = patch.at(*u, *v);
+            largest = larger(largest, (found.xy() - point).dot(&normal).abs());
+        }
+    }
+    largest
 }
 
 /// Abscissae and weights of Gauss' rule with four points on [0, 1]: exact to the seventh power, and the integrand has the
@@ -214,11 +244,13 @@ const GAUSS: [(f64, f64); 4] = [
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
+/// Start and width of every span.
+fn spans(knots: &[f64]) -> Vec<(f64, f64)> {
+    knots.iter().zip(knots.iter().skip(1)).filter(|(a, b)| a < b).map(|(a, b)| (*a, b - a)).collect()
+}
+
 /// Volume between a patch and the axis, mm³: ∫∫ (x y_u − y x_u)/2 du dv, since v is the height.
 fn volume(patch: &SplineSurface) -> f64 {
-    let spans = |knots: &[f64]| -> Vec<(f64, f64)> {
-        knots.iter().zip(knots.iter().skip(1)).filter(|(a, b)| a < b).map(|(a, b)| (*a, b - a)).collect()
-    };
     let mut volume = 0.0;
     for (u, width) in spans(&patch.u) {
         for (v, height) in spans(&patch.v) {

@@ -1,6 +1,6 @@
 //! The conoid as a [`Body`], for checks, drawings, tables and reports.
 
-use super::{AllStrips, Conoid, KIND, between_sections, cylinder_contact, flank, mechanism, report, sheet, shift};
+use super::{AllStrips, Conoid, KIND, SectionCut, between_sections, cylinder_contact, flank, mechanism, report, sheet, shift};
 use crate::press::checks::balanced::of_balance;
 use crate::press::checks::contact_life;
 use crate::press::columns::{self, BalanceRow};
@@ -63,16 +63,13 @@ impl Conoid {
         let (shift, tolerance) = fit.band();
         let within_band = Fit { tolerance, ..fit };
         let asked = MotionTolerance { velocity: SEEN_AT_NODES * fit.motion.velocity, ..fit.motion };
-        let frame = |piece: usize, angle: f64| {
-            self.cut(piece, angle, z).map_or(BROKEN, |(frame, _)| frame.offset_inward(shift).scaled(MILLIMETRES))
-        };
         let pieces = self.pieces();
         if let Some(corner) = extremes::corners(self.plane_of(&self.slice(z))).first() {
             let what = "a crowned roller needs a smooth surface, and the sections of the conoid have a corner";
             let refusal = Refusal::new(what).at(format!("{:.3} deg", corner.at.to_degrees()));
             return Err(refusal.remedy("use transition.kind = \"run-up\" or \"blend\", and no buffer.lead").into());
         }
-        outline::check_drawing_size(pieces, frame)?;
+        outline::check_drawing_size(pieces, |piece, angle| self.cut_within_band(piece, angle, z, shift))?;
         let first = pieces.iter().position(|piece| piece.dwell).unwrap_or(0);
         let mut outline = Outline::empty();
         for (index, piece) in pieces.iter().enumerate().cycle().skip(first).take(pieces.len()) {
@@ -80,15 +77,24 @@ impl Conoid {
             let round = self.is_round(index, piece, z);
             for range in outline::parts(&Piece { dwell: round, ..*piece }, &[], Some(TAU)) {
                 if round {
+                    let start = self.cut_within_band(index, range.0, z, shift);
                     let bulge = libm::tan(0.25 * (range.1 - range.0));
-                    outline.contour.vertices.push(Vertex::new(frame(index, range.0).point, bulge));
+                    outline.contour.vertices.push(Vertex::new(start.point, bulge));
                 } else {
-                    let within = |angle| cut_within(frame(index, angle), angle, asked);
-                    outline.add_piece(within, range, &within_band)?;
+                    outline.add_piece(
+                        |angle| cut_within(self.cut_within_band(index, angle, z, shift), angle, asked),
+                        range,
+                        &within_band,
+                    )?;
                 }
             }
         }
         Ok(outline.measured_from_exact(shift))
+    }
+
+    /// The cut at z (m), mm, offset inward by a shift, m.
+    fn cut_within_band(&self, piece: usize, angle: f64, z: f64, shift: f64) -> CurvePoint {
+        self.cut(piece, angle, z).map_or(BROKEN, |(frame, _)| frame.offset_inward(shift).scaled(MILLIMETRES))
     }
 
     /// Why a section cannot be laid where the surface is nearly across the axis: there its cuts jump from one side of the
@@ -108,35 +114,47 @@ impl Conoid {
 
     /// The exact cut at z (m), mm, of a clockwise cam or mirrored as that of one that turns counter-clockwise.
     pub(super) fn exact_cut(&self, z: f64, turned: bool) -> Boundary<'_> {
-        let cut = move |piece: usize, angle: f64| {
-            self.cut(piece, angle, z).map_or(BROKEN, |(frame, _)| frame.scaled(MILLIMETRES))
-        };
-        let of_piece = |(index, piece): (usize, &Piece)| {
+        let mut stretches: Vec<BoundaryStretch> = Vec::new();
+        for (index, piece) in self.pieces().iter().enumerate() {
             let round = self.is_round(index, piece, z);
-            boundary::cut(index, &Piece { dwell: round, ..*piece }, (piece.start, piece.end), false)
-        };
-        let stretches: Vec<BoundaryStretch> = self.pieces().iter().enumerate().flat_map(of_piece).collect();
-        Boundary::new(Box::new(cut), &if turned { mirrored(&stretches) } else { stretches })
+            stretches.extend(boundary::cut(
+                index,
+                &Piece { dwell: round, ..*piece },
+                (piece.start, piece.end),
+                false,
+            ));
+        }
+        if turned {
+            stretches = mirrored(&stretches);
+        }
+        Boundary::new(
+            Box::new(move |piece, angle| {
+                self.cut(piece, angle, z).map_or(BROKEN, |(frame, _)| frame.scaled(MILLIMETRES))
+            }),
+            &stretches,
+        )
     }
 
     /// The exact path of the roller's centre with the cam at z (m), mm, of a clockwise cam.
     pub(super) fn exact_centre(&self, z: f64) -> Boundary<'_> {
         let slice = self.slice(z);
         let stretches = boundary::of_centre(self.plane_of(&slice));
-        let centre =
-            move |piece: usize, angle: f64| self.plane_of(&slice).touch(piece, angle).curve.scaled(MILLIMETRES);
-        Boundary::new(Box::new(centre), &stretches)
+        Boundary::new(
+            Box::new(move |piece, angle| self.plane_of(&slice).touch(piece, angle).curve.scaled(MILLIMETRES)),
+            &stretches,
+        )
     }
 
     fn draw_parts(&self, fit: Fit) -> Result<Vec<Part>, OutlineError> {
-        let part = |(rpm, z, _): &(f64, f64, &Reversal)| {
-            let part = Part::turning(&self.machine, self.section(*z, fit)?);
-            Ok(Part { rpm: Some(*rpm), z: *z, ..part })
-        };
-        parallel::map(&self.sections_cut(), part).into_iter().collect()
+        let parts = parallel::map(&self.sections_cut(), |cut| {
+            let part = Part::turning(&self.machine, self.section(cut.z, fit)?);
+            Ok(Part { rpm: Some(cut.rpm), z: cut.z, ..part })
+        });
+        parts.into_iter().collect()
     }
 
-    fn row(&self, (rpm, z, section): (f64, f64, &Reversal), (at, lifts): &(TurnAngles, AllStrips)) -> Row {
+    fn row(&self, cut: SectionCut<'_>, at: &TurnAngles, lifts: &AllStrips) -> Row {
+        let SectionCut { rpm, z, section } = cut;
         let (piece, angle) = section.locate(at.angle);
         let (state, lift) = (section.state(piece, angle), self.lift_of(lifts, z));
         let contact = self.contact_of(&lift, angle, z);
@@ -144,15 +162,14 @@ impl Conoid {
         let in_plane = Contact::new(&self.follower, angle, jet);
         let cut = self.cut_of(lifts, angle, z).map(|(frame, ..)| frame);
         let force = self.path_force(section, rpm, piece, angle);
-        let turned = |point: Vector2<f64>| point_as_turned(&self.machine, point * MILLIMETRES);
-        let touch = turned(contact.point.xy());
+        let touch = point_as_turned(&self.machine, contact.point.xy() * MILLIMETRES);
         let nowhere = Vector2::new(f64::NAN, f64::NAN);
         let bed = columns::of_bed(Some(at.crank_deg), MILLIMETRES * state.overrun, MILLIMETRES * state.displacement);
         Row {
             cam_deg: Some(at.cam_deg),
             lift: Some(jet),
-            curve: Some(turned(contact.centre.xy())),
-            profile: Some(cut.map_or(nowhere, |frame| turned(frame.point))),
+            curve: Some(point_as_turned(&self.machine, contact.centre.xy() * MILLIMETRES)),
+            profile: Some(cut.map_or(nowhere, |frame| point_as_turned(&self.machine, frame.point * MILLIMETRES))),
             pressure_angle_deg: Some(in_plane.pressure_angle.to_degrees()),
             curve_radius: Some(radius_of_curvature(in_plane.curve.curvature)),
             profile_radius: Some(cut.map_or(f64::NAN, |frame| radius_of_curvature(frame.curvature))),
@@ -190,7 +207,7 @@ impl Body for Conoid {
     }
 
     fn speeds(&self) -> Speeds {
-        Speeds::Several(self.sections_cut().iter().map(|(rpm, ..)| *rpm).collect())
+        Speeds::Several(self.sections_cut().iter().map(|cut| cut.rpm).collect())
     }
 
     fn shaft(&self) -> Option<Shaft> {
@@ -199,17 +216,19 @@ impl Body for Conoid {
 
     fn cuts(&self) -> Vec<Cut<'_>> {
         let mirrored: &[bool] = if self.machine.cam.rotation == Rotation::Clockwise { &[false] } else { &[true] };
-        let cut = |(rpm, z, _): (f64, f64, &Reversal)| Cut {
-            name: "",
-            layer: Layer::CamProfile,
-            depth: None,
-            z,
-            rpm: Some(rpm),
-            curves: None,
-            mirrored,
-            worst: None,
-        };
-        self.sections_cut().into_iter().map(cut).collect()
+        self.sections_cut()
+            .into_iter()
+            .map(|cut| Cut {
+                name: "",
+                layer: Layer::CamProfile,
+                depth: None,
+                z: cut.z,
+                rpm: Some(cut.rpm),
+                curves: None,
+                mirrored,
+                worst: None,
+            })
+            .collect()
     }
 
     fn surface(&self) -> Option<&dyn Surface> {
@@ -230,8 +249,8 @@ impl Body for Conoid {
     }
 
     fn largest_rates(&self) -> [f64; 2] {
-        let larger = |[v, a]: [f64; 2], [w, b]: [f64; 2]| [v.max(w), a.max(b)];
-        self.sections.iter().map(|section| followed::largest_rates(section)).fold([0.0; 2], larger)
+        let rates = self.sections.iter().map(|section| followed::largest_rates(section));
+        rates.fold([0.0; 2], |[v, a], [w, b]| [v.max(w), a.max(b)])
     }
 
     fn measures(&self, of: &mut Measures<'_>) {
@@ -275,16 +294,17 @@ impl Body for Conoid {
 
     /// `samples` rows for each speed, at 360 i/samples degrees.
     fn rows(&self, samples: u32) -> Vec<Row> {
-        let at = |i: &u32| {
+        // What the sections do at an angle is the same for the rows of all of them.
+        let indices: Vec<u32> = (0..samples).collect();
+        let places: Vec<(TurnAngles, AllStrips)> = parallel::map(&indices, |i| {
             let at = turned(*i, samples, self.lobes);
             let (piece, angle) = self.sections.first().map_or((0, at.angle), |section| section.locate(at.angle));
             (at, self.all_lifts(piece, angle))
-        };
-        // What the sections do at an angle is the same for the rows of all of them.
-        let places: Vec<(TurnAngles, AllStrips)> = parallel::map(&(0..samples).collect::<Vec<u32>>(), at);
-        let rows =
-            |cut: &(f64, f64, &Reversal)| -> Vec<Row> { places.iter().map(|place| self.row(*cut, place)).collect() };
-        parallel::map(&self.sections_cut(), rows).into_iter().flatten().collect()
+        });
+        let rows: Vec<Vec<Row>> = parallel::map(&self.sections_cut(), |cut| {
+            places.iter().map(|(at, lifts)| self.row(*cut, at, lifts)).collect()
+        });
+        rows.into_iter().flatten().collect()
     }
 
     fn sections(&self, found: &DrawingEvidence<'_>) -> Vec<Section> {
@@ -292,7 +312,7 @@ impl Body for Conoid {
     }
 
     fn mechanism(&self, drawn: &Drawn, samples: u32) -> MovingMechanism {
-        mechanism::of(self, drawn, samples)
+        mechanism::build(self, drawn, samples)
     }
 
     fn not_modelled(&self) -> Vec<&'static str> {

@@ -30,7 +30,7 @@ pub(super) enum Variable {
 
 impl Variable {
     /// The variable at a place along the axis, m, and its first three derivatives by it.
-    fn at(self, z: f64) -> [f64; 4] {
+    fn jet(self, z: f64) -> [f64; 4] {
         match self {
             Self::Place => [z, 1.0, 0.0, 0.0],
             Self::Speed(a, b) => {
@@ -63,7 +63,7 @@ pub(super) struct Weights {
 impl Weights {
     /// The weights for sections at these places along the axis, m.
     pub(super) fn new(positions: &[f64], variable: Variable) -> Self {
-        let knots: Vec<f64> = positions.iter().map(|z| variable.at(*z)[0]).collect();
+        let knots: Vec<f64> = positions.iter().map(|z| variable.jet(*z)[0]).collect();
         let mut cubics = vec![Vec::with_capacity(knots.len()); knots.len().saturating_sub(1)];
         for index in 0..knots.len() {
             let values: Vec<f64> = (0..knots.len()).map(|other| f64::from(u8::from(other == index))).collect();
@@ -77,7 +77,7 @@ impl Weights {
     /// Where a place along the axis, m, lies: the interval, and how far behind its first section the variable is, with its first three
     /// derivatives by the place.
     pub(super) fn place(&self, z: f64) -> (usize, [f64; 4]) {
-        let [t, t1, t2, t3] = self.variable.at(z);
+        let [t, t1, t2, t3] = self.variable.jet(z);
         let interval = interval_of(&self.knots, t);
         let knot = self.knots.get(interval).copied().unwrap_or(f64::NAN);
         (interval, [t - knot, t1, t2, t3])
@@ -85,8 +85,8 @@ impl Weights {
 
     /// The width of an interval in the variable.
     pub(super) fn width_of(&self, interval: usize) -> f64 {
-        let knot = |index: usize| self.knots.get(index).copied().unwrap_or(f64::NAN);
-        knot(interval + 1) - knot(interval)
+        let [from, to] = [interval, interval + 1].map(|knot| self.knots.get(knot).copied().unwrap_or(f64::NAN));
+        to - from
     }
 
     /// The larger width of the intervals next to a section.
@@ -96,20 +96,19 @@ impl Weights {
 
     /// The slopes by the variable at every section of what has these values there.
     pub(super) fn slopes(&self, values: &[Jet]) -> Vec<Jet> {
-        let slope = |(first, shares): &(usize, Vec<f64>)| {
+        let mut slopes = Vec::with_capacity(self.slope_shares.len());
+        for (first, shares) in &self.slope_shares {
             let terms = values.iter().skip(*first).zip(shares);
-            terms.fold(Jet::default(), |sum, (value, share)| sum.plus(value.scaled(*share)))
-        };
-        self.slope_shares.iter().map(slope).collect()
+            slopes.push(terms.fold(Jet::default(), |sum, (value, share)| sum.plus(value.scaled(*share))));
+        }
+        slopes
     }
 
     /// The weights at a place along the axis, m, and their first three derivatives by it, section by section.
-    pub(super) fn at(&self, z: f64) -> impl Iterator<Item = [f64; 4]> + '_ {
-        let [t, t1, t2, t3] = self.variable.at(z);
-        let interval = interval_of(&self.knots, t);
-        let knot = self.knots.get(interval).copied().unwrap_or(f64::NAN);
+    pub(super) fn jets_at(&self, z: f64) -> impl Iterator<Item = [f64; 4]> + '_ {
+        let (interval, [behind, t1, t2, t3]) = self.place(z);
         self.cubics.get(interval).into_iter().flatten().map(move |cubic| {
-            let [w, w1, w2, w3] = cubic_at(cubic, t - knot);
+            let [w, w1, w2, w3] = cubic_at(cubic, behind);
             // Faà di Bruno's rule.
             [w, w1 * t1, w2 * t1 * t1 + w1 * t2, w3 * t1 * t1 * t1 + 3.0 * w2 * t1 * t2 + w1 * t3]
         })
@@ -124,13 +123,12 @@ impl Weights {
 /// The shares of all sections in the slope at one, by the cubics of the intervals; those that are rounding are left out at either end.
 fn shares_at(knots: &[f64], cubics: &[Vec<[f64; 4]>], section: usize) -> (usize, Vec<f64>) {
     let interval = section.min(cubics.len().saturating_sub(1));
-    let knot = |index: usize| knots.get(index).copied().unwrap_or(f64::NAN);
-    let behind = knot(section) - knot(interval);
+    let [knot, first] = [section, interval].map(|index| knots.get(index).copied().unwrap_or(f64::NAN));
+    let behind = knot - first;
     let all: Vec<f64> = cubics.get(interval).into_iter().flatten().map(|cubic| cubic_at(cubic, behind)[1]).collect();
     let least = NEGLIGIBLE * all.iter().fold(0.0_f64, |most, share| most.max(share.abs()));
-    let counts = |share: &f64| share.abs() > least;
-    let first = all.iter().position(counts).unwrap_or(0);
-    let last = all.iter().rposition(counts).map_or(0, |last| last + 1);
+    let first = all.iter().position(|share| share.abs() > least).unwrap_or(0);
+    let last = all.iter().rposition(|share| share.abs() > least).map_or(0, |last| last + 1);
     (first, all.get(first..last).unwrap_or_default().to_vec())
 }
 
@@ -141,13 +139,13 @@ impl Conoid {
         if self.speeds.len() < 3 || !self.is_worse_than_strips() {
             return self.sized();
         }
-        let with = |weights: Weights| {
+        let mut all = Vec::with_capacity(SHARES.len());
+        for weights in SHARES.iter().filter_map(|share| self.by_speed(*share)) {
             let mut conoid = Self { weights, ..self.clone() };
             // What was found with other splines is found anew.
             conoid.found = SurfaceExtremes { strips: conoid.found.strips, ..SurfaceExtremes::default() };
-            conoid
-        };
-        let mut all: Vec<Self> = SHARES.iter().filter_map(|share| self.by_speed(*share)).map(with).collect();
+            all.push(conoid);
+        }
         all.retain(|conoid| conoid.residual_between().force < self.residual_between().force);
         all.sort_by(|a, b| a.residual_between().force.total_cmp(&b.residual_between().force));
         let sized = all.into_iter().filter_map(|conoid| conoid.sized().ok());
@@ -157,11 +155,11 @@ impl Conoid {
 
     /// Splines in asinh(v/c) with c a share of the largest v.
     fn by_speed(&self, share: f64) -> Option<Weights> {
-        let square = |rpm: &f64| match self.data.shift {
-            Shift::Linear => *rpm,
-            Shift::Square | Shift::Variable => rpm * rpm,
+        let ends = [*self.speeds.first()?, *self.speeds.last()?];
+        let [first, last] = match self.data.shift {
+            Shift::Linear => ends,
+            Shift::Square | Shift::Variable => ends.map(|rpm| rpm * rpm),
         };
-        let (first, last) = (self.speeds.first().map(square)?, self.speeds.last().map(square)?);
         let scale = share * last;
         let variable = Variable::Speed(first / scale, (last - first) / (self.data.axial_travel * scale));
         (last > first).then(|| Weights::new(&self.positions, variable))

@@ -1,8 +1,7 @@
 //! The sections of a conoid under load, each at its own speed.
 
-use super::Conoid;
+use super::{Conoid, SectionCut};
 use crate::press::load::AirBuffer;
-use crate::press::motion::Reversal;
 use camgen_cams::body::loaded::{LoadedFollower, PressedFollower, ShaftCompliance};
 use camgen_cams::body::plane;
 use camgen_cams::table::turned;
@@ -14,31 +13,32 @@ impl Conoid {
     /// What `found` makes of a section's follower: its place of the turn and the follower there.
     fn pressed<T>(
         &self,
-        (rpm, z, section): (f64, f64, &Reversal),
+        cut: SectionCut<'_>,
         shaft: &ShaftCompliance,
         found: impl FnOnce(&dyn Motion, &dyn Fn(usize, f64) -> LoadedFollower) -> T,
     ) -> T {
+        let SectionCut { rpm, z, section } = cut;
         let slice = self.slice(z);
         let curves = self.plane_of(&slice);
         let load = AirBuffer::new(self.cylinder, Arc::new(section.clone()));
         let pressed = PressedFollower { curves, load: Some(&load), spring_rate: self.machine.follower.spring_rate };
-        let at = |piece: usize, angle: f64| {
+        found(curves.motion, &|piece, angle| {
             pressed.loaded_follower((piece, angle), self.path_force(section, rpm, piece, angle), shaft)
-        };
-        found(curves.motion, &at)
+        })
     }
 
     /// The largest of what is lowered on a section, and where.
     #[must_use]
     pub fn largest_loaded(
         &self,
-        cut: (f64, f64, &Reversal),
+        cut: SectionCut<'_>,
         shaft: &ShaftCompliance,
-        of: impl Fn(&LoadedFollower) -> f64,
+        value: impl Fn(&LoadedFollower) -> f64,
     ) -> (Worst, LoadedFollower) {
         self.pressed(cut, shaft, |motion, at| {
-            let value = |piece: usize, angle: f64| of(&at(piece, angle));
-            let worst = plane(extremes::largest_of_motion(motion, (&self.acting(), 0.0), value));
+            let acting = self.acting();
+            let worst = extremes::largest_of_motion(motion, (&acting, 0.0), |piece, angle| value(&at(piece, angle)));
+            let worst = plane(worst);
             let (piece, angle) = motion.locate(worst.at);
             (worst, at(piece, angle))
         })
@@ -48,17 +48,18 @@ impl Conoid {
     #[must_use]
     pub fn rows_lowered(
         &self,
-        cut: (f64, f64, &Reversal),
+        cut: SectionCut<'_>,
         shaft: &ShaftCompliance,
         samples: u32,
     ) -> Vec<(f64, LoadedFollower)> {
         self.pressed(cut, shaft, |motion, at| {
-            let row = |index: u32| {
-                let place = turned(index, samples, motion.lobes());
-                let (piece, angle) = motion.locate(place.angle);
-                (place.cam_deg, at(piece, angle))
-            };
-            (0..samples).map(row).collect()
+            let places = (0..samples).map(|index| turned(index, samples, motion.lobes()));
+            places
+                .map(|place| {
+                    let (piece, angle) = motion.locate(place.angle);
+                    (place.cam_deg, at(piece, angle))
+                })
+                .collect()
         })
     }
 }

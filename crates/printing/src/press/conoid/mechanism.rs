@@ -1,8 +1,7 @@
 //! How a conoid moves at each of its speeds, and its surface as rings about the axis.
 
-use super::Conoid;
+use super::{Conoid, SectionCut};
 use crate::press::MachineOfPress;
-use crate::press::motion::Reversal;
 use crate::press::picture::{BufferPicture, PressPicture, press_poses, simplifications};
 use camgen_cams::body::picture::{Cover, FollowerPose, Scene};
 use camgen_cams::body::{Body, Drawn, Part};
@@ -28,10 +27,9 @@ const RING: u32 = 120;
 const RINGS: u32 = 28;
 
 /// The mechanism of a conoid as it moves.
-pub(super) fn of(conoid: &Conoid, drawn: &Drawn, samples: u32) -> MovingMechanism {
-    let cuts = conoid.sections_cut();
-    let shown: Vec<(&(f64, f64, &Reversal), &Part)> = cuts.iter().zip(&drawn.parts).collect();
-    let views = parallel::map(&shown, |(cut, part)| view(conoid, **cut, part, samples));
+pub(super) fn build(conoid: &Conoid, drawn: &Drawn, samples: u32) -> MovingMechanism {
+    let shown: Vec<(SectionCut<'_>, &Part)> = conoid.sections_cut().into_iter().zip(&drawn.parts).collect();
+    let views = parallel::map(&shown, |(cut, part)| view(conoid, *cut, part, samples));
     let mut notes = simplifications(conoid.machine.end().is_some());
     notes.push(
         "The roller is a sphere; it is shown in the plane of its centre, which may be a little off the section.".into(),
@@ -39,16 +37,18 @@ pub(super) fn of(conoid: &Conoid, drawn: &Drawn, samples: u32) -> MovingMechanis
     MovingMechanism { views, notes, solid: Some(solid(conoid)) }
 }
 
-fn view(conoid: &Conoid, (rpm, z, section): (f64, f64, &Reversal), part: &Part, samples: u32) -> MechanismView {
+fn view(conoid: &Conoid, cut: SectionCut<'_>, part: &Part, samples: u32) -> MechanismView {
+    let SectionCut { rpm, z, section } = cut;
     let lobes = conoid.lobes.max(1);
-    let place = |index: u32| {
+    let mut places = Vec::new();
+    for index in 0..=samples {
         let (at, wrapped) = (turned(index, samples, lobes), index >= samples);
         let cam_deg = if wrapped { 360.0 } else { at.cam_deg };
         let (piece, angle) = section.locate(if wrapped { 0.0 } else { at.angle });
         let contact = conoid.contact(piece, angle, z);
         let (curve, outward) = (contact.centre.xy(), contact.normal.xy().normalize());
-        FollowerPose { angle, cam_deg, curve, outward }
-    };
+        places.push(FollowerPose { angle, cam_deg, curve, outward });
+    }
     let behind = PressPicture {
         buffer: BufferPicture::new(&conoid.cylinder, &section.law().bottom_law),
         poses: press_poses(section, &section.law().bottom_law, lobes, samples),
@@ -61,37 +61,42 @@ fn view(conoid: &Conoid, (rpm, z, section): (f64, f64, &Reversal), part: &Part, 
         element: Element::Roller { radius: conoid.roller.radius },
         carrier: Carrier::Straight,
         part,
-        places: (0..=samples).map(place).collect(),
+        places,
         behind: Some(Box::new(behind)),
         shaft_speed: Some(conoid.press.bed.crank_speed(rpm) / f64::from(lobes)),
         rpm: Some(rpm),
         spring: false,
     };
-    scene.view(|parts, cover| parts.extend(axial(conoid, (rpm, z), cover)))
+    scene.view(|parts, cover| parts.extend(axial(conoid, cut, cover)))
 }
 
 /// The cam from its side, with the places of the sections and of the roller along its axis.
-fn axial(conoid: &Conoid, (rpm, z): (f64, f64), cover: &mut Cover) -> Vec<RigidPart> {
+fn axial(conoid: &Conoid, cut: SectionCut<'_>, cover: &mut Cover) -> Vec<RigidPart> {
     let (low, high) = conoid.ends();
-    let middle = 0.5 * (low + high);
-    let along = |z: f64| MILLIMETRES * (z - middle);
     let radius = MILLIMETRES * conoid.roller.radius;
     let top = cover.0.least.y - 1.4 * radius;
     let bottom = top - 1.2 * radius;
-    let ends = (along(low), along(high));
+    let ends = (from_middle(conoid, low), from_middle(conoid, high));
     let mut shapes = vec![rectangle(ends, (bottom, top))];
-    shapes.extend(conoid.sections_cut().iter().map(|(_, z, _)| line((along(*z), bottom), (along(*z), top))));
+    for section in conoid.sections_cut() {
+        let x = from_middle(conoid, section.z);
+        shapes.push(line((x, bottom), (x, top)));
+    }
     let below = bottom - 1.6 * radius;
     cover.add(ends, (below, top + radius));
-    let words = format!("along the axis: {} rpm at z = {} mm", rounded(rpm), rounded(MILLIMETRES * z));
+    let words = format!("along the axis: {} rpm at z = {} mm", rounded(cut.rpm), rounded(MILLIMETRES * cut.z));
+    let x = from_middle(conoid, cut.z);
+    let roller = rectangle((x - 0.08 * radius, x + 0.08 * radius), (bottom, top + 0.5 * radius));
     vec![
         RigidPart::new("ghost", shapes),
-        RigidPart::new(
-            "bottom",
-            vec![rectangle((along(z) - 0.08 * radius, along(z) + 0.08 * radius), (bottom, top + 0.5 * radius))],
-        )
-        .named(words, 0.0, bottom - 0.25 * radius),
+        RigidPart::new("bottom", vec![roller]).named(words, 0.0, bottom - 0.25 * radius),
     ]
+}
+
+/// Position along the axis from the middle of the cam, mm.
+fn from_middle(conoid: &Conoid, z: f64) -> f64 {
+    let (low, high) = conoid.ends();
+    MILLIMETRES * (z - 0.5 * (low + high))
 }
 
 /// The surface as rings.
@@ -99,19 +104,20 @@ fn solid(conoid: &Conoid) -> RingSolid {
     let (low, high) = conoid.ends();
     let mirror = if conoid.machine().cam.rotation == Rotation::CounterClockwise { -1.0 } else { 1.0 };
     let places: Vec<f64> = (0..=RINGS).map(|i| low + (high - low) * f64::from(i) / f64::from(RINGS)).collect();
-    let ring = |z: &f64| {
+    let rings = parallel::map(&places, |z| {
         let slice = conoid.slice(*z);
-        let point = |i: u32| {
+        let mut ring = Vec::new();
+        for i in 0..RING {
             let (piece, angle) = slice.locate(TAU * f64::from(i) / f64::from(RING));
             let point = conoid.cut(piece, angle, *z).map_or_else(Vector2::zeros, |(frame, _)| frame.point);
-            Vector2::new(point.x, mirror * point.y) * MILLIMETRES
-        };
-        (MILLIMETRES * z, (0..RING).map(point).collect())
-    };
+            ring.push(Vector2::new(point.x, mirror * point.y) * MILLIMETRES);
+        }
+        (MILLIMETRES * z, ring)
+    });
     RingSolid {
-        rings: parallel::map(&places, ring),
+        rings,
         bore: conoid.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius),
         roller: MILLIMETRES * conoid.roller.radius,
-        sections: conoid.sections_cut().iter().map(|(rpm, z, _)| (*rpm, MILLIMETRES * z)).collect(),
+        sections: conoid.sections_cut().iter().map(|cut| (cut.rpm, MILLIMETRES * cut.z)).collect(),
     }
 }

@@ -4,8 +4,8 @@
 //! curvature gives the errors δs' = (ℓ/cos α) δheading and δs'' = −(ℓ²/cos α) δκ, ℓ the speed of the cut and α the angle between its
 //! normal and the roller's path.
 
-use super::Conoid;
-use camgen_cams::body::surface::{BESIDE, RateErrors};
+use super::{Conoid, Slice};
+use camgen_cams::body::surface::{BESIDE, Heading, RateErrors};
 use camgen_kernel::geometry::points::{Interpolant, MotionErrors};
 use camgen_kernel::geometry::{CurvePoint, MILLIMETRES};
 use camgen_kernel::motion::Motion;
@@ -21,14 +21,15 @@ const LEAST_COSINE: f64 = 1e-3;
 const PLACES: u32 = 5;
 
 impl Conoid {
-    /// Errors of a point (m), a tangent and a curvature (1/m) against the exact cut at z (m) of a clockwise cam; the law is looked at so
+    /// Errors of a heading against the exact cut at z (m) of a clockwise cam; the law is looked at so
     /// far from their cam angle, rad.
     pub(super) fn rate_errors_at(
         &self,
         z: f64,
-        (point, tangent, curvature): (Vector2<f64>, Vector2<f64>, f64),
+        heading: Heading,
         inwards: f64,
     ) -> Option<RateErrors> {
+        let (point, tangent, curvature) = heading;
         let (frame, at) = self.foot(z, point, inwards)?;
         let path = Vector2::new(libm::cos(at), libm::sin(at));
         let along = frame.speed / frame.outward().dot(&path).max(LEAST_COSINE);
@@ -95,22 +96,31 @@ impl<'a> FollowerOnSection<'a> {
     }
 }
 
+impl FollowerOnSection<'_> {
+    /// The largest errors in an interval; infinite where the follower leaves the section.
+    fn largest_off(&self, curve: &Interpolant, interval: usize) -> [f64; 2] {
+        if curve.range(interval).is_none_or(|(from, to)| from >= to) {
+            return [0.0; 2];
+        }
+        let mut largest = [0.0_f64; 2];
+        for place in 0..PLACES {
+            let Some([velocity, acceleration]) = self.off(curve, interval, place) else { return [f64::INFINITY; 2] };
+            largest = [largest[0].max(velocity), largest[1].max(acceleration)];
+        }
+        largest
+    }
+}
+
 impl MotionErrors for FollowerOnSection<'_> {
     fn errors(&self, curve: &Interpolant, wanted: [bool; 2], limit: [f64; 2]) -> Vec<[f64; 2]> {
         if self.centre {
             let slice = self.conoid.slice(self.z);
             return FollowerOnTable::new(self.conoid.plane_of(&slice), 0.0).errors(curve, wanted, limit);
         }
-        let of = |interval: usize| {
-            if curve.range(interval).is_none_or(|(from, to)| from >= to) {
-                return [0.0; 2];
-            }
-            let worst = |worst: [f64; 2], own: [f64; 2]| [worst[0].max(own[0]), worst[1].max(own[1])];
-            let all: Option<Vec<[f64; 2]>> = (0..PLACES).map(|place| self.off(curve, interval, place)).collect();
-            let [velocity, acceleration] = all.map_or([f64::INFINITY; 2], |all| all.into_iter().fold([0.0; 2], worst));
+        up_to(curve.count(), limit, |interval| {
+            let [velocity, acceleration] = self.largest_off(curve, interval);
             [if wanted[0] { velocity } else { 0.0 }, if wanted[1] { acceleration } else { 0.0 }]
-        };
-        up_to(curve.count(), limit, of)
+        })
     }
 
     fn step(&self, at: &CurvePoint) -> f64 {
@@ -119,11 +129,13 @@ impl MotionErrors for FollowerOnSection<'_> {
             return FollowerOnTable::new(self.conoid.plane_of(&slice), 0.0).step(at);
         }
         let Some((_, angle)) = self.conoid.foot(self.z, at.point / MILLIMETRES, 0.0) else { return 0.0 };
-        let beside = |away: f64| {
-            let (piece, inside) = slice.locate(angle + away);
-            let own = slice.pieces().get(piece).map_or((inside, inside), |own| (own.start, own.end));
-            slice.jet(piece, (inside - away).clamp(own.0, own.1)).dds
-        };
-        (beside(BESIDE) - beside(-BESIDE)).abs()
+        (acceleration_beside(&slice, angle, BESIDE) - acceleration_beside(&slice, angle, -BESIDE)).abs()
     }
+}
+
+/// The acceleration at a cam angle by the piece of the motion that is `away` (rad) from it.
+fn acceleration_beside(slice: &Slice<'_>, angle: f64, away: f64) -> f64 {
+    let (piece, inside) = slice.locate(angle + away);
+    let (start, end) = slice.pieces().get(piece).map_or((inside, inside), |own| (own.start, own.end));
+    slice.jet(piece, (inside - away).clamp(start, end)).dds
 }

@@ -128,6 +128,17 @@ pub struct Conoid {
     found: SurfaceExtremes,
 }
 
+/// A section of a conoid.
+#[derive(Debug, Clone, Copy)]
+pub struct SectionCut<'a> {
+    /// Speed of the main shaft, rpm.
+    pub rpm: f64,
+    /// Position along the axis, m.
+    pub z: f64,
+    /// Its motion.
+    pub section: &'a Reversal,
+}
+
 /// Extremes of the surface that checks and report need, searched once, on demand.
 #[derive(Debug, Clone, Default)]
 struct SurfaceExtremes {
@@ -162,7 +173,7 @@ fn bottom_law_at(press: &Press, data: &ConoidData, rpm: f64) -> CrankLaw {
     }
 }
 
-/// That no base radius keeps the limits of a conoid.
+/// The refusal if no base radius keeps the limits of a conoid.
 fn without_radius(none: NoRadius) -> Refusal {
     Refusal::of(none).remedy(
         "relax limits.pressure_angle or limits.min_convex_pitch_radius_over_roller, make conoid.axial_travel longer \
@@ -252,16 +263,16 @@ impl Conoid {
         let (press, roller) = (*machine.press()?, *machine.roller()?);
         SECTIONS.allow(speeds.len())?;
         let speeds = sorted(speeds)?;
-        let law = |rpm: &f64| {
-            Reversal::new(ReversalLaw {
+        let mut sections = Vec::with_capacity(speeds.len());
+        for rpm in &speeds {
+            let law = ReversalLaw {
                 bottom_law: bottom_law_at(&press, &data, *rpm),
                 lever: cams.lever,
                 lobes: cams.lobes,
                 transition: cams.transition,
-            })
-        };
-        let sections: Result<Vec<Reversal>, Refusal> = speeds.iter().map(law).collect();
-        let sections = sections.map_err(with_keys_of_motion)?;
+            };
+            sections.push(Reversal::new(law).map_err(with_keys_of_motion)?);
+        }
         let positions = positions(&data, &speeds)?;
         let weights = Weights::new(&positions, Variable::Place);
         let lowest = sections.iter().map(Reversal::lowest).fold(f64::INFINITY, f64::min);
@@ -288,10 +299,12 @@ impl Conoid {
 
     /// The smallest prime radius that keeps the limits in every slice of its axial travel.
     fn smallest_of_slices(&self, required: &SizeLimits) -> Result<f64, NoRadius> {
-        let of_slice =
-            |z: &f64| size::smallest(&self.slice(*z), &self.follower, required).map(|smallest| smallest.prime_radius);
-        let radii: Result<Vec<f64>, _> = parallel::map(&self.searched(), of_slice).into_iter().collect();
-        Ok(radii?.into_iter().fold(required.least, f64::max))
+        let found = parallel::map(&self.searched(), |z| size::smallest(&self.slice(*z), &self.follower, required));
+        let mut radius = required.least;
+        for smallest in found {
+            radius = radius.max(smallest?.prime_radius);
+        }
+        Ok(radius)
     }
 
     /// From the one that keeps the limits in every slice on: the smallest that keeps those of the whole surface.
@@ -299,26 +312,20 @@ impl Conoid {
         let mut radius = in_slices;
         // Where one radius was too sharp, the next one mostly is.
         let mut too_sharp: Option<Worst> = None;
-        let mut keeps = |conoid: &mut Self, radius: f64| {
-            conoid.resize(radius);
-            let kept = |place: &Worst| place.value * required.convex_radius <= 1.0 + SLACK;
-            if too_sharp.is_some_and(|place| !kept(&Worst { value: conoid.sharpness(place.at, place.z), ..place })) {
-                return false;
-            }
-            let sharpest = conoid.sharpest_smooth();
-            too_sharp = (!kept(&sharpest)).then_some(sharpest);
-            too_sharp.is_none() && conoid.pressure_angle().value <= required.pressure_angles[0] * (1.0 + SLACK)
-        };
-        if !keeps(self, radius) {
+        if !self.keeps_limits_at(radius, required, &mut too_sharp) {
             let mut failing = radius;
             let grown = (0..GROWTHS).find_map(|_| {
                 (failing, radius) = (radius, radius * GROWTH);
-                keeps(self, radius).then_some(radius)
+                self.keeps_limits_at(radius, required, &mut too_sharp).then_some(radius)
             });
             let mut passing = grown.ok_or(NoRadius)?;
             for _ in 0..BISECTIONS {
                 let middle = 0.5 * (failing + passing);
-                if keeps(self, middle) { passing = middle } else { failing = middle }
+                if self.keeps_limits_at(middle, required, &mut too_sharp) {
+                    passing = middle;
+                } else {
+                    failing = middle;
+                }
             }
             radius = passing;
         }
@@ -326,6 +333,17 @@ impl Conoid {
         self.resize(radius);
         let wall = required.least - self.roller.radius - self.smallest_radius().value;
         Ok(if wall > 0.0 { radius + wall } else { radius })
+    }
+
+    /// Whether the surface on a prime radius keeps the limits. `too_sharp` is where the last radius failed, and is tried first.
+    fn keeps_limits_at(&mut self, radius: f64, required: &SizeLimits, too_sharp: &mut Option<Worst>) -> bool {
+        self.resize(radius);
+        if too_sharp.is_some_and(|place| is_too_sharp(self.sharpness(place.at, place.z), required)) {
+            return false;
+        }
+        let sharpest = self.sharpest_smooth();
+        *too_sharp = is_too_sharp(sharpest.value, required).then_some(sharpest);
+        too_sharp.is_none() && self.pressure_angle().value <= required.pressure_angles[0] * (1.0 + SLACK)
     }
 
     /// Ends of the cam along its axis, m.
@@ -368,7 +386,7 @@ impl Conoid {
     #[must_use]
     pub fn position(&self, rpm: f64) -> f64 {
         match (self.speeds.first(), self.speeds.last()) {
-            (Some(first), Some(last)) if first < last => position(&self.data, (*first, *last), rpm),
+            (Some(first), Some(last)) if first < last => position(&self.data, *first, *last, rpm),
             _ => 0.0,
         }
     }
@@ -388,7 +406,7 @@ impl Conoid {
     /// Weights of the sections at z and their first three derivatives.
     #[cfg(test)]
     fn weights_at(&self, z: f64) -> Vec<[f64; 4]> {
-        self.weights.at(z).collect()
+        self.weights.jets_at(z).collect()
     }
 
     /// Lift at a cam angle of a piece and a place along the axis (m), with its derivatives.
@@ -407,17 +425,18 @@ impl Conoid {
     pub fn displacement(&self, piece: usize, angle: f64, z: f64, interpolation: Interpolation) -> f64 {
         match interpolation {
             Interpolation::Smooth => {
-                let shares = self.bottoms(piece, angle).zip(self.weights.at(z));
+                let shares = self.bottoms(piece, angle).zip(self.weights.jets_at(z));
                 shares.map(|(bottom, weight)| bottom * weight[0]).sum()
             }
             Interpolation::Straight => {
                 let right = self.positions.partition_point(|place| *place <= z).clamp(1, self.positions.len() - 1);
-                let place = |index: usize| self.positions.get(index).copied().unwrap_or(f64::NAN);
-                let bottom =
-                    |index: usize| self.sections.get(index).map_or(f64::NAN, |section| section.bottom(piece, angle).s);
-                let (a, b) = (place(right - 1), place(right));
+                let [(a, before), (b, after)] = [right - 1, right].map(|index| {
+                    let section = self.sections.get(index);
+                    let bottom = section.map_or(f64::NAN, |section| section.bottom(piece, angle).s);
+                    (self.positions.get(index).copied().unwrap_or(f64::NAN), bottom)
+                });
                 let share = (z - a) / (b - a);
-                bottom(right - 1) * (1.0 - share) + bottom(right) * share
+                before * (1.0 - share) + after * share
             }
         }
     }
@@ -425,7 +444,7 @@ impl Conoid {
     /// The law in one plane across the axis.
     #[must_use]
     pub fn slice(&self, z: f64) -> Slice<'_> {
-        Slice { conoid: self, z, weights: self.weights.at(z).map(|weight| weight[0]).collect() }
+        Slice { conoid: self, z, weights: self.weights.jets_at(z).map(|weight| weight[0]).collect() }
     }
 
     /// Motion and follower in one plane, as if the roller were a disc in it.
@@ -447,12 +466,17 @@ impl Conoid {
         air + inertia + follower.preload.unwrap_or(0.0)
     }
 
-    /// The speeds that have a cut of their own, with their places along the axis (m) and their motions; equal speeds have one.
-    #[must_use]
-    pub fn sections_cut(&self) -> Vec<(f64, f64, &Reversal)> {
+    /// Every section.
+    fn all_sections(&self) -> impl Iterator<Item = SectionCut<'_>> {
         let all = self.speeds.iter().zip(&self.positions).zip(&self.sections);
-        let mut cuts: Vec<(f64, f64, &Reversal)> = all.map(|((rpm, z), section)| (*rpm, *z, section)).collect();
-        cuts.dedup_by(|later, first| later.0 == first.0);
+        all.map(|((rpm, z), section)| SectionCut { rpm: *rpm, z: *z, section })
+    }
+
+    /// The sections that are cut: equal speeds have one.
+    #[must_use]
+    pub fn sections_cut(&self) -> Vec<SectionCut<'_>> {
+        let mut cuts: Vec<SectionCut<'_>> = self.all_sections().collect();
+        cuts.dedup_by(|later, first| later.rpm == first.rpm);
         cuts
     }
 
@@ -486,7 +510,7 @@ pub struct Slice<'a> {
 
 impl Slice<'_> {
     /// Δx of the bottom, m, with this section of the surface under the roller, where the bottoms of the sections are known.
-    fn of(&self, bottoms: impl Iterator<Item = f64>) -> f64 {
+    fn displacement_of(&self, bottoms: impl Iterator<Item = f64>) -> f64 {
         bottoms.zip(&self.weights).map(|(bottom, weight)| bottom * weight).sum()
     }
 }
@@ -504,6 +528,10 @@ impl Motion for Slice<'_> {
         let [[s, ..], [ds, ..], [dds, ..], [ddds, ..]] = self.conoid.lift(piece, angle, self.z);
         Jet { s, ds, dds, ddds }
     }
+}
+
+fn is_too_sharp(curvature: f64, required: &SizeLimits) -> bool {
+    !(curvature * required.convex_radius <= 1.0 + SLACK)
 }
 
 /// A length that is not negative in whole millimetres, m: the next but for rounding.
@@ -533,12 +561,12 @@ fn sorted(speeds: &[f64]) -> Result<Vec<f64>, Refusal> {
 fn positions(data: &ConoidData, speeds: &[f64]) -> Result<Vec<f64>, Refusal> {
     let (first, last) = (speeds.first().copied().unwrap_or(0.0), speeds.last().copied().unwrap_or(0.0));
     let positions = if first < last {
-        speeds.iter().map(|rpm| position(data, (first, last), *rpm)).collect()
+        speeds.iter().map(|rpm| position(data, first, last, *rpm)).collect()
     } else {
         // Equal speeds: a prism, its sections evenly spaced.
         #[expect(clippy::cast_precision_loss, reason = "a few sections")]
-        let place = |index: usize| data.axial_travel * index as f64 / (speeds.len() - 1) as f64;
-        (0..speeds.len()).map(place).collect::<Vec<f64>>()
+        let evenly = (0..speeds.len()).map(|index| data.axial_travel * index as f64 / (speeds.len() - 1) as f64);
+        evenly.collect::<Vec<f64>>()
     };
     let pairs = positions.iter().zip(positions.iter().skip(1)).zip(speeds.iter().zip(speeds.iter().skip(1)));
     for ((a, b), (first, second)) in pairs {
@@ -554,7 +582,7 @@ fn positions(data: &ConoidData, speeds: &[f64]) -> Result<Vec<f64>, Refusal> {
 }
 
 /// z(n) between the slowest and the fastest speed; v is that of the mass and the ambient pressure of the file.
-fn position(data: &ConoidData, (first, last): (f64, f64), rpm: f64) -> f64 {
+fn position(data: &ConoidData, first: f64, last: f64, rpm: f64) -> f64 {
     let share = match data.shift {
         Shift::Linear => (rpm - first) / (last - first),
         Shift::Square | Shift::Variable => (rpm - first) * (rpm + first) / ((last - first) * (last + first)),

@@ -1,10 +1,9 @@
 //! What a conoid contributes to its report.
 
 use super::between::Residual;
-use super::{Conoid, wheel};
+use super::{Conoid, SectionCut, wheel};
 use crate::press::balance::reversal_of_bed;
 use crate::press::machine::{PressCams, Shift};
-use crate::press::motion::Reversal;
 use crate::press::report::CylinderMeasures;
 use crate::press::scatter::other_cams;
 use camgen_cams::body::part::{Part, bore};
@@ -101,15 +100,15 @@ struct Between {
 /// The sections of the report.
 pub(super) fn sections(conoid: &Conoid, found: &DrawingEvidence<'_>) -> Vec<Section> {
     let cuts = conoid.sections_cut();
-    let errors: Vec<f64> = parallel::map(&cuts, |(_, z, _)| conoid.plane_offset_error(*z));
+    let errors: Vec<f64> = parallel::map(&cuts, |cut| conoid.plane_offset_error(cut.z));
     let parts = found.drawn.map(|drawn| drawn.parts.as_slice());
-    let section = |(index, (cut, error)): (usize, (&(f64, f64, &Reversal), &f64))| {
+    let mut all = Vec::new();
+    for (index, (cut, error)) in cuts.iter().zip(&errors).enumerate() {
         let part = parts.and_then(|parts| parts.get(index));
-        SectionMeasures::new(conoid, *cut, part, *error)
-    };
-    let all: Vec<SectionMeasures> = cuts.iter().zip(&errors).enumerate().map(section).collect();
+        all.push(SectionMeasures::new(conoid, *cut, part, *error));
+    }
     let (left, straight) = (conoid.residual_between(), conoid.residual_of_strips());
-    let mut words: Vec<String> = all.iter().map(SectionMeasures::words).collect();
+    let mut words: Vec<String> = all.iter().map(SectionMeasures::describe).collect();
     if all.len() == 1 {
         let rpm = all.first().map_or(f64::NAN, |section| section.rpm);
         words.push(format!(
@@ -139,7 +138,8 @@ pub(super) fn sections(conoid: &Conoid, found: &DrawingEvidence<'_>) -> Vec<Sect
 }
 
 impl SectionMeasures {
-    fn new(conoid: &Conoid, (rpm, z, section): (f64, f64, &Reversal), part: Option<&Part>, error: f64) -> Self {
+    fn new(conoid: &Conoid, cut: SectionCut<'_>, part: Option<&Part>, error: f64) -> Self {
+        let SectionCut { rpm, z, section } = cut;
         let law = section.law().bottom_law;
         let (dx_max_at_x, dx_max) = law.largest_displacement();
         Self {
@@ -158,7 +158,7 @@ impl SectionMeasures {
         }
     }
 
-    fn words(&self) -> String {
+    fn describe(&self) -> String {
         let arcs = self.arcs.map_or(String::new(), |arcs| format!(", {arcs} arcs"));
         let variable = self.v.map_or(String::new(), |v| format!("v {}, ", shown(v)));
         format!(

@@ -5,7 +5,8 @@
 //! computed once for each angle of the grid.
 
 use super::{AllStrips, Conoid, Partials, Strips};
-use camgen_kernel::numeric::{extremum, parallel};
+use camgen_kernel::numeric::extremum::{self, Extremum};
+use camgen_kernel::numeric::parallel;
 use camgen_kernel::profile::Worst;
 
 /// Cells a piece of the motion is cut into: what is searched has a hump or two in it.
@@ -41,9 +42,9 @@ pub(super) struct GridAngle {
 
 /// A local maximum of the grid.
 struct Peak {
-    node: usize,
+    piece: usize,
     slice: usize,
-    value: f64,
+    found: Worst,
     /// Its height above the lowest of its neighbours: a smooth maximum of the cells about it lies less than that above it.
     drop: f64,
 }
@@ -51,17 +52,18 @@ struct Peak {
 impl Conoid {
     /// The angles of the grid, piece by piece.
     pub(super) fn nodes(&self) -> Vec<GridAngle> {
-        let of_piece = |(piece, span): (usize, &camgen_kernel::motion::Piece)| {
-            let span = *span;
+        let mut places = Vec::new();
+        for (piece, span) in self.pieces().iter().enumerate() {
+            places.push((piece, span.start));
             // The lift of a dwell is the same at all its angles.
-            let cells = if span.dwell { 0 } else { CELLS };
-            let angle = move |i: u32| {
-                let share = if cells == 0 { 0.0 } else { f64::from(i) / f64::from(cells) };
-                if i == cells && cells > 0 { span.end } else { span.start + (span.end - span.start) * share }
-            };
-            (0..=cells).map(move |i| (piece, angle(i)))
-        };
-        let places: Vec<(usize, f64)> = self.pieces().iter().enumerate().flat_map(of_piece).collect();
+            if span.dwell {
+                continue;
+            }
+            for i in 1..CELLS {
+                places.push((piece, span.start + (span.end - span.start) * (f64::from(i) / f64::from(CELLS))));
+            }
+            places.push((piece, span.end));
+        }
         parallel::map(&places, |&(piece, angle)| GridAngle { piece, angle, lifts: self.all_lifts(piece, angle) })
     }
 
@@ -69,72 +71,52 @@ impl Conoid {
     /// smooth between them, to seven digits.
     pub(super) fn worst_over(&self, slices: &[f64], value: impl Fn(&Self, &SurfacePlace<'_>) -> f64 + Sync) -> Worst {
         let nodes = self.found.nodes.get_or_init(|| self.nodes());
-        let in_slice = |z: &f64| -> Vec<f64> {
-            let at = |node: &GridAngle| {
-                let partials = self.lift_of(&node.lifts, *z);
-                value(self, &SurfacePlace { piece: node.piece, angle: node.angle, z: *z, partials, lifts: &node.lifts })
-            };
-            nodes.iter().map(at).collect()
-        };
-        let values: Vec<Vec<f64>> = parallel::map(slices, in_slice);
-        let peaks = peaks(nodes, &values);
-        let sampled = |peak: &Peak| {
-            let (angle, z) = (nodes.get(peak.node).map_or(0.0, |node| node.angle), slices.get(peak.slice).copied());
-            Worst { value: peak.value, at: angle, z: z.unwrap_or(0.0) }
-        };
-        let best = peaks.iter().map(sampled).fold(Worst::NONE, Worst::or_larger);
+        let values: Vec<Vec<f64>> = parallel::map(slices, |z| {
+            let mut row = Vec::with_capacity(nodes.len());
+            for GridAngle { piece, angle, lifts } in nodes {
+                let partials = self.lift_of(lifts, *z);
+                row.push(value(self, &SurfacePlace { piece: *piece, angle: *angle, z: *z, partials, lifts }));
+            }
+            row
+        });
+        let peaks = peaks(nodes, slices, &values);
+        let best = peaks.iter().map(|peak| peak.found).fold(Worst::NONE, Worst::or_larger);
         // Where the surface folds there is nothing larger.
         if !best.value.is_finite() {
             return best;
         }
-        let could_be = |peak: &&Peak| peak.drop > 0.0 && peak.value + peak.drop >= best.value;
-        let candidates: Vec<&Peak> = peaks.iter().filter(could_be).collect();
-        let refined = parallel::map(&candidates, |peak| {
-            let piece = nodes.get(peak.node).map_or(0, |node| node.piece);
-            self.refined(piece, sampled(peak), slices, peak.slice, &value)
-        });
+        let could_be_largest = peaks.iter().filter(|peak| peak.drop > 0.0 && peak.found.value + peak.drop >= best.value);
+        let candidates: Vec<&Peak> = could_be_largest.collect();
+        let refined = parallel::map(&candidates, |peak| self.refined(peak, slices, &value));
         refined.into_iter().fold(best, Worst::or_larger)
     }
 
     /// The largest value in the cells about a place of the grid, which follow it where it lies on their edge.
-    fn refined(
-        &self,
-        piece: usize,
-        from: Worst,
-        slices: &[f64],
-        slice: usize,
-        value: &(impl Fn(&Self, &SurfacePlace<'_>) -> f64 + Sync),
-    ) -> Worst {
+    fn refined<F: Fn(&Self, &SurfacePlace<'_>) -> f64 + Sync>(&self, peak: &Peak, slices: &[f64], value: &F) -> Worst {
+        let Peak { piece, slice, found: from, .. } = *peak;
         let Some(span) = self.pieces().get(piece) else { return from };
-        let (least, most) = (slices.first().copied().unwrap_or(from.z), slices.last().copied().unwrap_or(from.z));
+        let axis = Stretch {
+            low: slices.first().copied().unwrap_or(from.z),
+            high: slices.last().copied().unwrap_or(from.z),
+        };
+        let turn = Stretch { low: span.start, high: if span.dwell { span.start } else { span.end } };
         let below = slices.get(slice.saturating_sub(1)).copied().unwrap_or(from.z);
         let above = slices.get(slice + 1).copied().unwrap_or(from.z);
         let (width, height) = ((span.end - span.start) / f64::from(CELLS), (from.z - below).max(above - from.z));
         let mut best = from;
         for _ in 0..MOVES {
-            let (low, high) = ((best.z - height).max(least), (best.z + height).min(most));
-            let along_axis = |angle: f64| {
-                let lifts = self.lifts(piece, angle);
-                let at = |z: f64| {
-                    let partials = self.lift_of(&lifts, z);
-                    value(self, &SurfacePlace { piece, angle, z, partials, lifts: &lifts })
-                };
-                extremum::largest_without_slope(at, (low, high), 2, if low < high { SECTIONS } else { 0 })
-            };
-            let range = if span.dwell {
-                (span.start, span.start)
-            } else {
-                ((best.at - width).max(span.start), (best.at + width).min(span.end))
-            };
-            let sections = if span.dwell { 0 } else { SECTIONS };
-            let found = extremum::largest_without_slope(|angle| along_axis(angle).value, range, 2, sections);
-            let next = Worst { value: found.value, at: found.at, z: along_axis(found.at).at };
+            let strip = axis.around(best.z, height);
+            let cell = if span.dwell { turn } else { turn.around(best.at, width) };
+            let found = extremum::largest_without_slope(
+                |angle| self.largest_along_axis(piece, angle, strip, value).value,
+                (cell.low, cell.high),
+                2,
+                if span.dwell { 0 } else { SECTIONS },
+            );
+            let z = self.largest_along_axis(piece, found.at, strip, value).at;
+            let next = Worst { value: found.value, at: found.at, z };
             let moved = next.value > best.value;
-            let edge = |at: f64, (a, b): (f64, f64), (first, last): (f64, f64)| {
-                let near = 1e-2 * (b - a);
-                (at - a < near && a > first) || (b - at < near && b < last)
-            };
-            let on_edge = edge(next.at, range, (span.start, span.end)) || edge(next.z, (low, high), (least, most));
+            let on_edge = cell.has_on_edge(next.at, turn) || strip.has_on_edge(next.z, axis);
             best = best.or_larger(next);
             if !(moved && on_edge) {
                 break;
@@ -142,23 +124,61 @@ impl Conoid {
         }
         best
     }
+
+    /// The largest value in a strip of the axis at a cam angle.
+    fn largest_along_axis<F: Fn(&Self, &SurfacePlace<'_>) -> f64 + Sync>(
+        &self,
+        piece: usize,
+        angle: f64,
+        strip: Stretch,
+        value: &F,
+    ) -> Extremum {
+        let lifts = self.lifts(piece, angle);
+        extremum::largest_without_slope(
+            |z| value(self, &SurfacePlace { piece, angle, z, partials: self.lift_of(&lifts, z), lifts: &lifts }),
+            (strip.low, strip.high),
+            2,
+            if strip.low < strip.high { SECTIONS } else { 0 },
+        )
+    }
+}
+
+/// A stretch of cam angles or of the axis.
+#[derive(Clone, Copy)]
+struct Stretch {
+    low: f64,
+    high: f64,
+}
+
+impl Stretch {
+    /// The part within a distance of a point.
+    fn around(self, middle: f64, distance: f64) -> Self {
+        Self { low: (middle - distance).max(self.low), high: (middle + distance).min(self.high) }
+    }
+
+    /// Whether a point is near an edge that is not one of the whole.
+    fn has_on_edge(self, at: f64, whole: Self) -> bool {
+        let near = 1e-2 * (self.high - self.low);
+        (at - self.low < near && self.low > whole.low) || (self.high - at < near && self.high < whole.high)
+    }
 }
 
 /// The places of the grid that none of their neighbours exceeds; `values` by slice and node.
-fn peaks(nodes: &[GridAngle], values: &[Vec<f64>]) -> Vec<Peak> {
+fn peaks(nodes: &[GridAngle], slices: &[f64], values: &[Vec<f64>]) -> Vec<Peak> {
     let mut peaks = Vec::new();
-    for (slice, row) in values.iter().enumerate() {
-        for (node, &value) in row.iter().enumerate() {
-            let piece = |index: usize| nodes.get(index).map(|node| node.piece);
+    for (slice, (z, row)) in slices.iter().zip(values).enumerate() {
+        for (node, (here, &value)) in nodes.iter().zip(row).enumerate() {
             let rows = values.iter().skip(slice.saturating_sub(1)).take(if slice == 0 { 2 } else { 3 });
             let around = rows.flat_map(|row| {
                 let columns = row.iter().enumerate().skip(node.saturating_sub(1)).take(if node == 0 { 2 } else { 3 });
-                columns.filter(|(index, _)| piece(*index) == piece(node)).map(|(_, value)| *value)
+                let same_piece = columns.filter(|(index, _)| nodes.get(*index).is_some_and(|n| n.piece == here.piece));
+                same_piece.map(|(_, value)| *value)
             });
             let (mut highest, mut least) = (f64::NEG_INFINITY, f64::INFINITY);
             around.for_each(|value| (highest, least) = (highest.max(value), least.min(value)));
             if value >= highest {
-                peaks.push(Peak { node, slice, value, drop: value - least });
+                let found = Worst { value, at: here.angle, z: *z };
+                peaks.push(Peak { piece: here.piece, slice, found, drop: value - least });
             }
         }
     }

@@ -1,7 +1,6 @@
 //! The review sheet of a conoid: the sections over each other, coloured by speed, and the cam seen isometrically.
 
 use super::{Conoid, Slice};
-use crate::press::motion::Reversal;
 use camgen_cams::body::sheet::{axes, bore, overall, section_profiles, side_view, tolerance_note, turning};
 use camgen_cams::body::{Drawn, Part};
 use camgen_cams::machine::Rotation;
@@ -25,8 +24,9 @@ const RULER: u32 = 24;
 
 /// Colour for a share in [0, 1]: from blue for the slowest to red for the fastest.
 fn colour(share: f64) -> String {
-    let mix = |from: f64, to: f64| (from + (to - from) * share).round();
-    format!("rgb({},{},{})", mix(30.0, 200.0), mix(90.0, 40.0), mix(180.0, 30.0))
+    let [red, green, blue] =
+        [(30.0, 200.0), (90.0, 40.0), (180.0, 30.0)].map(|(from, to)| (from + (to - from) * share).round());
+    format!("rgb({red},{green},{blue})")
 }
 
 /// What the review sheet shows.
@@ -43,13 +43,13 @@ pub(super) fn view(conoid: &Conoid, drawn: &Drawn) -> SheetView {
     let cuts = conoid.sections_cut();
     // Of many sections every few are named.
     let every = cuts.len().div_ceil(MOST_NAMED);
-    groups.extend(cuts.iter().zip(parts).enumerate().map(|(index, ((rpm, z, _), part))| {
-        let label = format!("section for {} rpm, z = {} mm", rounded(*rpm), rounded(MILLIMETRES * z));
+    groups.extend(cuts.iter().zip(parts).enumerate().map(|(index, (cut, part))| {
+        let label = format!("section for {} rpm, z = {} mm", rounded(cut.rpm), rounded(MILLIMETRES * cut.z));
         ShapeGroup {
             id: format!("section-{index}"),
             class: "section",
             label,
-            colour: Some(conoid.colour_of(*rpm)),
+            colour: Some(conoid.colour_of(cut.rpm)),
             shapes: vec![SheetShape::Entity(Entity::Polyline(part.outline.contour.clone()))],
             in_legend: index % every == 0 || index + 1 == cuts.len(),
         }
@@ -81,7 +81,7 @@ fn picture(conoid: &Conoid, plan: &Extents) -> (ShapeGroup, Vec<ShapeGroup>) {
     let seen = Isometric { conoid, turned: conoid.machine.cam.rotation == Rotation::CounterClockwise };
     let (low, high) = conoid.ends();
     let ends = [low, high].map(|z| seen.ring(z));
-    let rulers: Vec<SeenLine> = (0..RULERS).map(|i| seen.ruler(i, (low, high))).collect();
+    let rulers: Vec<SeenLine> = (0..RULERS).map(|i| seen.ruler(i, low, high)).collect();
     let points = ends.iter().chain(&rulers).flatten().map(|(point, _)| point);
     let start = Extents { least: Vector2::repeat(f64::INFINITY), largest: Vector2::repeat(f64::NEG_INFINITY) };
     let solid = points.fold(start, |extents, p| extents.with(&Extents { least: *p, largest: *p }));
@@ -90,18 +90,36 @@ fn picture(conoid: &Conoid, plan: &Extents) -> (ShapeGroup, Vec<ShapeGroup>) {
         0.5 * (plan.least.x + plan.largest.x) - 0.5 * share * (solid.least.x + solid.largest.x),
         plan.largest.y + GAP_OVER_WIDTH * plan.size().x - share * solid.least.y,
     );
-    let moved = |line: &[Vector2<f64>]| SheetShape::Path(line.iter().map(|p| p * share + shift).collect());
-    let shown = |line: &SeenLine| shown_parts(line).iter().map(|part| moved(part)).collect::<Vec<_>>();
+    let placing = PicturePlacing { share, shift };
     // All of the upper end is seen.
     let upper: Vec<Vector2<f64>> = ends[1].iter().map(|(point, _)| *point).collect();
-    let outlines = std::iter::once(moved(&upper)).chain(ends.iter().take(1).chain(&rulers).flat_map(shown)).collect();
-    let sections = conoid.sections_cut().into_iter().enumerate().map(|(index, (rpm, z, _))| ShapeGroup {
+    let mut outlines = vec![placing.path(&upper)];
+    for line in ends.iter().take(1).chain(&rulers) {
+        outlines.extend(placing.visible_paths(line));
+    }
+    let sections = conoid.sections_cut().into_iter().enumerate().map(|(index, cut)| ShapeGroup {
         id: format!("seen-{index}"),
-        colour: Some(conoid.colour_of(rpm)),
-        ..ShapeGroup::new("seen", "section in the isometric view", shown(&seen.ring(z)))
+        colour: Some(conoid.colour_of(cut.rpm)),
+        ..ShapeGroup::new("seen", "section in the isometric view", placing.visible_paths(&seen.ring(cut.z)))
     });
     let solid = ShapeGroup::new("isometric", "isometric view, not to scale", outlines).with_legend();
     (solid, sections.collect())
+}
+
+/// Scale and position of the picture on the sheet.
+struct PicturePlacing {
+    share: f64,
+    shift: Vector2<f64>,
+}
+
+impl PicturePlacing {
+    fn path(&self, line: &[Vector2<f64>]) -> SheetShape {
+        SheetShape::Path(line.iter().map(|point| point * self.share + self.shift).collect())
+    }
+
+    fn visible_paths(&self, line: &SeenLine) -> Vec<SheetShape> {
+        shown_parts(line).iter().map(|part| self.path(part)).collect()
+    }
 }
 
 /// The cam from the side, with the places of its sections.
@@ -110,12 +128,12 @@ fn from_the_side(conoid: &Conoid, parts: &[Part], plan: &Extents) -> (Vec<ShapeG
     let left = plan.largest.x + 2.0 * GAP_OVER_WIDTH * plan.size().x;
     let bore = conoid.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius);
     let (mut groups, marks) = side_view(left, plan, (MILLIMETRES * (high - low), conoid.machine.units()), bore);
-    groups.extend(conoid.sections_cut().into_iter().zip(parts).enumerate().map(|(index, ((rpm, z, _), part))| {
-        let (at, seen) = (left + MILLIMETRES * (z - low), part.outline.contour.extents());
+    groups.extend(conoid.sections_cut().into_iter().zip(parts).enumerate().map(|(index, (cut, part))| {
+        let (at, seen) = (left + MILLIMETRES * (cut.z - low), part.outline.contour.extents());
         let line = SheetShape::Line(Vector2::new(at, seen.least.y), Vector2::new(at, seen.largest.y));
         ShapeGroup {
             id: format!("side-{index}"),
-            colour: Some(conoid.colour_of(rpm)),
+            colour: Some(conoid.colour_of(cut.rpm)),
             ..ShapeGroup::new("seen", "section in the side view", vec![line])
         }
     }));
@@ -136,9 +154,11 @@ fn marks(conoid: &Conoid, parts: &[Part], plan: &Extents) -> Vec<Mark> {
 /// The profiles of the sections where there are few, else their sizes.
 fn tables(conoid: &Conoid, parts: &[Part]) -> Vec<PlaceTable> {
     let units = conoid.machine.units();
-    let head = |z: f64| format!("z = {}", units.dimension((1e3 * MILLIMETRES * z).round() / 1e3));
-    let named: Vec<(String, &Contour)> =
-        conoid.sections_cut().iter().zip(parts).map(|((_, z, _), part)| (head(*z), &part.outline.contour)).collect();
+    let mut named: Vec<(String, &Contour)> = Vec::new();
+    for (cut, part) in conoid.sections_cut().iter().zip(parts) {
+        let head = format!("z = {}", units.dimension((1e3 * MILLIMETRES * cut.z).round() / 1e3));
+        named.push((head, &part.outline.contour));
+    }
     let profiles = if named.len() <= MOST_NAMED { section_profiles(&named, units) } else { Vec::new() };
     profiles.into_iter().chain([sections_table(conoid, parts)]).collect()
 }
@@ -147,22 +167,23 @@ fn tables(conoid: &Conoid, parts: &[Part]) -> Vec<PlaceTable> {
 fn sections_table(conoid: &Conoid, parts: &[Part]) -> PlaceTable {
     let units = conoid.machine.units();
     let unit = units.symbol();
-    let row = |((rpm, z, _), part): ((f64, f64, &Reversal), &Part)| {
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for (cut, part) in conoid.sections_cut().into_iter().zip(parts) {
         let size = part.outline.contour.extents().size();
         let area = part.area_and_moment().0;
-        let lengths = [MILLIMETRES * z, size.x, size.y].map(|length| units.dimension(length));
+        let lengths = [MILLIMETRES * cut.z, size.x, size.y].map(|length| units.dimension(length));
         let area = match units {
             LengthUnit::Millimetre => format!("{area:.1}"),
             LengthUnit::Inch => format!("{:.3}", units.of_mm_to(area, 2)),
         };
-        std::iter::once(rounded(rpm)).chain(lengths).chain([area]).collect()
-    };
+        rows.push(std::iter::once(rounded(cut.rpm)).chain(lengths).chain([area]).collect());
+    }
     PlaceTable {
         title: "Sections: speed, place along the axis, width, height, area".into(),
         heads: ["n, rpm", "z, mm", "width, mm", "height, mm", "area, mm²"]
             .map(|head| head.replace("mm", unit))
             .to_vec(),
-        rows: conoid.sections_cut().into_iter().zip(parts).map(row).collect(),
+        rows: rows.into(),
         every: 1,
     }
 }
@@ -192,7 +213,7 @@ impl Isometric<'_> {
     }
 
     /// The point at a share of the turn of a slice at z.
-    fn at(&self, law: &Slice<'_>, share: f64, z: f64) -> (Vector2<f64>, bool) {
+    fn point_at(&self, law: &Slice<'_>, share: f64, z: f64) -> (Vector2<f64>, bool) {
         let (first, last) = law.range();
         let (piece, angle) = law.locate(first + (last - first) * share);
         let Some((frame, roller)) = self.conoid.cut(piece, angle, z) else { return (Vector2::zeros(), false) };
@@ -206,12 +227,12 @@ impl Isometric<'_> {
 
     fn ring(&self, z: f64) -> SeenLine {
         let law = self.conoid.slice(z);
-        (0..=TURN).map(|i| self.at(&law, f64::from(i % TURN) / f64::from(TURN), z)).collect()
+        (0..=TURN).map(|i| self.point_at(&law, f64::from(i % TURN) / f64::from(TURN), z)).collect()
     }
 
-    fn ruler(&self, index: u32, (low, high): (f64, f64)) -> SeenLine {
+    fn ruler(&self, index: u32, low: f64, high: f64) -> SeenLine {
         let share = f64::from(index) / f64::from(RULERS);
-        let place = |i: u32| low + (high - low) * f64::from(i) / f64::from(RULER);
-        (0..=RULER).map(place).map(|z| self.at(&self.conoid.slice(z), share, z)).collect()
+        let places = (0..=RULER).map(|i| low + (high - low) * f64::from(i) / f64::from(RULER));
+        places.map(|z| self.point_at(&self.conoid.slice(z), share, z)).collect()
     }
 }

@@ -28,13 +28,24 @@ const NEGLIGIBLE: f64 = 0.1;
 /// first of the two on: of all four the constants, then the factors of the first power, and so on.
 pub type Cubics = [[f64; 4]; 4];
 
-/// Lift and slope at one section and at the next, with their derivatives by the cam angle, to cubics over a strip of this width.
-fn cubics([(low, low_slope), (high, high_slope)]: [(Jet, Jet); 2], width: f64) -> Cubics {
-    let [low, high, low_slope, high_slope] = [low, high, low_slope, high_slope].map(orders);
-    let mean = |order: usize| (high[order] - low[order]) / width;
-    let second = |order: usize| (3.0 * mean(order) - 2.0 * low_slope[order] - high_slope[order]) / width;
-    let third = |order: usize| (low_slope[order] + high_slope[order] - 2.0 * mean(order)) / (width * width);
-    [low, low_slope, std::array::from_fn(second), std::array::from_fn(third)]
+/// The lift of a section at a cam angle.
+#[derive(Debug, Clone, Copy)]
+struct SectionLift {
+    lift: Jet,
+    /// Slope along the axis, in the variable of the splines.
+    slope: Jet,
+}
+
+/// The cubics over a strip of this width from one section to the next.
+fn cubics(low: SectionLift, high: SectionLift, width: f64) -> Cubics {
+    let [low, high, low_slope, high_slope] = [low.lift, high.lift, low.slope, high.slope].map(orders);
+    let mean: [f64; 4] = std::array::from_fn(|order| (high[order] - low[order]) / width);
+    [
+        low,
+        low_slope,
+        std::array::from_fn(|order| (3.0 * mean[order] - 2.0 * low_slope[order] - high_slope[order]) / width),
+        std::array::from_fn(|order| (low_slope[order] + high_slope[order] - 2.0 * mean[order]) / (width * width)),
+    ]
 }
 
 /// Value and derivatives of a jet.
@@ -77,8 +88,11 @@ impl Strips for StripsNear<'_> {
         let (conoid, piece, angle) = (self.conoid, self.piece, self.angle);
         let cubics = match conoid.slope_series() {
             Some(series) => {
-                let at = |index| (conoid.lift_of_section(index, piece, angle), series.at(piece, index, angle));
-                cubics([interval, interval + 1].map(at), conoid.weights.width_of(interval))
+                let [low, high] = [interval, interval + 1].map(|section| SectionLift {
+                    lift: conoid.lift_of_section(section, piece, angle),
+                    slope: series.slope(piece, section, angle),
+                });
+                cubics(low, high, conoid.weights.width_of(interval))
             }
             None => self.all.get_or_init(|| conoid.all_lifts(piece, angle)).cubics(interval),
         };
@@ -94,7 +108,7 @@ pub(super) struct SlopeSeries {
 }
 
 impl SlopeSeries {
-    fn at(&self, piece: usize, section: usize, angle: f64) -> Jet {
+    fn slope(&self, piece: usize, section: usize, angle: f64) -> Jet {
         let series = self.pieces.get(piece).and_then(|sections| sections.get(section));
         let [s, ds, dds, ddds] = series.map_or([f64::NAN; 4], |series| series.values_at(angle));
         Jet { s, ds, dds, ddds }
@@ -118,20 +132,20 @@ impl Conoid {
     #[must_use]
     pub fn all_lifts(&self, piece: usize, angle: f64) -> AllStrips {
         let sections = self.sections_at(piece, angle);
-        let strip = |(interval, both): (usize, &[(Jet, Jet); 2])| cubics(*both, self.weights.width_of(interval));
-        AllStrips(sections.array_windows().enumerate().map(strip).collect())
+        let pairs = sections.array_windows().enumerate();
+        AllStrips(pairs.map(|(interval, [low, high])| cubics(*low, *high, self.weights.width_of(interval))).collect())
     }
 
-    /// Lift of every section at a cam angle, and its slope along the axis.
-    fn sections_at(&self, piece: usize, angle: f64) -> Vec<(Jet, Jet)> {
+    /// Every section at a cam angle.
+    fn sections_at(&self, piece: usize, angle: f64) -> Vec<SectionLift> {
         let lifts: Vec<Jet> = (0..self.sections.len()).map(|index| self.lift_of_section(index, piece, angle)).collect();
         let slopes = self.weights.slopes(&lifts);
-        lifts.into_iter().zip(slopes).collect()
+        lifts.into_iter().zip(slopes).map(|(lift, slope)| SectionLift { lift, slope }).collect()
     }
 
     /// Lift at a place along the axis (m), with its derivatives, at the cam angle of these lifts of the sections.
     #[must_use]
-    pub fn lift_of(&self, lifts: &(impl Strips + ?Sized), z: f64) -> Partials {
+    pub fn lift_of<L: Strips + ?Sized>(&self, lifts: &L, z: f64) -> Partials {
         let (interval, [t, t1, t2, t3]) = self.weights.place(z);
         let [a, b, c, d] = lifts.cubics(interval);
         let mut partials = [[0.0; 4]; 4];
@@ -149,9 +163,8 @@ impl Conoid {
             if self.sections.len() <= FEW_SECTIONS {
                 return None;
             }
-            let of_piece = |(piece, span): (usize, &Piece)| self.slopes_of(piece, *span);
-            let pieces: Option<Vec<_>> = self.pieces().iter().enumerate().map(of_piece).collect();
-            Some(SlopeSeries { pieces: pieces? })
+            let pieces = self.pieces().iter().enumerate().map(|(piece, span)| self.slopes_of(piece, *span));
+            Some(SlopeSeries { pieces: pieces.collect::<Option<_>>()? })
         });
         found.as_ref()
     }
@@ -165,13 +178,14 @@ impl Conoid {
             let all = parallel::map(&places, |angle| self.sections_at(piece, *angle));
             // Of each derivative, the largest size over all sections.
             let mut largest = [0.0_f64; 4];
-            for (lift, _) in all.iter().flatten() {
-                largest.iter_mut().zip(orders(*lift)).for_each(|(most, value)| *most = most.max(value.abs()));
+            for section in all.iter().flatten() {
+                largest.iter_mut().zip(orders(section.lift)).for_each(|(most, value)| *most = most.max(value.abs()));
             }
             let sections: Vec<usize> = (0..self.sections.len()).collect();
             let series = parallel::map(&sections, |section| {
-                let slope = |at: &Vec<(Jet, Jet)>| at.get(*section).map_or([0.0; 4], |(_, slope)| orders(*slope));
-                let slopes: Vec<[f64; 4]> = all.iter().map(slope).collect();
+                let at_angles = all.iter().map(|sections| sections.get(*section));
+                let slopes: Vec<[f64; 4]> =
+                    at_angles.map(|section| section.map_or([0.0; 4], |section| orders(section.slope))).collect();
                 let allowed = largest.map(|most| RESOLVED * most / self.weights.width_at(*section));
                 let series = SeriesGroup::through(range, &slopes);
                 let resolved = span.dwell || series.last(LAST).iter().zip(allowed).all(|(last, most)| *last <= most);

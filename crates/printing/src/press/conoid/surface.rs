@@ -82,14 +82,13 @@ impl Conoid {
 
     /// [`Conoid::cut`] by the lifts of the sections at the angle; also lift and derivatives at the place of that roller.
     #[must_use]
-    pub fn cut_of(&self, lifts: &(impl Strips + ?Sized), angle: f64, z: f64) -> Option<(CurvePoint, f64, Partials)> {
+    pub fn cut_of<L: Strips + ?Sized>(&self, lifts: &L, angle: f64, z: f64) -> Option<(CurvePoint, f64, Partials)> {
         let (partials, zeta) = self.roller_of_cut(lifts, z)?;
-        let axial = |first: f64| self.across(&partials, PowerSeries([zeta, first, 0.0])).axial.0;
         // Each coefficient of ζ enters the coefficient of its power linearly, and all with the same factor.
-        let without = axial(0.0)[1];
-        let factor = axial(1.0)[1] - without;
+        let without = self.across(&partials, PowerSeries([zeta, 0.0, 0.0])).axial.0[1];
+        let factor = self.across(&partials, PowerSeries([zeta, 1.0, 0.0])).axial.0[1] - without;
         let first = -without / factor;
-        let second = -axial(first)[2] / factor;
+        let second = -self.across(&partials, PowerSeries([zeta, first, 0.0])).axial.0[2] / factor;
         let along = self.along(&partials, angle, PowerSeries([zeta, first, second]));
         let [heading, turn, turn2] = along.heading.0;
         let [speed, speed1, _] = along.speed.0;
@@ -109,7 +108,7 @@ impl Conoid {
 
     /// The roller that touches the cut at z (m) at the cam angle of these lifts of the sections: lift and derivatives there,
     /// and its place ζ. `None` where the surface folds along the axis.
-    pub(super) fn roller_of_cut(&self, lifts: &(impl Strips + ?Sized), z: f64) -> Option<(Partials, f64)> {
+    pub(super) fn roller_of_cut<L: Strips + ?Sized>(&self, lifts: &L, z: f64) -> Option<(Partials, f64)> {
         let mut zeta = z;
         for _ in 0..CUT_STEPS {
             let (wander, slope) = self.wander(&self.lift_of(lifts, zeta));
@@ -129,17 +128,10 @@ impl Conoid {
 
     /// Place of the contact along θ ↦ (θ, ζ(θ)), as series in θ.
     fn across(&self, p: &Partials, zeta: PowerSeries<3>) -> Across {
-        let [_, z1, z2] = zeta.0;
-        let compose = |m: usize, n: usize| {
-            let at = |m: usize, n: usize| p.get(m).and_then(|row| row.get(n)).copied().unwrap_or(0.0);
-            PowerSeries([
-                at(m, n),
-                at(m + 1, n) + at(m, n + 1) * z1,
-                0.5 * (at(m + 2, n) + 2.0 * at(m + 1, n + 1) * z1 + at(m, n + 2) * z1 * z1) + at(m, n + 1) * z2,
-            ])
-        };
         let (height, _) = self.height_and_slope(p);
-        let (u, a, slope) = (compose(0, 0) + (height - p[0][0]), compose(1, 0) - self.roller.offset, compose(0, 1));
+        let u = along_path(p, 0, 0, zeta) + (height - p[0][0]);
+        let a = along_path(p, 1, 0, zeta) - self.roller.offset;
+        let slope = along_path(p, 0, 1, zeta);
         let length = (a * a + u * u).sqrt();
         let taper = slope * u / length;
         let stretch = (taper * taper + 1.0).sqrt();
@@ -166,6 +158,21 @@ impl Conoid {
         let radius = self.roller.radius;
         (radius * taper / stretch, radius * by_axis / (stretch * stretch * stretch))
     }
+}
+
+/// The derivative of the lift by θ m times and by z n times along θ ↦ (θ, ζ(θ)), as a series in θ.
+fn along_path(p: &Partials, m: usize, n: usize, zeta: PowerSeries<3>) -> PowerSeries<3> {
+    let [_, z1, z2] = zeta.0;
+    PowerSeries([
+        partial(p, m, n),
+        partial(p, m + 1, n) + partial(p, m, n + 1) * z1,
+        0.5 * (partial(p, m + 2, n) + 2.0 * partial(p, m + 1, n + 1) * z1 + partial(p, m, n + 2) * z1 * z1)
+            + partial(p, m, n + 1) * z2,
+    ])
+}
+
+fn partial(p: &Partials, m: usize, n: usize) -> f64 {
+    p.get(m).and_then(|row| row.get(n)).copied().unwrap_or(0.0)
 }
 
 /// Height and slopes of the lift along a cut, what follows from them, and the place of the contact along the axis.

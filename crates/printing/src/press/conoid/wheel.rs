@@ -55,7 +55,7 @@ pub(super) fn section(conoid: &Conoid) -> Option<Section> {
     let ends = settings.first().map(|setting| setting.v).zip(settings.last().map(|setting| setting.v));
     let (v_min, v_max) = ends?;
     let wheel = Wheel { v_min, v_max, settings };
-    let words = wheel.words(conoid.press.design_rpm);
+    let words = wheel.describe(conoid.press.design_rpm);
     Some(Section::new("wheel", &wheel).with_words(words))
 }
 
@@ -77,7 +77,7 @@ fn setting(conoid: &Conoid, rpm: f64) -> WheelSetting {
 }
 
 impl Wheel {
-    fn words(&self, design: f64) -> Vec<String> {
+    fn describe(&self, design: f64) -> Vec<String> {
         let mut words = vec![
             format!(
                 "the shift follows v = (n/n_c)² (m/m_c)/(p0/p0_c), n_c = {} rpm, m_c and p0_c of the file: v from {} to {} balances speed, forme and \

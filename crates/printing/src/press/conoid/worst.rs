@@ -1,10 +1,10 @@
 //! The worst places of a conoid: over every turn of slices along its axis, and over its sections.
 
-use super::{Conoid, FEWEST_SLICES, MOST_SEARCHED, Partials, SLICES, SurfacePlace};
-use crate::press::motion::Reversal;
+use super::{Conoid, FEWEST_SLICES, MOST_SEARCHED, Partials, SLICES, SectionCut, SurfacePlace};
 use camgen_kernel::motion::Motion;
 use camgen_kernel::profile::Worst;
 use camgen_kernel::profile::extremes::{self, JumpRange};
+use nalgebra::Vector2;
 use std::f64::consts::PI;
 
 impl Conoid {
@@ -40,8 +40,8 @@ impl Conoid {
 
     /// The sharpest convex place of the pitch surface but for corners: the curvature, 1/m.
     pub(super) fn sharpest_smooth(&self) -> Worst {
-        let search = || self.worst_of_metal(|conoid, partials| conoid.curvatures_of(partials).0);
-        *self.found.sharpest.get_or_init(search)
+        let sharpest = &self.found.sharpest;
+        *sharpest.get_or_init(|| self.worst_of_metal(|conoid, partials| conoid.curvatures_of(partials).0))
     }
 
     /// The larger principal curvature of the pitch surface at the place of the roller that touches the cut at z (m) at a cam
@@ -73,9 +73,8 @@ impl Conoid {
     #[must_use]
     pub fn reach(&self) -> Worst {
         let travel = self.data.axial_travel;
-        let contact = |conoid: &Self, place: &SurfacePlace<'_>| place.z + conoid.wander(&place.partials).0;
-        let above = self.worst(|conoid, place| contact(conoid, place) - travel);
-        above.or_larger(self.worst(|conoid, place| -contact(conoid, place)))
+        let above = self.worst(|conoid, place| place.z + conoid.wander(&place.partials).0 - travel);
+        above.or_larger(self.worst(|conoid, place| -(place.z + conoid.wander(&place.partials).0)))
     }
 
     /// The range at whose ends forces may jump: the reversal of the first lobe.
@@ -86,38 +85,34 @@ impl Conoid {
 
     /// The largest of something over the turns of the sections, each at its own speed; smooth but for the ends of the reversal.
     #[must_use]
-    pub fn worst_of_sections(&self, value: impl Fn(&Reversal, f64, f64, usize, f64) -> f64 + Sync) -> Worst {
-        let of_section = |((section, rpm), z): ((&Reversal, &f64), &f64)| {
-            let slice = self.slice(*z);
-            let found = extremes::largest_of_motion(&slice, (&self.acting(), 0.0), |piece, angle| {
-                value(section, *rpm, *z, piece, angle)
-            });
-            Worst { value: found.value, at: found.at, z: *z }
-        };
-        let all = self.sections.iter().zip(&self.speeds).zip(&self.positions).map(of_section);
-        all.fold(Worst::NONE, Worst::or_larger)
+    pub fn worst_of_sections(&self, value: impl Fn(SectionCut<'_>, usize, f64) -> f64 + Sync) -> Worst {
+        let mut worst = Worst::NONE;
+        for cut in self.all_sections() {
+            let slice = self.slice(cut.z);
+            let found = extremes::largest_of_motion(&slice, (&self.acting(), 0.0), |piece, angle| value(cut, piece, angle));
+            worst = worst.or_larger(Worst { value: found.value, at: found.at, z: cut.z });
+        }
+        worst
     }
 
     /// The axial component of the contact force that the drive of the shift must resist, N: the force along the path times
     /// the slope of the lift along the axis.
     #[must_use]
     pub fn axial_force(&self) -> Worst {
-        let force = |section: &Reversal, rpm: f64, z: f64, piece: usize, angle: f64| {
+        *self.found.axial_force.get_or_init(|| {
             // The square of its size is smooth where it vanishes.
-            let axial = self.path_force(section, rpm, piece, angle) * self.lift(piece, angle, z)[0][1];
-            axial * axial
-        };
-        let search = || {
-            let square = self.worst_of_sections(force);
+            let square = self.worst_of_sections(|cut, piece, angle| {
+                let axial = self.path_force(cut.section, cut.rpm, piece, angle) * self.lift(piece, angle, cut.z)[0][1];
+                axial * axial
+            });
             Worst { value: square.value.max(0.0).sqrt(), ..square }
-        };
-        *self.found.axial_force.get_or_init(search)
+        })
     }
 
     /// Largest lift over all sections, m.
     #[must_use]
     pub fn max_lift(&self) -> f64 {
-        let highest = self.worst_of_sections(|section, _, _, piece, angle| section.bottom(piece, angle).s).value;
+        let highest = self.worst_of_sections(|cut, piece, angle| cut.section.bottom(piece, angle).s).value;
         (highest - self.lowest) * self.lever
     }
 
@@ -127,27 +122,31 @@ impl Conoid {
     pub fn plane_offset_error(&self, z: f64) -> f64 {
         let slice = self.slice(z);
         let plane = self.plane_of(&slice);
-        let miss = |piece: usize, angle: f64| {
-            let naive = plane.profile(piece, angle).point;
-            let Some(span) = self.pieces().get(piece) else { return f64::NAN };
-            let mut foot = angle;
-            let mut left = f64::NAN;
-            for _ in 0..4 {
-                let Some((cut, _)) = self.cut(piece, foot, z) else { return f64::NAN };
-                let away = naive - cut.point;
-                left = away.dot(&cut.outward());
-                foot = (foot + away.dot(&cut.tangent) / cut.speed).clamp(span.start, span.end);
-            }
-            left.abs()
-        };
-        extremes::largest_without_slope(plane, miss).value
+        let largest = extremes::largest_without_slope(plane, |piece, angle| {
+            self.distance_from_cut(plane.profile(piece, angle).point, piece, angle, z)
+        });
+        largest.value
+    }
+
+    /// Distance of a point from the cut at z (m), m, the foot found from a cam angle.
+    fn distance_from_cut(&self, point: Vector2<f64>, piece: usize, angle: f64, z: f64) -> f64 {
+        let Some(span) = self.pieces().get(piece) else { return f64::NAN };
+        let mut foot = angle;
+        let mut left = f64::NAN;
+        for _ in 0..4 {
+            let Some((cut, _)) = self.cut(piece, foot, z) else { return f64::NAN };
+            let away = point - cut.point;
+            left = away.dot(&cut.outward());
+            foot = (foot + away.dot(&cut.tangent) / cut.speed).clamp(span.start, span.end);
+        }
+        left.abs()
     }
 
     /// Largest distance of the contact from the roller's plane along the axis, m.
     #[must_use]
     pub fn largest_wander(&self) -> Worst {
-        let search = || self.worst(|conoid, place| conoid.wander(&place.partials).0.abs());
-        *self.found.wander.get_or_init(search)
+        let wander = &self.found.wander;
+        *wander.get_or_init(|| self.worst(|conoid, place| conoid.wander(&place.partials).0.abs()))
     }
 
     /// The largest angle by which the normal leans along the axis, rad.

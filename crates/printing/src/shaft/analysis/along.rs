@@ -18,24 +18,23 @@ pub(super) fn places(found: &ShaftResults<'_>) -> Vec<(f64, StepSide)> {
     let steps = found.shaft.steps();
     places.retain(|(x, _)| steps.iter().all(|step| (step - x).abs() > 1e-9 * length));
     places.extend(steps.iter().flat_map(|step| [(*step, StepSide::Left), (*step, StepSide::Right)]));
-    let key = |side: StepSide| u8::from(side == StepSide::Right);
-    places.sort_by(|a, b| a.0.total_cmp(&b.0).then(key(a.1).cmp(&key(b.1))));
+    places.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1 == StepSide::Right).cmp(&(b.1 == StepSide::Right))));
     places
 }
 
 /// The table of the shaft.
 pub(super) fn table(found: &ShaftResults<'_>) -> Table {
-    let row = |(x, side): (f64, StepSide)| {
+    let mut rows = Vec::new();
+    for (x, side) in places(found) {
         let (diameter, bore) = found.shaft.section_at(x, side);
         let mut row = vec![1e3 * x, 1e3 * diameter, 1e3 * bore];
-        row.extend(found.spectrum.modes.iter().map(|mode| mode.shape.at(x)[0] + 0.0));
+        row.extend(found.spectrum.modes.iter().map(|mode| mode.shape.evaluate(x)[0] + 0.0));
         if let Some(statics) = &found.statics {
-            let [deflection, slope] = statics.curve.at(x);
+            let [deflection, slope] = statics.curve.evaluate(x);
             row.extend([1e9 * deflection + 0.0, 1e9 * slope + 0.0]);
         }
-        row
-    };
-    let rows = places(found).into_iter().map(row).collect();
+        rows.push(row);
+    }
     let mut columns = vec!["x_mm", "diameter_mm", "bore_mm"];
     columns.extend(MODES.iter().take(found.spectrum.modes.len()));
     let more: &[&str] = if found.statics.is_some() { &["deflection_um_per_kn", "slope_urad_per_kn"] } else { &[] };

@@ -4,9 +4,8 @@ use super::error_of;
 use crate::press::MachineOfPress;
 use crate::press::conoid::Conoid;
 use crate::press::machine::PressCams;
-use crate::press::motion::Reversal;
 use crate::press::rotary;
-use crate::shaft::machine::ShaftMachine;
+use crate::shaft::machine::{ShaftData, ShaftMachine};
 use crate::shaft::mechanics::exact::Statics;
 use crate::shaft::mechanics::{self, Shaft};
 use camgen_cams::body::disc::Disc;
@@ -43,27 +42,26 @@ pub(super) struct CamOnShaft {
 impl CamOnShaft {
     /// The cam of a machine: the disc of its press or of its motion program, or, for several speeds, its conoid. `None` for a shaft
     /// alone.
-    pub(super) fn of(machine: &ShaftMachine, rpm: &[f64]) -> Result<Option<Self>, Refusal> {
+    pub(super) fn solve(machine: &ShaftMachine, rpm: &[f64]) -> Result<Option<Self>, Refusal> {
         let Some(own) = machine.machine() else { return Ok(None) };
-        let cannot = |why: Refusal| why.context(CARRIED);
         if rpm.len() > 1 {
-            let conoid = Conoid::solve(own, rpm).map_err(cannot)?;
-            let press = own.press().map_err(cannot)?;
+            let conoid = Conoid::solve(own, rpm).map_err(of_cam)?;
+            let press = own.press().map_err(of_cam)?;
             let fastest = rpm.iter().copied().fold(0.0, f64::max);
             let speed = Some(press.bed.crank_speed(fastest) / f64::from(PressCams::of(own).lobes));
             let cam = Arc::new(MountedCam::Conoid(Box::new(conoid)));
             return Ok(Some(Self { cam, disc: None, speed, rpm: rpm.to_vec() }));
         }
         let rpm = rpm.first().copied();
-        let own = &own.at_rpm(rpm).map_err(cannot)?;
+        let own = &own.at_rpm(rpm).map_err(of_cam)?;
         let (body, rpm) = match (own.press(), own.motion()) {
             (Err(_), Some((motion, of_file))) => {
                 let rpm = rpm.or(of_file);
-                (Disc::of_motion(own, motion, rpm).map_err(cannot)?, rpm)
+                (Disc::of_motion(own, motion, rpm).map_err(of_cam)?, rpm)
             }
             (press, _) => {
-                let rpm = rpm.unwrap_or(press.map_err(cannot)?.design_rpm);
-                (rotary::disc(own, rpm).map_err(cannot)?, Some(rpm))
+                let rpm = rpm.unwrap_or(press.map_err(of_cam)?.design_rpm);
+                (rotary::disc(own, rpm).map_err(of_cam)?, Some(rpm))
             }
         };
         let disc = machine.data.cam_at.and_then(|at| as_disc(&body, own, at).transpose()).transpose()?;
@@ -85,12 +83,14 @@ impl CamOnShaft {
     }
 }
 
-/// What an error of the cam concerns.
-const CARRIED: &str = "the cam on the shaft";
+/// The refusal of the cam on the shaft.
+fn of_cam(why: Refusal) -> Refusal {
+    why.context("the cam on the shaft")
+}
 
 /// What a drawn cam is as a disc at a place of the shaft; `None` without a thickness.
 fn as_disc(body: &Disc, machine: &Machine, at: f64) -> Result<Option<mechanics::ShaftDisc>, Refusal> {
-    let drawn = body.draw(&Request::within(TOLERANCE)).map_err(|error| Refusal::of(error).context(CARRIED))?;
+    let drawn = body.draw(&Request::within(TOLERANCE)).map_err(|error| of_cam(Refusal::of(error)))?;
     let inertia = drawn.parts.first().and_then(|part| part.inertia(machine));
     // A cam that turns counter-clockwise is drawn in the mirror; angles of unbalance are those of the cam.
     let side = if machine.cam.rotation == Rotation::CounterClockwise { -1.0 } else { 1.0 };
@@ -150,7 +150,7 @@ fn across(follower: &LoadedFollower) -> f64 {
 
 /// The largest slope of a support under 1 N at the cam, rad/N.
 fn steepest(statics: &Statics, shaft: &Shaft) -> f64 {
-    let slopes = shaft.supports().iter().map(|support| statics.curve.at(support.at)[1].abs());
+    let slopes = shaft.supports().iter().map(|support| statics.curve.evaluate(support.at)[1].abs());
     slopes.fold(0.0, f64::max)
 }
 
@@ -166,26 +166,22 @@ fn sections_under_load(cam: &MountedCam, yielding: &ShaftCompliance) -> Vec<Load
             vec![LoadedSection { rpm: None, largest, there, residual, force }]
         }
         MountedCam::Conoid(conoid) => {
-            let of = |cut: &(f64, f64, &Reversal)| {
-                let (largest, there) = conoid.largest_loaded(*cut, yielding, error_of);
-                let residual = conoid.largest_loaded(*cut, yielding, |follower| follower.residual.abs()).0;
-                let force = conoid.largest_loaded(*cut, yielding, across).0.value;
-                LoadedSection { rpm: Some(cut.0), largest, there, residual, force }
-            };
-            conoid.sections_cut().iter().map(of).collect()
+            let mut sections = Vec::new();
+            for cut in conoid.sections_cut() {
+                let (largest, there) = conoid.largest_loaded(cut, yielding, error_of);
+                let residual = conoid.largest_loaded(cut, yielding, |follower| follower.residual.abs()).0;
+                let force = conoid.largest_loaded(cut, yielding, across).0.value;
+                sections.push(LoadedSection { rpm: Some(cut.rpm), largest, there, residual, force });
+            }
+            sections
         }
     }
 }
 
 impl CamUnderLoad {
     /// `None` where no force is known.
-    pub(super) fn of(
-        carried: &CamOnShaft,
-        statics: &Statics,
-        drive: Option<(f64, f64)>,
-        shaft: &Shaft,
-    ) -> Option<Self> {
-        let shaft_twist = drive.map(|(from, to)| shaft.twist_compliance(from, to));
+    pub(super) fn new(carried: &CamOnShaft, statics: &Statics, data: &ShaftData) -> Option<Self> {
+        let shaft_twist = data.drive_to_cam();
         let yielding = ShaftCompliance { compliance: statics.own_compliance(), twist: shaft_twist.unwrap_or(0.0) };
         let found = sections_under_load(&carried.cam, &yielding);
         let worst = *found.iter().reduce(|a, b| if b.largest.value > a.largest.value { b } else { a })?;
@@ -202,7 +198,7 @@ impl CamUnderLoad {
             largest: worst.largest,
             there: worst.there,
             residual: balances.then_some(residual),
-            slope: force * steepest(statics, shaft),
+            slope: force * steepest(statics, &data.shaft),
             reactions: statics.reactions.iter().map(|reaction| force * reaction).collect(),
             force,
             found,
@@ -215,7 +211,7 @@ impl CamUnderLoad {
     }
 
     /// The largest slope of a support on another shaft, rad.
-    pub(super) fn slope_on(&self, (yielding, statics): &(ShaftCompliance, Statics), shaft: &Shaft) -> f64 {
+    pub(super) fn slope_on(&self, yielding: &ShaftCompliance, statics: &Statics, shaft: &Shaft) -> f64 {
         let force = sections_under_load(&self.cam, yielding).iter().map(|one| one.force).fold(0.0, f64::max);
         force * steepest(statics, shaft)
     }
@@ -227,37 +223,40 @@ impl CamUnderLoad {
 
     /// The sections of a conoid.
     pub(super) fn lift_errors(&self) -> Vec<SectionLiftError> {
-        let of = |one: &LoadedSection| {
-            Some(SectionLiftError {
-                rpm: one.rpm?,
+        let mut errors = Vec::new();
+        for one in &self.found {
+            let Some(rpm) = one.rpm else { continue };
+            errors.push(SectionLiftError {
+                rpm,
                 lift_error_max_mm: MILLIMETRES * one.largest.value,
                 lift_error_cam_deg: one.largest.at.to_degrees(),
                 residual_max_n: one.residual.value,
-            })
-        };
-        self.found.iter().filter_map(of).collect()
+            });
+        }
+        errors
     }
 
     /// Speed of a section (rpm; NaN of a disc), cam angle, degrees, and what the follower does there, at equal steps of a turn.
     pub(super) fn rows(&self, samples: u32) -> Vec<LiftErrorRow> {
+        let mut rows = Vec::new();
         match &*self.cam {
             MountedCam::Disc(disc) => {
                 let motion = disc.curves().motion;
-                let row = |index: u32| {
+                for index in 0..samples {
                     let at = turned(index, samples, motion.lobes());
                     let (piece, angle) = motion.locate(at.angle);
-                    Some((f64::NAN, at.cam_deg, disc.loaded_follower(piece, angle, &self.yielding)?))
-                };
-                (0..samples).filter_map(row).collect()
+                    let follower = disc.loaded_follower(piece, angle, &self.yielding);
+                    rows.extend(follower.map(|follower| (f64::NAN, at.cam_deg, follower)));
+                }
             }
             MountedCam::Conoid(conoid) => {
-                let of = |cut: (f64, f64, &Reversal)| {
-                    let rows = conoid.rows_lowered(cut, &self.yielding, samples);
-                    rows.into_iter().map(move |(cam_deg, follower)| (cut.0, cam_deg, follower))
-                };
-                conoid.sections_cut().into_iter().flat_map(of).collect()
+                for cut in conoid.sections_cut() {
+                    let section = conoid.rows_lowered(cut, &self.yielding, samples);
+                    rows.extend(section.into_iter().map(|(cam_deg, follower)| (cut.rpm, cam_deg, follower)));
+                }
             }
         }
+        rows
     }
 
     /// The table of the lift under load; of a conoid with the speed of the section before.
@@ -266,7 +265,7 @@ impl CamUnderLoad {
         if self.has_sections() { Table::listed(&[SPEED, LIFT].concat(), &rows) } else { Table::listed(LIFT, &rows) }
     }
 
-    pub(super) fn words(&self) -> Vec<String> {
+    pub(super) fn describe(&self) -> Vec<String> {
         let twist = match self.shaft_twist {
             Some(_) => format!(" ({:.4} mm of it twist)", MILLIMETRES * self.there.twist),
             None => String::new(),
@@ -280,16 +279,17 @@ impl CamUnderLoad {
             self.largest.at.to_degrees(),
             shown(self.there.force.round())
         );
-        let section = |one: SectionLiftError| {
-            format!(
+        let mut lines = vec![all];
+        for one in self.lift_errors() {
+            lines.push(format!(
                 "section for {} rpm: up to {:.5} mm low at {:.3}°, {:.2} N left",
                 shown(one.rpm),
                 one.lift_error_max_mm,
                 one.lift_error_cam_deg,
                 one.residual_max_n
-            )
-        };
-        std::iter::once(all).chain(self.lift_errors().into_iter().map(section)).collect()
+            ));
+        }
+        lines
     }
 }
 

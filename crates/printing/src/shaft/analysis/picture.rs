@@ -2,7 +2,6 @@
 
 use super::ShaftResults;
 use crate::press::machine::PressCams;
-use camgen_cams::machine::Machine;
 use camgen_cams::report::scheme::{Scheme, SchemeJoint, SchemePose, Stroke, StrokeKind};
 use camgen_cams::report::shown;
 use camgen_kernel::geometry::MILLIMETRES;
@@ -17,21 +16,23 @@ const DISC: f64 = 0.8;
 const CAM: usize = 0;
 const DISCS: usize = 1;
 
+/// A box along the axis, from one end to the other, with half its height.
+fn box_along(name: &'static str, kind: StrokeKind, from: f64, to: f64, half: f64) -> Stroke {
+    let points = [[from, -half], [to, -half], [to, half], [from, half], [from, -half]];
+    Stroke { name, kind, points: points.map(Vector2::from).to_vec() }
+}
+
 /// The shaft as it lies.
 pub(super) fn scheme(found: &ShaftResults<'_>) -> Scheme {
     let shaft = &found.shaft;
     let largest = MILLIMETRES * shaft.segments().iter().map(|segment| segment.diameter).fold(0.0, f64::max);
-    let box_at = |name, kind, (from, to): (f64, f64), half: f64| {
-        let points = [[from, -half], [to, -half], [to, half], [from, half], [from, -half]];
-        Stroke { name, kind, points: points.map(Vector2::from).to_vec() }
-    };
     let mut left = 0.0;
     let mut strokes = Vec::new();
     for segment in shaft.segments() {
-        let ends = (MILLIMETRES * left, MILLIMETRES * (left + segment.length));
-        strokes.push(box_at("shaft", StrokeKind::Body, ends, 0.5 * MILLIMETRES * segment.diameter));
+        let (from, to) = (MILLIMETRES * left, MILLIMETRES * (left + segment.length));
+        strokes.push(box_along("shaft", StrokeKind::Body, from, to, 0.5 * MILLIMETRES * segment.diameter));
         if segment.bore > 0.0 {
-            strokes.push(box_at("bore", StrokeKind::Path, ends, 0.5 * MILLIMETRES * segment.bore));
+            strokes.push(box_along("bore", StrokeKind::Path, from, to, 0.5 * MILLIMETRES * segment.bore));
         }
         left += segment.length;
     }
@@ -39,25 +40,21 @@ pub(super) fn scheme(found: &ShaftResults<'_>) -> Scheme {
     let own = found.machine.data.shaft.discs();
     for disc in own {
         let (half, size) = (0.15 * largest, DISC * largest);
-        strokes.push(box_at(
-            "disc",
-            StrokeKind::Link(DISCS),
-            (MILLIMETRES * disc.at - half, MILLIMETRES * disc.at + half),
-            size,
-        ));
+        let at = MILLIMETRES * disc.at;
+        strokes.push(box_along("disc", StrokeKind::Link(DISCS), at - half, at + half, size));
     }
     if let (Some(at), Some(carried)) = (cam, &found.carried) {
-        let of_machine = |machine: &Machine| {
-            if carried.is_conoid() {
-                PressCams::of(machine).conoid.map(|conoid| conoid.axial_travel)
-            } else {
-                machine.cam.thickness
-            }
+        let machine = found.machine.machine();
+        let thickness = if carried.is_conoid() {
+            machine.and_then(|machine| PressCams::of(machine).conoid).map(|conoid| conoid.axial_travel)
+        } else {
+            machine.and_then(|machine| machine.cam.thickness)
         };
-        let thickness = found.machine.machine().and_then(of_machine).unwrap_or(0.0);
+        let thickness = thickness.unwrap_or(0.0);
         let half = 0.5 * MILLIMETRES * thickness.max(0.1 * largest / MILLIMETRES);
         let reach = MILLIMETRES * carried.reach();
-        strokes.push(box_at("cam", StrokeKind::Link(CAM), (MILLIMETRES * at - half, MILLIMETRES * at + half), reach));
+        let at = MILLIMETRES * at;
+        strokes.push(box_along("cam", StrokeKind::Link(CAM), at - half, at + half, reach));
     }
     let length = MILLIMETRES * shaft.length();
     let axis = [Vector2::new(-0.05 * length, 0.0), Vector2::new(1.05 * length, 0.0)];
@@ -78,11 +75,13 @@ pub(super) fn scheme(found: &ShaftResults<'_>) -> Scheme {
 }
 
 fn notes(found: &ShaftResults<'_>) -> Vec<String> {
-    let support = |(support, letter): (&crate::shaft::mechanics::Support, &str)| match support.stiffness {
-        None => format!("{letter} rigid"),
-        Some(stiffness) => format!("{letter} {} MN/m", shown(1e-6 * stiffness)),
-    };
-    let all: Vec<String> = found.shaft.supports().iter().zip(LETTERS).map(support).collect();
+    let mut all = Vec::new();
+    for (support, letter) in found.shaft.supports().iter().zip(LETTERS) {
+        all.push(match support.stiffness {
+            None => format!("{letter} rigid"),
+            Some(stiffness) => format!("{letter} {} MN/m", shown(1e-6 * stiffness)),
+        });
+    }
     let mut notes = vec![format!("Supports: {}.", all.join(", "))];
     if found.carried.is_some() {
         notes.push("Blue: the cam at its largest radius.".into());

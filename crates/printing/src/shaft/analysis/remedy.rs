@@ -16,12 +16,13 @@ const DIGITS: f64 = 1e3;
 /// The smallest factor on every diameter at which a function of it is not above 0, rounded upwards; `None` where no factor up to the
 /// largest will do. A very thick shaft may be too heavy for its supports, so the search starts with the smallest.
 fn factor(excess: impl Fn(f64) -> Option<f64>) -> Option<f64> {
-    let value = |factor: f64| excess(factor).unwrap_or(f64::NAN);
     let tried = std::iter::successors(Some(GROWTH), |factor| Some(factor * GROWTH));
-    let passing = tried.take_while(|factor| *factor <= LARGEST).find(|factor| value(*factor) <= 0.0)?;
-    let found = root::bracketed(value, passing / GROWTH, passing, 1e-9).ok()?;
+    let mut tried = tried.take_while(|factor| *factor <= LARGEST);
+    let passing = tried.find(|factor| excess(*factor).is_some_and(|excess| excess <= 0.0))?;
+    let from = passing / GROWTH;
+    let found = root::bracketed(|factor| excess(factor).unwrap_or(f64::NAN), from, passing, 1e-9).ok()?;
     let rounded = (found * DIGITS).ceil() / DIGITS;
-    Some(if value(rounded) <= 0.0 { rounded } else { passing })
+    Some(if excess(rounded).is_some_and(|excess| excess <= 0.0) { rounded } else { passing })
 }
 
 /// For a first critical speed (rad/s) at least.
@@ -48,7 +49,7 @@ pub(super) fn slower(found: &ShaftResults<'_>) -> Option<f64> {
         if own.len() > 1 {
             return Some(rpm);
         }
-        let (shaft, speed) = match CamOnShaft::of(found.machine, &[rpm]).ok()? {
+        let (shaft, speed) = match CamOnShaft::solve(found.machine, &[rpm]).ok()? {
             None => (found.shaft.clone(), rpm * PI / 30.0),
             Some(carried) => {
                 (found.machine.data.shaft.with_discs(discs(found.machine, &carried)).ok()?, carried.speed?)
@@ -77,5 +78,8 @@ pub(super) fn for_lift(found: &ShaftResults<'_>, most: f64) -> Option<f64> {
 /// For a slope (rad) at the supports at most.
 pub(super) fn for_slope(found: &ShaftResults<'_>, most: f64) -> Option<f64> {
     let under = found.under.as_ref()?;
-    factor(|factor| Some(under.slope_on(&yielding(found, factor)?, &found.shaft) - most))
+    factor(|factor| {
+        let (yielding, statics) = yielding(found, factor)?;
+        Some(under.slope_on(&yielding, &statics, &found.shaft) - most)
+    })
 }

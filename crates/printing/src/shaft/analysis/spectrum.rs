@@ -23,17 +23,16 @@ pub(super) struct CriticalSpeeds {
 }
 
 impl CriticalSpeeds {
-    pub(super) fn of(shaft: &Shaft, asked: &ShaftOptions) -> Result<Self, Refusal> {
-        let forward = |whirl: Whirl, own: f64| match whirl {
-            Whirl::Forward => Ok(own),
-            Whirl::Planar | Whirl::Backward => first_forward(shaft),
-        };
+    pub(super) fn find(shaft: &Shaft, asked: &ShaftOptions) -> Result<Self, Refusal> {
         match asked.solver {
             CriticalSpeedSolver::Exact { order } => {
                 let (found, fewer) = as_many(shaft, asked, order)?;
                 let speeds: Vec<f64> = found.modes.iter().map(|mode| mode.speed).collect();
                 let whirl = if order.is_some() { Whirl::Planar } else { asked.whirl };
-                let forward = forward(whirl, speeds.first().copied().unwrap_or(f64::NAN))?;
+                let forward = match whirl {
+                    Whirl::Forward => speeds.first().copied().unwrap_or(f64::NAN),
+                    Whirl::Planar | Whirl::Backward => first_forward(shaft)?,
+                };
                 Ok(Self { speeds, modes: found.modes, order: Some(found.order), fewer, forward })
             }
             CriticalSpeedSolver::Paper { .. } if asked.modes.is_some_and(|modes| modes > 1) => {
@@ -56,9 +55,9 @@ impl CriticalSpeeds {
 
 /// The first critical speed of forward whirl; of planar whirl where the gyroscopic moments leave none, rad/s.
 fn first_forward(shaft: &Shaft) -> Result<f64, Refusal> {
-    let first = |whirl| exact::modes(shaft, whirl, 1, None).map(|found| found.modes.first().map(|mode| mode.speed));
-    let found = first(Whirl::Forward).or_else(|_| first(Whirl::Planar))?;
-    Ok(found.unwrap_or(f64::NAN))
+    let forward = exact::modes(shaft, Whirl::Forward, 1, None);
+    let found = forward.or_else(|_| exact::modes(shaft, Whirl::Planar, 1, None))?;
+    Ok(found.modes.first().map_or(f64::NAN, |mode| mode.speed))
 }
 
 /// The modes up to the requested number, or else the usual one; and why there are fewer than requested.

@@ -19,25 +19,25 @@ pub(super) struct SweepRow {
 }
 
 /// Equal steps from the one stiffness to the other, both included.
-pub(super) fn rows(found: &ShaftResults<'_>, (from, to): (f64, f64)) -> Result<Vec<SweepRow>, Refusal> {
+pub(super) fn rows(found: &ShaftResults<'_>, from: f64, to: f64) -> Result<Vec<SweepRow>, Refusal> {
     if found.shaft.supports().iter().all(|support| support.stiffness.is_none()) {
         return Err(Refusal::new(
             "--sweep gives elastic supports their stiffness, and every support of this shaft is rigid",
         ));
     }
     let steps = found.asked.steps.max(1);
-    let at = |step: u32| if step == steps { to } else { from + (to - from) * f64::from(step) / f64::from(steps) };
-    let count = found.spectrum.speeds.len();
-    let row = |step: u32| {
-        let shaft = found.shaft.with_stiffness(at(step))?;
-        let mut speeds = CriticalSpeeds::of(&shaft, found.asked)
-            .map_err(|why| why.context(&format!("with supports of {:e} N/m", at(step))))?
+    let mut rows = Vec::new();
+    for step in 0..=steps {
+        let stiffness = if step == steps { to } else { from + (to - from) * f64::from(step) / f64::from(steps) };
+        let shaft = found.shaft.with_stiffness(stiffness)?;
+        let mut speeds = CriticalSpeeds::find(&shaft, found.asked)
+            .map_err(|why| why.context(&format!("with supports of {stiffness:e} N/m")))?
             .speeds;
         // With a softer support fewer may be found.
-        speeds.resize(count, f64::NAN);
-        Ok(SweepRow { stiffness: at(step), speeds })
-    };
-    (0..=steps).map(row).collect()
+        speeds.resize(found.spectrum.speeds.len(), f64::NAN);
+        rows.push(SweepRow { stiffness, speeds });
+    }
+    Ok(rows)
 }
 
 /// The first critical speed on rigid supports, rad/s: the asymptote.
@@ -50,12 +50,12 @@ pub(super) fn rigid(found: &ShaftResults<'_>) -> Option<f64> {
         found.shaft.discs().to_vec(),
         found.shaft.beam(),
     );
-    Some(CriticalSpeeds::of(&shaft.ok()?, found.asked).ok()?.first())
+    Some(CriticalSpeeds::find(&shaft.ok()?, found.asked).ok()?.first())
 }
 
 /// The table of a sweep.
 pub(super) fn table(rows: &[SweepRow], modes: usize) -> Table {
-    let told = |row: &SweepRow| std::iter::once(row.stiffness).chain(row.speeds.iter().copied().map(rpm)).collect();
     let count = rows.first().map_or(0, |row| row.speeds.len()).min(modes);
-    named(vec!["stiffness_n_per_m"], SPEEDS.get(..count).unwrap_or_default(), rows.iter().map(told).collect())
+    let values = rows.iter().map(|row| std::iter::once(row.stiffness).chain(row.speeds.iter().copied().map(rpm)).collect());
+    named(vec!["stiffness_n_per_m"], SPEEDS.get(..count).unwrap_or_default(), values.collect())
 }

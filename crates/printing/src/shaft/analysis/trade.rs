@@ -95,21 +95,20 @@ impl ShaftTradeSetting {
 /// cut for its shaft.
 #[must_use]
 pub fn left_by_shaft(machine: &ShaftMachine, rpm: f64) -> Option<LeftOver> {
-    let carried = CamOnShaft::of(machine, &[rpm]).ok()??;
+    let carried = CamOnShaft::solve(machine, &[rpm]).ok()??;
     let statics = Statics::new(machine.shaft(), machine.data.cam_at?).ok()?;
-    let drive = machine.data.drive_at.zip(machine.data.cam_at);
-    let residual = CamUnderLoad::of(&carried, &statics, drive, &machine.data.shaft)?.residual?;
+    let residual = CamUnderLoad::new(&carried, &statics, &machine.data)?.residual?;
     let about = "the deflection of the camshaft (`camgen shaft`); shaft.compensate = true cuts the cam for it";
     Some(LeftOver::of_force("shaft", residual.value, about))
 }
 
-/// Every setting for the shaft of a machine, by a clock that tells the time since any fixed moment.
+/// Every setting for the shaft of a machine, by a clock that gives the time since any fixed moment.
 ///
 /// # Errors
 /// [`Refusal`] when the shaft has no critical speed.
 pub fn analysis(machine: &ShaftMachine, clock: &dyn Fn() -> Duration) -> Result<Analysis, Refusal> {
     // The model of the paper, so that only the effect of its stations is measured.
-    let (own, carried) = (machine.shaft(), CamOnShaft::of(machine, &[])?);
+    let (own, carried) = (machine.shaft(), CamOnShaft::solve(machine, &[])?);
     let discs = carried.map_or_else(|| own.discs().to_vec(), |carried| super::discs(machine, &carried));
     let shaft =
         Shaft::new(own.segments().to_vec(), own.supports().to_vec(), discs, Beam::Euler).map_err(Refusal::of)?;
@@ -128,7 +127,7 @@ pub fn analysis(machine: &ShaftMachine, clock: &dyn Fn() -> Duration) -> Result<
         inputs,
         sections: vec![
             Section::new("n1_rpm", &truth),
-            Section::new("rows", &rows).with_words(words(truth, &rows, &advice)),
+            Section::new("rows", &rows).with_words(describe(truth, &rows, &advice)),
             Section::new("advice", &advice),
         ],
         measures: Vec::new(),
@@ -164,47 +163,59 @@ fn measure(shaft: &Shaft, clock: TradeClock<'_>) -> Result<(f64, Vec<ShaftTradeR
             *speed = found;
         }
     }
-    let row = |((setting, times), speed): ((&ShaftTradeSetting, &Vec<f64>), &f64)| ShaftTradeRow {
-        setting: setting.name(),
-        flags: setting.flags(),
-        pieces: setting.pieces(),
-        n1_rpm: 30.0 / PI * speed,
-        error: (speed / truth - 1.0).abs(),
-        time_us: times.iter().copied().fold(f64::INFINITY, f64::min),
-    };
-    Ok((30.0 / PI * truth, settings.iter().zip(&times).zip(&speeds).map(row).collect()))
+    let mut rows = Vec::with_capacity(settings.len());
+    for ((setting, times), speed) in settings.iter().zip(&times).zip(&speeds) {
+        rows.push(ShaftTradeRow {
+            setting: setting.name(),
+            flags: setting.flags(),
+            pieces: setting.pieces(),
+            n1_rpm: 30.0 / PI * speed,
+            error: (speed / truth - 1.0).abs(),
+            time_us: times.iter().copied().fold(f64::INFINITY, f64::min),
+        });
+    }
+    Ok((30.0 / PI * truth, rows))
 }
 
-fn advice(rows: &[ShaftTradeRow]) -> String {
-    let of = |limit: f64| {
-        let keep = rows.iter().filter(|row| row.error <= limit);
-        keep.min_by_key(|row| row.pieces)
-    };
-    let words = |row: &ShaftTradeRow| format!("{} is off by {} ({})", row.setting, shown(row.error), row.flags);
-    match (of(SHARE), of(1e-9)) {
-        (Some(rough), Some(fine)) => {
-            format!("cheapest within {} %: {}; to nine digits: {}", shown(100.0 * SHARE), words(rough), words(fine))
-        }
-        (Some(rough), None) => format!("cheapest within {} %: {}", shown(100.0 * SHARE), words(rough)),
-        _ => format!("no setting is within {} %", shown(100.0 * SHARE)),
+fn cheapest_within(rows: &[ShaftTradeRow], limit: f64) -> Option<&ShaftTradeRow> {
+    rows.iter().filter(|row| row.error <= limit).min_by_key(|row| row.pieces)
+}
+
+impl ShaftTradeRow {
+    fn describe_error(&self) -> String {
+        format!("{} is off by {} ({})", self.setting, shown(self.error), self.flags)
     }
 }
 
-fn words(truth: f64, rows: &[ShaftTradeRow], advice: &str) -> Vec<String> {
+fn advice(rows: &[ShaftTradeRow]) -> String {
+    let percent = shown(100.0 * SHARE);
+    let Some(rough) = cheapest_within(rows, SHARE) else { return format!("no setting is within {percent} %") };
+    let advice = format!("cheapest within {percent} %: {}", rough.describe_error());
+    match cheapest_within(rows, 1e-9) {
+        Some(fine) => format!("{advice}; to nine digits: {}", fine.describe_error()),
+        None => advice,
+    }
+}
+
+fn describe(truth: f64, rows: &[ShaftTradeRow], advice: &str) -> Vec<String> {
     let first =
         format!("first critical speed {} rpm (Euler beam, planar); time the least of {ROUNDS} rounds", shown(truth));
     let head = format!("{:<14} {:>16} {:>10} {:>10}", "setting", "n1/rpm", "error", "time/µs");
-    let row = |row: &ShaftTradeRow| {
-        format!("{:<14} {:>16} {:>10} {:>10.1}", row.setting, shown(row.n1_rpm), shown(row.error), row.time_us)
-    };
-    [first, head].into_iter().chain(rows.iter().map(row)).chain([advice.to_owned()]).collect()
+    let mut lines = vec![first, head];
+    for row in rows {
+        let (speed, error) = (shown(row.n1_rpm), shown(row.error));
+        lines.push(format!("{:<14} {:>16} {:>10} {:>10.1}", row.setting, speed, error, row.time_us));
+    }
+    lines.push(advice.to_owned());
+    lines
 }
 
 /// Time against error; what is exact to rounding cannot be shown on its scale.
 fn chart_of(rows: &[ShaftTradeRow], title: String) -> Chart {
-    let point =
-        |row: &ShaftTradeRow| ChartPoint { x: row.time_us, y: row.error, label: row.setting.clone(), best: false };
-    let mut points: Vec<ChartPoint> = rows.iter().map(point).collect();
+    let mut points: Vec<ChartPoint> = rows
+        .iter()
+        .map(|row| ChartPoint { x: row.time_us, y: row.error, label: row.setting.clone(), best: false })
+        .collect();
     chart::mark_front(&mut points);
     let panels = vec![ChartPanel { y_name: "error of the first critical speed", points }];
     Chart { title, x_name: "time, µs", panels }

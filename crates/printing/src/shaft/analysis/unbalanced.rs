@@ -35,7 +35,7 @@ pub(super) struct UnbalanceFigures {
 
 impl UnbalanceFigures {
     /// The figures of the discs of a shaft with its cam, at a speed (rad/s); the grade is in mm/s.
-    pub(super) fn of(shaft: &Shaft, speed: Option<f64>, grade: Option<f64>) -> Result<Self, Refusal> {
+    pub(super) fn new(shaft: &Shaft, speed: Option<f64>, grade: Option<f64>) -> Result<Self, Refusal> {
         let all: Vec<Unbalance> =
             shaft.discs().iter().map(|disc| Unbalance { at: disc.at, vector: disc.unbalance }).collect();
         let ([x, y], mass) = (unbalance::resultant(&all), shaft.mass());
@@ -44,26 +44,29 @@ impl UnbalanceFigures {
         let permissible = grade.zip(speed).map(|(grade, speed)| unbalance::permissible(grade, mass, speed));
         let places = shaft.supports().iter().map(|support| support.at);
         let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), at| (a.min(at), b.max(at)));
-        let planes = unbalance::split(&all, [low, high])?;
-        let shares = unbalance::shares(centre_of_mass(shaft), [low, high])?;
-        let plane = |(at, ([x, y], share)): (f64, ([f64; 2], f64))| Plane {
-            at_mm: 1e3 * at,
-            unbalance_g_mm: G_MM * libm::hypot(x, y),
-            deg: degrees(libm::atan2(y, x)),
-            permissible_g_mm: permissible.map(|permissible| G_MM * share * permissible),
-        };
+        let split = unbalance::split(&all, low, high)?;
+        let shares = unbalance::shares(centre_of_mass(shaft), low, high)?;
+        let mut planes = Vec::new();
+        for ((at, [x, y]), share) in [low, high].into_iter().zip(split).zip(shares) {
+            planes.push(Plane {
+                at_mm: 1e3 * at,
+                unbalance_g_mm: G_MM * libm::hypot(x, y),
+                deg: degrees(libm::atan2(y, x)),
+                permissible_g_mm: permissible.map(|permissible| G_MM * share * permissible),
+            });
+        }
         Ok(Self {
             g_mm: G_MM * size,
             deg: if size > 0.0 { degrees(libm::atan2(y, x)) } else { 0.0 },
             permissible_g_mm: permissible.map(|permissible| G_MM * permissible),
-            planes: [low, high].into_iter().zip(planes.into_iter().zip(shares)).map(plane).collect(),
+            planes,
             force: speed.map(|speed| size * speed * speed),
             runs: speed.map(|speed| 1e3 * size / mass * speed),
             grade,
         })
     }
 
-    pub(super) fn words(&self) -> String {
+    pub(super) fn describe(&self) -> String {
         let force = self.force.map_or(String::new(), |force| format!("; its centrifugal force is {force:.2} N"));
         format!("unbalance {} g·mm at {:.2}° of the cam{force}", shown(self.g_mm), self.deg)
     }

@@ -85,7 +85,7 @@ impl Frame {
             let cut = panels.cut(support.at);
             let spring = support.stiffness.map(|k| (k.sqrt(), inner));
             inner += usize::from(spring.is_some());
-            supports.push(SupportCut { cut, at: panels.at(cut), spring });
+            supports.push(SupportCut { cut, at: panels.position(cut), spring });
         }
         let base = base(shaft, &supports);
         let mut frame = Self { panels, order, shear, supports, base, inner, redundant: Vec::new() };
@@ -160,7 +160,7 @@ impl Frame {
         let a = self.base_at(0).1.map_or(0.0, |held| held.at);
         match source {
             LoadSource::Force { cut } => {
-                let start = self.panels.at(cut);
+                let start = self.panels.position(cut);
                 BeamLoad { force: 1.0, moment: start - a, from: cut, start, rise: 1.0, ..BeamLoad::default() }
             }
             LoadSource::Couple { cut } => BeamLoad { moment: 1.0, from: cut, jump: -1.0, ..BeamLoad::default() },
@@ -230,8 +230,8 @@ impl Frame {
             }
             let (moments, forces) = own.map_or((&[][..], &[][..]), |(_, m, q)| (m.as_slice(), q.as_slice()));
             let (of_moment, of_force) = rows.split_at_mut((self.order + 2).min(rows.len()));
-            write(of_moment, moments, [mean, 0.5 * panel.length * rise], panel.length / panel.bending);
-            write(of_force, forces, [shear, 0.0], panel.length * panel.shear);
+            write(of_moment, moments, mean, 0.5 * panel.length * rise, panel.length / panel.bending);
+            write(of_force, forces, shear, 0.0, panel.length * panel.shear);
         }
         column
     }
@@ -241,12 +241,12 @@ impl Frame {
         let mut pieces = Vec::with_capacity(self.panels.panels.len());
         let (mut turn, mut deflection) = (0.0, 0.0);
         for (panel, rows) in self.panels.panels.iter().zip(forces.chunks_exact(stride(self.order, self.shear))) {
-            let piece = self.piece(panel, rows, [deflection, turn]);
+            let piece = self.piece(panel, rows, deflection, turn);
             (deflection, turn) = (legendre::end(&piece.deflection), legendre::end(&piece.slope));
             pieces.push(piece);
         }
         // Two constants are left: the shaft as a whole goes where a and b are.
-        let stands = |end: usize| {
+        let [(a, at_a), (b, at_b)] = [0, 1].map(|end| {
             let (_, held) = self.base_at(end);
             let (cut, at, spring) = held.map_or((0, 0.0, None), |held| (held.cut, held.at, held.spring));
             let given = spring.map_or(0.0, |(root, row)| -forces.get(row).copied().unwrap_or(0.0) / root);
@@ -255,8 +255,7 @@ impl Frame {
                 None => deflection,
             };
             (at, given - drawn)
-        };
-        let ((a, at_a), (b, at_b)) = (stands(0), stands(1));
+        });
         let rise = (at_b - at_a) / (b - a);
         for piece in &mut pieces {
             let middle = piece.at + 0.5 * piece.length;
@@ -268,18 +267,15 @@ impl Frame {
     }
 
     /// ψ = ψ₀ + ∫ M/(EJ), y = y₀ + ∫ (ψ + Q/(κGA)).
-    fn piece(&self, panel: &Panel, rows: &[f64], [deflection, turn]: [f64; 2]) -> CurvePiece {
+    fn piece(&self, panel: &Panel, rows: &[f64], deflection: f64, turn: f64) -> CurvePiece {
         let (of_moment, of_force) = rows.split_at((self.order + 2).min(rows.len()));
-        let plain = |rows: &[f64], compliance: f64, factor: f64| -> Vec<f64> {
-            rows.iter().enumerate().map(|(k, row)| row * factor / (compliance / odd(k)).sqrt()).collect()
-        };
         // M l/(EJ) and Q/(κGA), each from its scaled row.
-        let bent = plain(of_moment, panel.length / panel.bending, panel.length / panel.bending);
+        let bent = unscaled(of_moment, panel.length / panel.bending, panel.length / panel.bending);
         let mut slope = legendre::integral(&bent);
         add(&mut slope, 0, turn);
         let mut rise = slope.clone();
         if self.shear {
-            for (k, c) in plain(of_force, panel.length * panel.shear, panel.shear).into_iter().enumerate() {
+            for (k, c) in unscaled(of_force, panel.length * panel.shear, panel.shear).into_iter().enumerate() {
                 add(&mut rise, k, c);
             }
         }
@@ -287,6 +283,11 @@ impl Frame {
         add(&mut curve, 0, deflection);
         CurvePiece { at: panel.at, length: panel.length, deflection: curve, slope }
     }
+}
+
+/// Coefficients times a factor from scaled rows.
+fn unscaled(rows: &[f64], compliance: f64, factor: f64) -> Vec<f64> {
+    rows.iter().enumerate().map(|(k, row)| row * factor / (compliance / odd(k)).sqrt()).collect()
 }
 
 /// Rows of one panel: M of degree order + 1, Q of degree order.
@@ -300,10 +301,10 @@ fn add(coefficients: &mut [f64], k: usize, value: f64) {
     }
 }
 
-/// Scaled rows of a polynomial given in two parts, its own and a straight line.
-fn write(rows: &mut [f64], own: &[f64], line: [f64; 2], compliance: f64) {
+/// Scaled rows of a polynomial given in two parts: Legendre coefficients and a straight line.
+fn write(rows: &mut [f64], own: &[f64], mean: f64, rise: f64, compliance: f64) {
     let own = own.iter().copied().chain(std::iter::repeat(0.0));
-    let line = line.into_iter().chain(std::iter::repeat(0.0));
+    let line = [mean, rise].into_iter().chain(std::iter::repeat(0.0));
     for ((k, row), (own, line)) in rows.iter_mut().enumerate().zip(own.zip(line)) {
         let coefficient = own + line;
         if coefficient != 0.0 {
@@ -319,12 +320,13 @@ fn base(shaft: &Shaft, supports: &[SupportCut]) -> [usize; 2] {
     let flexibility: f64 = shaft.segments().iter().map(|s| s.length / (s.modulus * s.second_moment())).sum();
     // Of the order of a pinned shaft's deflection under a force in the middle; it only distinguishes rigid pairs.
     let bending = length * length * flexibility / 48.0;
-    let yielding = |index: usize| shaft.supports().get(index).and_then(|s| s.stiffness).map_or(0.0, |k| 1.0 / k);
+    let yielding: Vec<f64> = shaft.supports().iter().map(|s| s.stiffness.map_or(0.0, |k| 1.0 / k)).collect();
     let mut best = ([0, 1], f64::INFINITY);
-    for (a, left) in supports.iter().enumerate() {
-        for (b, right) in supports.iter().enumerate().filter(|(_, right)| right.at > left.at) {
+    for (a, (left, left_yielding)) in supports.iter().zip(&yielding).enumerate() {
+        let right = supports.iter().zip(&yielding).enumerate().filter(|(_, (right, _))| right.at > left.at);
+        for (b, (right, right_yielding)) in right {
             let apart = right.at - left.at;
-            let turn = (yielding(a) + yielding(b) + bending) / (apart * apart);
+            let turn = (left_yielding + right_yielding + bending) / (apart * apart);
             if turn < best.1 {
                 best = ([a, b], turn);
             }

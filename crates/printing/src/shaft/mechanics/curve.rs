@@ -37,8 +37,8 @@ impl CurvePiece {
         let width = 1.0 / f64::from(CELLS);
         let middle = width * u32::try_from(cell).map_or(0.0, f64::from);
         let around = ((middle - width).max(0.0), (middle + width).min(1.0));
-        let y = |xi: f64| sign * legendre::value(&self.deflection, xi);
-        let found = extremum::largest_without_slope(y, around, 2, SECTIONS);
+        let found =
+            extremum::largest_without_slope(|xi| sign * legendre::value(&self.deflection, xi), around, 2, SECTIONS);
         (self.at + self.length * found.at, found.value)
     }
 
@@ -65,7 +65,7 @@ impl DeflectionCurve {
     ///
     /// The unit is that of what the curve is: 1 and 1/m of a mode, m/N and rad/N under 1 N, m and rad of a response.
     #[must_use]
-    pub fn at(&self, x: f64) -> [f64; 2] {
+    pub fn evaluate(&self, x: f64) -> [f64; 2] {
         let right = self.pieces.partition_point(|piece| piece.at <= x);
         let piece = self.pieces.get(right.saturating_sub(1));
         piece.map_or([0.0; 2], |piece| {
@@ -79,7 +79,7 @@ impl DeflectionCurve {
     pub fn largest(&self) -> (f64, f64) {
         let [up, down] = self.crests();
         let size = up.1.max(down.1);
-        let [end, turn] = self.at(0.0);
+        let [end, turn] = self.evaluate(0.0);
         let is_up = if (up.1 - down.1).abs() > EQUAL * size {
             up.1 > down.1
         } else if end.abs() > EQUAL * size {
@@ -99,14 +99,14 @@ impl DeflectionCurve {
             let least = highest - HIDDEN * highest.abs();
             let mut best = (0.0, f64::NEG_INFINITY);
             for (piece, samples) in self.pieces.iter().zip(&samples) {
-                let height = |cell: usize| samples.get(cell).map_or(f64::NEG_INFINITY, |y| sign * y);
-                let tops = (0..samples.len()).filter(|cell| {
-                    let here = height(*cell);
-                    here >= least && here >= height(cell.wrapping_sub(1)) && here >= height(cell + 1)
-                });
-                for found in tops.map(|cell| piece.crest(cell, sign)) {
-                    if found.1 > best.1 {
-                        best = found;
+                // Nothing lies beyond the ends of a piece.
+                let mut heights = vec![f64::NEG_INFINITY];
+                heights.extend(samples.iter().map(|y| sign * y));
+                heights.push(f64::NEG_INFINITY);
+                for (cell, [before, here, after]) in heights.array_windows().enumerate() {
+                    if *here >= least && here >= before && here >= after {
+                        let found = piece.crest(cell, sign);
+                        best = if found.1 > best.1 { found } else { best };
                     }
                 }
             }

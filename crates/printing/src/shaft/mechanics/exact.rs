@@ -252,7 +252,7 @@ impl Statics {
     /// Deflection at x, m/N: by Maxwell also that at the load under 1 N at x.
     #[must_use]
     pub fn compliance(&self, x: f64) -> f64 {
-        self.curve.at(x)[0]
+        self.curve.evaluate(x)[0]
     }
 
     /// Deflection of the load, m/N, supports included: from the energy, never negative.
@@ -274,13 +274,13 @@ impl Response {
     /// Deflection, m, at x, in the two directions of [`ShaftDisc::unbalance`](super::ShaftDisc::unbalance).
     #[must_use]
     pub fn deflection_at(&self, x: f64) -> [f64; 2] {
-        self.curves.each_ref().map(|curve| curve.at(x)[0])
+        self.curves.each_ref().map(|curve| curve.evaluate(x)[0])
     }
 
     /// Slope, rad, at x, in the same directions.
     #[must_use]
     pub fn slope_at(&self, x: f64) -> [f64; 2] {
-        self.curves.each_ref().map(|curve| curve.at(x)[1])
+        self.curves.each_ref().map(|curve| curve.evaluate(x)[1])
     }
 }
 
@@ -309,7 +309,8 @@ pub fn response(shaft: &Shaft, speed: f64) -> Result<Response, Refusal> {
         system.ger(-square * weight, &column, &column, 1.0);
     }
     let factors = system.lu();
-    let solved = |direction: usize| -> Result<ForceColumn, Refusal> {
+    let mut responses = [ForceColumn::new(), ForceColumn::new()];
+    for (direction, response) in responses.iter_mut().enumerate() {
         let mut forces = vec![0.0; inner + shaft.supports().len()];
         for disc in shaft.discs() {
             let unbalance = disc.unbalance.get(direction).copied().unwrap_or(0.0);
@@ -329,9 +330,9 @@ pub fn response(shaft: &Shaft, speed: f64) -> Result<Response, Refusal> {
         for (column, weight) in &made {
             gather(&mut forces, square * weight * frame.dot(column, &inside), column);
         }
-        Ok(inside.into_iter().chain(forces.into_iter().skip(inner)).collect())
-    };
-    let [x, y] = [solved(0)?, solved(1)?];
+        *response = inside.into_iter().chain(forces.into_iter().skip(inner)).collect();
+    }
+    let [x, y] = responses;
     let on_supports = x.iter().zip(&y).skip(inner).map(|(x, y)| [-x, -y]).collect();
     Ok(Response { curves: [frame.curve(&x), frame.curve(&y)], support_forces: on_supports })
 }

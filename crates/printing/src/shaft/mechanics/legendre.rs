@@ -6,14 +6,17 @@
 ///
 /// One coefficient more than was given. DLMF 18.17.1 with 18.9.
 pub(super) fn integral(coefficients: &[f64]) -> Vec<f64> {
-    // What P_k gives to its neighbours.
-    let share = |k: usize| coefficients.get(k).map_or(0.0, |c| c / (2.0 * odd(k)));
     (0..=coefficients.len())
         .map(|k| match k {
-            0 => share(0) - share(1),
-            _ => share(k - 1) - share(k + 1),
+            0 => share_of_neighbour(coefficients, 0) - share_of_neighbour(coefficients, 1),
+            _ => share_of_neighbour(coefficients, k - 1) - share_of_neighbour(coefficients, k + 1),
         })
         .collect()
+}
+
+/// What P_k gives to each of its neighbours.
+fn share_of_neighbour(coefficients: &[f64], k: usize) -> f64 {
+    coefficients.get(k).map_or(0.0, |c| c / (2.0 * odd(k)))
 }
 
 /// 2k + 1.

@@ -316,8 +316,10 @@ impl Shaft {
     /// # Errors
     /// As [`Shaft::new`].
     pub fn with_stiffness(&self, stiffness: f64) -> Result<Self, Refusal> {
-        let every = |support: &Support| Support { stiffness: support.stiffness.map(|_| stiffness), ..*support };
-        let supports = self.supports.iter().map(every).collect();
+        let mut supports = self.supports.clone();
+        for support in &mut supports {
+            support.stiffness = support.stiffness.map(|_| stiffness);
+        }
         Self::new(self.segments.clone(), supports, self.discs.clone(), self.beam)
     }
 
@@ -326,8 +328,11 @@ impl Shaft {
     /// # Errors
     /// As [`Shaft::new`].
     pub fn scaled(&self, factor: f64) -> Result<Self, Refusal> {
-        let thicker = |s: &ShaftSegment| ShaftSegment { diameter: s.diameter * factor, bore: s.bore * factor, ..*s };
-        let segments = self.segments.iter().map(thicker).collect();
+        let mut segments = self.segments.clone();
+        for segment in &mut segments {
+            segment.diameter *= factor;
+            segment.bore *= factor;
+        }
         Self::new(segments, self.supports.clone(), self.discs.clone(), self.beam)
     }
 }

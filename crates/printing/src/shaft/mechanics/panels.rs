@@ -90,10 +90,10 @@ impl Panels {
             panels.push(Panel::new(segment, shaft.beam(), at, rest));
             left = right;
         }
-        Self::of(panels)
+        Self::from_panels(panels)
     }
 
-    fn of(panels: Vec<Panel>) -> Self {
+    fn from_panels(panels: Vec<Panel>) -> Self {
         let last = panels.last().map(|panel| panel.at + panel.length);
         let cuts = panels.iter().map(|panel| panel.at).chain(last).collect();
         Self { panels, cuts }
@@ -102,13 +102,14 @@ impl Panels {
     /// The cut at a place where one was made; the nearest of all.
     pub(super) fn cut(&self, place: f64) -> usize {
         let right = self.cuts.partition_point(|cut| *cut < place);
-        let distance = |cut: usize| self.cuts.get(cut).map_or(f64::INFINITY, |at| (at - place).abs());
         let left = right.saturating_sub(1);
-        if distance(left) <= distance(right) { left } else { right }
+        let [to_left, to_right] =
+            [left, right].map(|cut| self.cuts.get(cut).map_or(f64::INFINITY, |at| (at - place).abs()));
+        if to_left <= to_right { left } else { right }
     }
 
-    /// Where a cut is, m.
-    pub(super) fn at(&self, cut: usize) -> f64 {
+    /// Position of a cut, m.
+    pub(super) fn position(&self, cut: usize) -> f64 {
         self.cuts.get(cut).copied().unwrap_or(0.0)
     }
 
@@ -129,7 +130,7 @@ impl Panels {
                 return None;
             }
         }
-        Some(Self::of(pieces))
+        Some(Self::from_panels(pieces))
     }
 }
 

@@ -53,10 +53,7 @@ pub fn first_critical(shaft: &Shaft, stations: usize) -> Result<Paper, Refusal> 
     let mut last = 0.0_f64;
     for rounds in 1..=MOST_ROUNDS {
         let z = line.deflection(&y);
-        let product = |a: &[f64], b: &[f64]| -> f64 {
-            line.stations.iter().zip(a.iter().zip(b)).map(|(station, (a, b))| station.mass * a * b).sum()
-        };
-        let square = product(&y, &z) / product(&z, &z);
+        let square = line.product(&y, &z) / line.product(&z, &z);
         if !(square > 0.0) {
             return Err(without_mass());
         }
@@ -123,9 +120,9 @@ impl Line {
             line.cut(panel, (per_length * panel.length - ON_STATION).ceil().max(1.0));
             station_of.push(line.intervals.len());
         }
-        let station = |cut: usize| station_of.get(cut).copied().unwrap_or(0);
         for disc in shaft.discs() {
-            if let Some(here) = line.stations.get_mut(station(panels.cut(disc.at))) {
+            let station = station_of.get(panels.cut(disc.at)).copied().unwrap_or(0);
+            if let Some(here) = line.stations.get_mut(station) {
                 here.disc += disc.mass;
                 here.mass += disc.mass;
             }
@@ -136,7 +133,8 @@ impl Line {
             .map(|support| {
                 let cut = panels.cut(support.at);
                 let yielding = support.stiffness.map_or(0.0, |k| 1.0 / k);
-                SupportStation { at: panels.at(cut), station: station(cut), yielding }
+                let station = station_of.get(cut).copied().unwrap_or(0);
+                SupportStation { at: panels.position(cut), station, yielding }
             })
             .collect();
         held.sort_by(|a, b| a.at.total_cmp(&b.at));
@@ -159,6 +157,11 @@ impl Line {
             self.stations.push(IntervalEnd { x: panel.at + panel.length * (k / count), disc: 0.0, mass: half });
             self.intervals.push(interval);
         }
+    }
+
+    /// Σ m a b over the stations.
+    fn product(&self, a: &[f64], b: &[f64]) -> f64 {
+        self.stations.iter().zip(a.iter().zip(b)).map(|(station, (a, b))| station.mass * a * b).sum()
     }
 
     /// z of the loads m y.
@@ -185,9 +188,8 @@ impl Line {
             z.push(bent);
         }
         // c0 + c1 x: the supports stand where their forces put them.
-        let off =
-            |held: SupportStation, force: f64| -force * held.yielding - z.get(held.station).copied().unwrap_or(0.0);
-        let (at_a, at_b) = (off(a, first), off(b, second));
+        let [at_a, at_b] = [(a, first), (b, second)]
+            .map(|(held, force)| -force * held.yielding - z.get(held.station).copied().unwrap_or(0.0));
         let rise = (at_b - at_a) / (b.at - a.at);
         z.iter().zip(&self.stations).map(|(z, station)| z + at_a + rise * (station.x - a.at)).collect()
     }

@@ -31,7 +31,7 @@ pub fn resultant(unbalances: &[Unbalance]) -> [f64; 2] {
     unbalances.iter().fold([0.0; 2], |[x, y], u| [x + u.vector[0], y + u.vector[1]])
 }
 
-/// That two correction planes are at one place (m).
+/// The refusal of two correction planes at one position, m.
 fn together(at: f64) -> Refusal {
     Refusal::new("both correction planes are").at(format!("{at} m")).remedy("they must be apart")
 }
@@ -40,18 +40,20 @@ fn together(at: f64) -> Refusal {
 ///
 /// # Errors
 /// Both planes at one place.
-pub fn split(unbalances: &[Unbalance], [a, b]: [f64; 2]) -> Result<[[f64; 2]; 2], Refusal> {
+pub fn split(unbalances: &[Unbalance], a: f64, b: f64) -> Result<[[f64; 2]; 2], Refusal> {
     let apart = b - a;
     if !(apart.abs() > 0.0 && apart.is_finite()) {
         return Err(together(a));
     }
-    let seen = |share: &dyn Fn(f64) -> f64| {
-        unbalances.iter().fold([0.0; 2], |[x, y], u| {
-            let share = share(u.at);
-            [x + share * u.vector[0], y + share * u.vector[1]]
-        })
-    };
-    Ok([seen(&|x| (b - x) / apart), seen(&|x| (x - a) / apart)])
+    let mut planes = [[0.0; 2]; 2];
+    for unbalance in unbalances {
+        let shares = [(b - unbalance.at) / apart, (unbalance.at - a) / apart];
+        for ([x, y], share) in planes.iter_mut().zip(shares) {
+            *x += share * unbalance.vector[0];
+            *y += share * unbalance.vector[1];
+        }
+    }
+    Ok(planes)
 }
 
 /// U_per = G m/ω, kg m, of a grade in mm/s, a mass in kg and a speed in rad/s.
@@ -72,7 +74,7 @@ pub fn grade_of(speed: f64) -> Option<f64> {
 ///
 /// # Errors
 /// Both planes at one place.
-pub fn shares(centre: f64, [a, b]: [f64; 2]) -> Result<[f64; 2], Refusal> {
+pub fn shares(centre: f64, a: f64, b: f64) -> Result<[f64; 2], Refusal> {
     let apart = b - a;
     if !(apart.abs() > 0.0 && apart.is_finite()) {
         return Err(together(a));

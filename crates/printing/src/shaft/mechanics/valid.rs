@@ -36,8 +36,10 @@ pub(super) fn check_panels(shaft: &Shaft) -> Result<(), Refusal> {
 
 /// Refuses a value (SI) of a part that does not fit, with what would.
 fn required(fits: bool, name: &str, part: impl Display, value: f64, range: &str) -> Result<(), Refusal> {
-    let refusal = || Refusal::new(format!("the {name} of {part} is {value}")).remedy(format!("it must be {range}"));
-    fits.then_some(()).ok_or_else(refusal)
+    if fits {
+        return Ok(());
+    }
+    Err(Refusal::new(format!("the {name} of {part} is {value}")).remedy(format!("it must be {range}")))
 }
 
 fn positive(part: impl Display, name: &str, value: f64) -> Result<(), Refusal> {
@@ -51,11 +53,11 @@ fn not_negative(part: impl Display, name: &str, value: f64) -> Result<(), Refusa
 /// A place on a shaft of this length; past its end by no more than the rounding of a sum of lengths.
 pub(super) fn within(part: impl Display, at: f64, length: f64) -> Result<(), Refusal> {
     let past = SAME_PLACE * length;
-    let refusal = || {
-        Refusal::new(format!("{part} is at {at} m"))
-            .remedy(format!("it must be within 0…{length} m, the length of the shaft"))
-    };
-    (at >= -past && at <= length + past).then_some(()).ok_or_else(refusal)
+    if at >= -past && at <= length + past {
+        return Ok(());
+    }
+    Err(Refusal::new(format!("{part} is at {at} m"))
+        .remedy(format!("it must be within 0…{length} m, the length of the shaft")))
 }
 
 fn check_segment(index: usize, segment: &ShaftSegment) -> Result<(), Refusal> {

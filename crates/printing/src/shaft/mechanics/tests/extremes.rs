@@ -137,7 +137,7 @@ fn thirty_modes_of_one_panel() {
         let j = f64::from(j);
         close(mode.speed * RPM, 6_093.347_682_792_889 * j * j, 1e-13 + 4.0 * f64::EPSILON * j.powi(4));
         // sin jπx: its crests are equal, and it leaves the left end upward.
-        close(mode.shape.at(0.5 / j)[0], 1.0, 1e-8);
+        close(mode.shape.evaluate(0.5 / j)[0], 1.0, 1e-8);
     }
 }
 

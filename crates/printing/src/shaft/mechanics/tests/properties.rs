@@ -221,12 +221,12 @@ fn a_mode_is_bent_by_its_own_inertia() {
                 ends.retain(|at| (left..=right).contains(at));
                 ends.sort_by(f64::total_cmp);
                 for pair in ends.windows(2) {
-                    let load = |x: f64| segment.density * segment.area() * mode.shape.at(x)[0];
+                    let load = |x: f64| segment.density * segment.area() * mode.shape.evaluate(x)[0];
                     sum += integrate(|x| load(x) * statics.compliance(x), (pair[0], pair[1]), 2);
                 }
                 left = right;
             }
-            let [y, _] = mode.shape.at(x);
+            let [y, _] = mode.shape.evaluate(x);
             assert!((mode.speed * mode.speed * sum - y).abs() < 1e-11, "{} {y}", mode.speed * mode.speed * sum);
             let (at, largest) = mode.shape.largest();
             assert!((largest - 1.0).abs() < 1e-14 && (0.0..=shaft.length()).contains(&at));
@@ -258,7 +258,7 @@ fn the_response_is_that_of_the_modes_and_of_statics() {
         let (at, _) = first.shape.largest();
         let scale = near.deflection_at(at)[0];
         let got = near.deflection_at(x)[0] / scale;
-        assert!((got - first.shape.at(x)[0]).abs() < 1e-5, "{got} {}", first.shape.at(x)[0]);
+        assert!((got - first.shape.evaluate(x)[0]).abs() < 1e-5, "{got} {}", first.shape.evaluate(x)[0]);
     });
 }
 
@@ -371,7 +371,7 @@ fn no_place_of_a_mode_is_beyond_one() {
     each(12, true, |shaft, _| {
         for mode in found(shaft, Whirl::Planar, 6).modes {
             let places = (0..=4000_u32).map(|k| shaft.length() * f64::from(k) / 4000.0);
-            let most = places.map(|x| mode.shape.at(x)[0].abs()).fold(0.0, f64::max);
+            let most = places.map(|x| mode.shape.evaluate(x)[0].abs()).fold(0.0, f64::max);
             // A thousandth of a wave between the samples.
             assert!(most <= 1.0 + 1e-12 && most > 1.0 - 1e-3, "{most}");
             close(mode.shape.largest().1, 1.0, 1e-12);

@@ -178,8 +178,8 @@ fn two_speeds_too_close_for_the_iteration() {
 fn balancing_that_cannot_be() {
     let some = [Unbalance { at: 0.1, vector: [1.0, 0.0] }];
     let together = "both correction planes are at 0.3 m; they must be apart";
-    assert_eq!(unbalance::split(&some, [0.3, 0.3]).expect_err("together").to_string(), together);
-    assert_eq!(unbalance::shares(0.1, [0.3, 0.3]).expect_err("together").to_string(), together);
+    assert_eq!(unbalance::split(&some, 0.3, 0.3).expect_err("together").to_string(), together);
+    assert_eq!(unbalance::shares(0.1, 0.3, 0.3).expect_err("together").to_string(), together);
     let light = unbalance::correction([0.0, -1.0], 0.4).expect_err("too light").to_string();
     assert_eq!(light, "two weights of 0.4 kg m cannot cancel an unbalance of 1 kg m; they must be 0.5 kg m each");
     assert!(unbalance::correction([0.0, -1.0], 0.5).is_ok());
