@@ -71,6 +71,6 @@ impl LoopOfAir {
                 shown(left)
             )
         });
-        self.losses.words().into_iter().chain(port).collect()
+        self.losses.describe().into_iter().chain(port).collect()
     }
 }

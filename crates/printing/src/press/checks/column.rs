@@ -47,15 +47,14 @@ pub fn measure(
     let (longest, rpm) = columns.iter().copied().reduce(|best, next| if next.0 > best.0 { next } else { best })?;
     let given = PressCams::of(machine).largest_column;
     let limit = given.unwrap_or(CUSTOMARY);
-    let faster = || {
-        let press = machine.part::<Press>()?;
-        let over = |rpm: f64| column_at(press, rpm).map_or(f64::NAN, |column| column - limit);
-        let found = root::bracketed(over, rpm, FASTEST * rpm, 0.0).ok()?;
-        let found = three_digits_up(found);
-        (over(found) <= 0.0).then(|| format!("at {found} rpm and more it is within the limit"))
-    };
     let customary = given.is_none().then(|| "the customary limit".to_owned());
-    let remedy = if longest > limit { faster() } else { None };
+    let press = machine.part::<Press>().filter(|_| longest > limit);
+    let fast_enough = press.and_then(|press| {
+        let excess = |rpm: f64| column_at(press, rpm).map_or(f64::NAN, |column| column - limit);
+        let found = three_digits_up(root::bracketed(excess, rpm, FASTEST * rpm, 0.0).ok()?);
+        (excess(found) <= 0.0).then_some(found)
+    });
+    let remedy = fast_enough.map(|rpm| format!("at {rpm} rpm and more it is within the limit"));
     let note: Vec<String> = customary.into_iter().chain(remedy).collect();
     let measure = CHECK.measure(1e3 * longest, Some(1e3 * limit));
     Some(measure.noted((!note.is_empty()).then(|| note.join("; "))))

@@ -22,8 +22,9 @@ pub const CHECK: Check = Check::on_analysis(
 /// The measure of percentiles.
 #[must_use]
 pub fn measure(percentiles: &[PercentileRow]) -> Measure {
-    let of = |body: &str| percentiles.iter().rev().find(|row| row.body == body && row.percentile == 95.0);
-    let (Some(cam), Some(fixed)) = (of(CAM), of(FIXED)) else {
+    let [cam, fixed] =
+        [CAM, FIXED].map(|body| percentiles.iter().rev().find(|row| row.body == body && row.percentile == 95.0));
+    let (Some(cam), Some(fixed)) = (cam, fixed) else {
         return CHECK.unknown("no presses are drawn (--samples 0), or too few: P95 needs 20");
     };
     let share = cam.residual_n / fixed.residual_n;

@@ -1,6 +1,7 @@
 //! Whether a cam leaves less than a fixed bottom at the forme, the speed and the weather of a machine.
 
 use crate::press::scatter::reset::ScrewRule;
+use crate::press::scatter::settings::VariableRange;
 use camgen_cams::check::{Check, CheckExplanation, Measure};
 use camgen_cams::report::{Bound, shown};
 use camgen_kernel::document::NamedChoice;
@@ -21,7 +22,8 @@ pub const CHECK: Check = Check::on_analysis(
 
 /// The measure of v against the bounds of its useful range, by a reset rule.
 #[must_use]
-pub fn measure(variable: f64, [least, most]: [Option<f64>; 2], rule: ScrewRule) -> Measure {
+pub fn measure(variable: f64, useful: VariableRange, rule: ScrewRule) -> Measure {
+    let VariableRange { least, most } = useful;
     let fixed = format!("a fixed bottom with its own reset ({}) leaves less", rule.word());
     if let Some(most) = most.filter(|most| variable > *most) {
         let note = format!("above v = {} {fixed}", shown(most));

@@ -5,7 +5,7 @@ use super::{Conoid, SectionCut, wheel};
 use crate::press::balance::reversal_of_bed;
 use crate::press::machine::{PressCams, Shift};
 use crate::press::report::CylinderMeasures;
-use crate::press::scatter::other_cams;
+use crate::press::scatter::other_cams::{self, LawAtSpeed};
 use camgen_cams::body::part::{Part, bore};
 use camgen_cams::body::{DrawingEvidence, flank_of};
 use camgen_cams::report::sheet::rounded;
@@ -130,8 +130,8 @@ pub(super) fn sections(conoid: &Conoid, found: &DrawingEvidence<'_>) -> Vec<Sect
         Section::new("force", &Forces::new(conoid, left)),
     ]);
     sections.extend(wheel::section(conoid));
-    let laws: Vec<_> =
-        conoid.speeds.iter().zip(&conoid.sections).map(|(rpm, of)| (*rpm, of.law().bottom_law)).collect();
+    let laws = conoid.all_sections().map(|cut| LawAtSpeed { rpm: cut.rpm, law: cut.section.law().bottom_law });
+    let laws: Vec<LawAtSpeed> = laws.collect();
     let cams = PressCams::of(&conoid.machine);
     sections.extend(other_cams::of_conoid(cams, &conoid.cylinder, conoid.data.shift, &laws));
     sections

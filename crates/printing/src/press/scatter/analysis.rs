@@ -8,7 +8,7 @@ use super::plot;
 use super::propagation::{self, Corners};
 use super::report::{BandsReport, FaultReport, LossReport, ScatterReport, UsefulRange, rows};
 use super::reset::ScrewRule;
-use super::settings;
+use super::settings::{self, VariableRange};
 use super::tables;
 use super::typed::TypedFault;
 use crate::press::MachineOfPress;
@@ -49,7 +49,7 @@ pub fn left_in_practice(machine: &Machine, rpm: f64) -> Option<(f64, ScrewRule)>
 /// What the bands leave together and each alone.
 pub(super) fn bands_of(cam: &FrozenBuffer, sampling: &Sampling, levelled: bool) -> Result<BandsReport, Refusal> {
     let Sampling { half_widths, distribution, .. } = sampling;
-    let [strong, weak] = Corners::of(cam, half_widths).worst(cam)?;
+    let [strong, weak] = Corners::new(cam, half_widths).worst(cam)?;
     Ok(BandsReport {
         parameters: rows(&propagation::bands(cam, half_widths, *distribution, levelled)?),
         worst_weak_n: weak.value,
@@ -106,10 +106,11 @@ pub(in crate::press) fn lost_in(reversal: &LossyReversal) -> LossReport {
     let ([on_way_in, back], half_loop) =
         ([BedWay::In, BedWay::Back].map(|way| reversal.worst(way)), reversal.largest_half_loop());
     let fixed = reversal.with_fixed_bottom().ok();
-    let of_fixed = |way: BedWay| fixed.as_ref().map(|fixed| fixed.worst(way).value);
+    let [fixed_on_way_in, fixed_back] =
+        [BedWay::In, BedWay::Back].map(|way| fixed.as_ref().map(|fixed| fixed.worst(way).value));
     LossReport {
-        residual_in_fixed_bottom_n: of_fixed(BedWay::In),
-        residual_back_fixed_bottom_n: of_fixed(BedWay::Back),
+        residual_in_fixed_bottom_n: fixed_on_way_in,
+        residual_back_fixed_bottom_n: fixed_back,
         residual_in_n: on_way_in.value,
         residual_in_at_mm: MILLIMETRES * on_way_in.at,
         residual_back_n: back.value,
@@ -172,7 +173,7 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
     };
     let column = column::measure_of_analysis(&[(cam.column, rpm)], machine);
     let measures =
-        column.into_iter().chain(measures_of(&report, typed.fault.variable(), (useful, sampling.rule))).collect();
+        column.into_iter().chain(measures_of(&report, typed.fault.variable(), useful, sampling.rule)).collect();
     Ok(Analysis {
         kind: &KIND,
         machine: machine.name().to_owned(),
@@ -182,8 +183,8 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
         measures,
         notes: machine.idle_key_notes(KIND.keys, KIND.noun),
         picture: Picture::CurvesWithCard(
-            plot::of(machine.name(), rpm, (&places, &settings, &samples), &percentiles, sampling.rule),
-            card::of(press, machine.name(), &report),
+            plot::plot(machine.name(), rpm, &places, &settings, &samples, &percentiles, sampling.rule),
+            card::settings_card(press, machine.name(), &report),
         ),
         mechanism: None,
         document: None,
@@ -204,7 +205,8 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
 fn measures_of(
     report: &ScatterReport<'_>,
     variable: f64,
-    (useful, rule): ([Option<f64>; 2], ScrewRule),
+    useful: VariableRange,
+    rule: ScrewRule,
 ) -> Vec<Measure> {
     let lost = report.losses.as_ref().map(|lost| {
         let fixed = lost.residual_fixed_bottom_n().unwrap_or(report.residual_fixed_bottom_max_n);

@@ -135,9 +135,8 @@ impl BedPath {
             Self::Yoke { .. } => PI - braking,
             Self::Linkage(law) if law.end.symmetric() => law.end.angle() - braking,
             Self::Linkage(law) => {
-                let x = law.end.at(braking).x[0];
-                let beyond = |angle: f64| law.end.at(angle).x[0] - x;
-                root::bracketed(beyond, law.end.dead(), law.end.angle(), 0.0).unwrap_or(law.end.angle())
+                let (x, end) = (law.end.at(braking).x[0], law.end.angle());
+                root::bracketed(|angle| law.end.at(angle).x[0] - x, law.end.dead(), end, 0.0).unwrap_or(end)
             }
         }
     }
@@ -150,8 +149,7 @@ impl BedPath {
             Self::Linkage(law) if law.end.symmetric() => law.end.angle() - back,
             Self::Linkage(law) => {
                 let x = law.end.at(back).x[0];
-                let beyond = |angle: f64| law.end.at(angle).x[0] - x;
-                root::bracketed(beyond, 0.0, law.end.dead(), 0.0).unwrap_or(0.0)
+                root::bracketed(|angle| law.end.at(angle).x[0] - x, 0.0, law.end.dead(), 0.0).unwrap_or(0.0)
             }
         }
     }

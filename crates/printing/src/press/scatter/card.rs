@@ -1,16 +1,15 @@
 //! The screw table as a card that hangs at the press: the setting for a forme and a speed by the one variable v.
 
 use super::report::ScatterReport;
-use super::tables::SettingRow;
 use crate::press::machine::Press;
 use camgen_cams::report::card::Card;
 use camgen_cams::report::shown;
 
 /// The card of the settings, by the rule of the report.
-pub(super) fn of(press: &Press, machine: &str, report: &ScatterReport<'_>) -> Card {
+pub(super) fn settings_card(press: &Press, machine: &str, report: &ScatterReport<'_>) -> Card {
     let (rpm, settings, useful) = (report.cam_rpm, report.settings, &report.useful);
-    let outside = |v: f64| useful.v_min.is_some_and(|least| v < least) || useful.v_max.is_some_and(|most| v > most);
-    let row = |row: &SettingRow| {
+    let mut rows = Vec::new();
+    for row in settings {
         let cells = vec![
             format!("{:.2}", row.v),
             format!("{:.2}", row.rpm),
@@ -20,11 +19,11 @@ pub(super) fn of(press: &Press, machine: &str, report: &ScatterReport<'_>) -> Ca
             format!("{:.0}", row.residual_n),
             format!("{:.0}", row.fixed_residual_n),
         ];
-        (cells, outside(row.v))
-    };
+        rows.push((cells, useful.excludes(row.v)));
+    }
     let names = ["v", "speed\nrpm", "mass\nkg", "screw\nmm", "column\nmm", "left\nN", "fixed\nN"];
-    let mut foot = vec![sentence(&useful.words())];
-    if settings.iter().any(|row| outside(row.v)) {
+    let mut foot = vec![sentence(&useful.describe())];
+    if settings.iter().any(|row| useful.excludes(row.v)) {
         foot.push("Rows with a mark are at such speeds.".into());
     }
     Card {
@@ -44,7 +43,7 @@ pub(super) fn of(press: &Press, machine: &str, report: &ScatterReport<'_>) -> Ca
                 .into(),
         ],
         heads: names.map(str::to_owned).to_vec(),
-        rows: settings.iter().map(row).collect(),
+        rows,
         foot,
     }
 }

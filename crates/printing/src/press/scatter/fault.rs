@@ -22,7 +22,7 @@ use std::f64::consts::FRAC_PI_2;
 /// Cells of the braking half in which the largest residual force with a phase error is searched.
 const CELLS: u32 = 64;
 
-/// A machine that differs. Ratios are those of the true value to the one that the cam was cut for.
+/// A machine that differs. Ratios are true value / value that the cam was cut for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fault {
     /// M: mass ratio times the square of the speed ratio.
@@ -63,6 +63,11 @@ impl Fault {
     }
 }
 
+/// τ (s/w)^κ: the pressure over the ambient one, on the way in, of air that filled the column with its share s and now has the length w.
+fn compressed(fault: &Fault, s: f64, w: f64) -> f64 {
+    fault.closing * libm::exp(fault.exponent * libm::log(s / w))
+}
+
 /// A buffer whose bottom is where it is, whatever the machine is: that of a cam, or a fixed one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrozenBuffer {
@@ -83,7 +88,7 @@ pub struct FrozenBuffer {
 }
 
 impl FrozenBuffer {
-    /// That of a cam for this law.
+    /// The buffer of a cam for this law.
     #[must_use]
     pub fn of_cam(law: &BottomLaw, cylinder: &Cylinder) -> Self {
         Self {
@@ -97,7 +102,7 @@ impl FrozenBuffer {
         }
     }
 
-    /// That of a cam for the law of any bed.
+    /// The buffer of a cam for the law of any bed.
     #[must_use]
     pub fn of_law(law: &CrankLaw, cylinder: &Cylinder) -> Self {
         match law {
@@ -168,9 +173,9 @@ impl FrozenBuffer {
     /// Pressures in and back over the ambient one, each with its slope by the length w, where the air has the length L (w + t).
     fn ways(&self, air: &LevelAir, fault: &Fault, length: f64) -> [[f64; 2]; 2] {
         let ([s, t], kappa, expansion) = (self.air(fault), fault.exponent, Self::expansion(air, fault));
-        let at = |length: f64| fault.closing * libm::exp(kappa * libm::log(s / (length + t)));
         let (end, length) = (self.end_length() + t, length + t);
-        let (on_way_in, back) = (at(length - t), at(end - t) * libm::exp(expansion * libm::log(end / length)));
+        let on_way_in = compressed(fault, s, length - t + t);
+        let back = compressed(fault, s, end - t + t) * libm::exp(expansion * libm::log(end / length));
         [[on_way_in, -kappa * on_way_in / length], [back, -expansion * back / length]]
     }
 
@@ -194,7 +199,7 @@ impl FrozenBuffer {
                 let [[on_way_in, _], [back, _]] = self.ways(air, fault, length);
                 0.5 * (on_way_in + back)
             }
-            None => fault.closing * libm::exp(fault.exponent * libm::log(s / (length + t))),
+            None => compressed(fault, s, length + t),
         };
         self.unit_force * (fault.square * load - fault.ambient * (pressure - 1.0))
     }
@@ -203,24 +208,27 @@ impl FrozenBuffer {
     /// of the bed (N) both ways.
     #[must_use]
     pub fn largest_at(&self, fault: &Fault, at: &[Station], friction: f64) -> f64 {
+        let mut largest = 0.0_f64;
         if self.level.is_some() {
-            let phase = |station: &Station| (self.unit_force * fault.phase * station.phase - friction).abs();
-            let size = |at: &Station| self.residual(fault, at.load, at.length).abs() + phase(at);
-            return at.iter().map(size).fold(0.0, f64::max);
+            for station in at {
+                let phase = (self.unit_force * fault.phase * station.phase - friction).abs();
+                largest = largest.max(self.residual(fault, station.load, station.length).abs() + phase);
+            }
+            return largest;
         }
         let friction = friction / self.unit_force;
         let [s, t] = self.air(fault);
         let (log_s, weight) = (libm::log(s), fault.ambient * fault.closing);
-        let size = |station: &Station| {
+        for station in at {
             let air = weight * libm::exp(fault.exponent * (log_s - libm::log(station.length + t))) - fault.ambient;
             let (force, phase) = (fault.square * station.load - air, fault.phase * station.phase);
-            match &self.path {
+            largest = largest.max(match &self.path {
                 BedPath::Yoke { .. } => force.abs() + (phase - friction).abs(),
                 BedPath::Linkage(law) if station.angle > law.end.dead() => (force + phase + friction).abs(),
                 BedPath::Linkage(_) => (force + phase - friction).abs(),
-            }
-        };
-        self.unit_force * at.iter().map(size).fold(0.0, f64::max)
+            });
+        }
+        self.unit_force * largest
     }
 
     /// Largest |residual force| over the stroke of a fixed bottom under a yoke, N, without the phase error.
@@ -232,9 +240,8 @@ impl FrozenBuffer {
         let ([s, t], kappa, column) = (self.air(fault), fault.exponent, self.path.loading() * self.column);
         let scale = fault.ambient * fault.closing * kappa / (fault.square * column);
         let top = libm::exp((libm::log(scale) + kappa * libm::log(s)) / (kappa + 1.0)) - t;
-        let left = |load: f64| self.residual(fault, load, 1.0 - load / column).abs();
         let loads = [0.0, (column * (1.0 - top)).clamp(0.0, self.end_load()), self.end_load()];
-        loads.map(left).into_iter().fold(0.0, f64::max)
+        loads.map(|load| self.residual(fault, load, 1.0 - load / column).abs()).into_iter().fold(0.0, f64::max)
     }
 
     /// Refuses a machine whose column is used up.
@@ -255,11 +262,11 @@ impl FrozenBuffer {
     /// # Errors
     /// When the column is used up.
     pub fn extremes(&self, fault: &Fault) -> Result<[Extremum; 2], ScatterError> {
-        let placed = |found: Extremum| Extremum { at: self.path.overrun_of(found.at), ..found };
-        Ok(self.extremes_by_load(fault)?.map(placed))
+        let by_load = self.extremes_by_load(fault)?;
+        Ok(by_load.map(|found| Extremum { at: self.path.overrun_of(found.at), ..found }))
     }
 
-    /// Those with the load u in the place of the overrun.
+    /// As [`Self::extremes`], with the load u instead of the overrun.
     pub(super) fn extremes_by_load(&self, fault: &Fault) -> Result<[Extremum; 2], ScatterError> {
         self.fits(fault)?;
         if self.level.is_some() {
@@ -268,14 +275,18 @@ impl FrozenBuffer {
         let ([s, t], k, kappa) = (self.air(fault), self.exponent, fault.exponent);
         let scale = fault.ambient * fault.closing * kappa / (k * fault.square);
         let level = libm::log(scale) + kappa * libm::log(s);
-        let slope = |w: f64| (kappa + 1.0) * libm::log(w + t) - (k + 1.0) * libm::log(w) - level;
         let end = self.shortest_length();
         let turn = Some((k + 1.0) * t / (kappa - k)).filter(|turn| *turn > end && *turn < 1.0);
         let parts = [Some(end), turn, Some(1.0)];
         let edges: Vec<f64> = parts.into_iter().flatten().collect();
-        let stationary = edges.windows(2).filter_map(|part| match part {
-            [low, high] => root::bracketed(slope, *low, *high, 0.0).ok(),
-            _ => None,
+        let stationary = edges.array_windows().filter_map(|[low, high]| {
+            let found = root::bracketed(
+                |w| (kappa + 1.0) * libm::log(w + t) - (k + 1.0) * libm::log(w) - level,
+                *low,
+                *high,
+                0.0,
+            );
+            found.ok()
         });
         let places = [1.0, end].into_iter().chain(stationary);
         let mut found: Vec<Extremum> = places
@@ -293,14 +304,23 @@ impl FrozenBuffer {
 
     /// Least and largest mean of both ways, by a search over the crank.
     fn extremes_of_mean(&self, fault: &Fault) -> [Extremum; 2] {
-        let of = |sign: f64| {
-            let load = |at: f64| if at == FRAC_PI_2 { self.end_load() } else { self.end_load() * libm::sin(at) };
-            let value = |at: f64| sign * self.residual(fault, load(at), self.length(load(at)));
-            let slope = |at: f64| sign * self.slope(fault, load(at)) * self.end_load() * libm::cos(at);
-            let found = extremum::largest(value, slope, (0.0, FRAC_PI_2), CELLS);
-            Extremum { at: load(found.at), value: sign * found.value }
-        };
-        [of(-1.0), of(1.0)]
+        [-1.0, 1.0].map(|sign| {
+            let found = extremum::largest(
+                |at| {
+                    let load = self.load_of_yoke(at);
+                    sign * self.residual(fault, load, self.length(load))
+                },
+                |at| sign * self.slope(fault, self.load_of_yoke(at)) * self.end_load() * libm::cos(at),
+                (0.0, FRAC_PI_2),
+                CELLS,
+            );
+            Extremum { at: self.load_of_yoke(found.at), value: sign * found.value }
+        })
+    }
+
+    /// u at a crank angle of the way in under a yoke, exact at the dead point.
+    fn load_of_yoke(&self, at: f64) -> f64 {
+        if at == FRAC_PI_2 { self.end_load() } else { self.end_load() * libm::sin(at) }
     }
 
     /// The residual force of a cam of largest size, N, signed, with the overrun x, m, and the phase error in the worse direction.
@@ -313,25 +333,32 @@ impl FrozenBuffer {
             let worst = if -least.value > largest.value { least } else { largest };
             return Ok(Extremum { at: self.path.overrun_of(worst.at), ..worst });
         }
-        let of = |way: f64, sign: f64| {
-            let value = |at: f64| {
-                let (load, phase) = (self.path.load_at(at), way * fault.phase * self.phase_force(at)[0]);
-                sign * (self.residual(fault, load, self.length(load)) + phase)
-            };
-            let slope = |at: f64| {
-                let by_load = self.slope(fault, self.path.load_at(at)) * self.path.load_slope(at);
-                sign * (by_load + way * fault.phase * self.phase_force(at)[1])
-            };
-            let found = extremum::largest(value, slope, (0.0, self.path.reach()), CELLS);
-            Extremum { at: self.path.overrun_at(found.at), value: sign * found.value }
-        };
+        let [above, below] = [1.0, -1.0].map(|sign| self.extreme_with_phase(fault, 1.0, sign));
         if let BedPath::Linkage(_) = self.path {
-            let (above, below) = (of(1.0, 1.0), of(1.0, -1.0));
             return Ok(if above.value > -below.value { above } else { below });
         }
-        let all = [of(1.0, 1.0), of(1.0, -1.0), of(-1.0, 1.0), of(-1.0, -1.0)];
+        let [above_on_return, below_on_return] = [1.0, -1.0].map(|sign| self.extreme_with_phase(fault, -1.0, sign));
+        let all = [above, below, above_on_return, below_on_return];
         let still = Extremum { at: self.path.overrun_of(largest.at), ..largest };
         Ok(all.into_iter().fold(still, |best, next| if next.value.abs() > best.value.abs() { next } else { best }))
+    }
+
+    /// The largest residual force with the phase error for a sign of 1, the least for −1, N, with the overrun x, m; `way` is 1 on the
+    /// way in and −1 back.
+    fn extreme_with_phase(&self, fault: &Fault, way: f64, sign: f64) -> Extremum {
+        let found = extremum::largest(
+            |at| {
+                let (load, phase) = (self.path.load_at(at), way * fault.phase * self.phase_force(at)[0]);
+                sign * (self.residual(fault, load, self.length(load)) + phase)
+            },
+            |at| {
+                let by_load = self.slope(fault, self.path.load_at(at)) * self.path.load_slope(at);
+                sign * (by_load + way * fault.phase * self.phase_force(at)[1])
+            },
+            (0.0, self.path.reach()),
+            CELLS,
+        );
+        Extremum { at: self.path.overrun_at(found.at), value: sign * found.value }
     }
 
     /// dr/du, N.
@@ -341,7 +368,7 @@ impl FrozenBuffer {
             let [[_, on_way_in], [_, back]] = self.ways(air, fault, w);
             return self.unit_force * (fault.square + 0.5 * fault.ambient * (on_way_in + back) * self.fall(load));
         }
-        let pressure = fault.closing * libm::exp(fault.exponent * libm::log(s / (w + t)));
+        let pressure = compressed(fault, s, w + t);
         let fall = self.fall(load);
         self.unit_force * (fault.square - fault.ambient * pressure * fault.exponent * fall / (w + t))
     }
@@ -406,7 +433,7 @@ impl FrozenBuffer {
         Station { angle, load, length: self.length(load), phase: self.phase_force(angle)[0] / self.unit_force }
     }
 
-    /// That of a fixed bottom, w = 1 − x/L.
+    /// A place of the way in, rad of the crank, of a fixed bottom, w = 1 − x/L.
     #[must_use]
     pub fn station_of_fixed_bottom(&self, angle: f64) -> Station {
         let load = self.path.load_at(angle);
@@ -420,12 +447,12 @@ impl FrozenBuffer {
     /// The crank angles of the stations, rad.
     fn angles(&self) -> impl Iterator<Item = f64> {
         let reach = self.path.reach();
-        let between = move |step: u32| if step == STEPS { reach } else { reach * f64::from(step) / f64::from(STEPS) };
+        let evenly = (0..STEPS).map(move |step| reach * f64::from(step) / f64::from(STEPS));
         let turning = match self.path {
             BedPath::Yoke { .. } => None,
             BedPath::Linkage(_) => Some([self.path.dead(), self.path.peak()]),
         };
-        (0..=STEPS).map(between).chain(turning.into_iter().flatten())
+        evenly.chain([reach]).chain(turning.into_iter().flatten())
     }
 
     /// The stations φ = 0, ½ … 90° of a cam.
@@ -434,7 +461,7 @@ impl FrozenBuffer {
         self.angles().map(|angle| self.station_of_cam(angle)).collect()
     }
 
-    /// Those of a fixed bottom.
+    /// The stations of a fixed bottom.
     #[must_use]
     pub fn stations_of_fixed_bottom(&self) -> Vec<Station> {
         self.angles().map(|angle| self.station_of_fixed_bottom(angle)).collect()
@@ -448,11 +475,14 @@ impl FrozenBuffer {
         if let BedPath::Linkage(_) = self.path {
             return self.largest_phase_force_of_linkage();
         }
-        let of = |sign: f64| {
-            let value = |at: f64| sign * self.phase_force(at)[0];
-            extremum::largest(value, |at| sign * self.phase_force(at)[1], (0.0, self.path.reach()), CELLS)
-        };
-        let (with, against) = (of(1.0), of(-1.0));
+        let [with, against] = [1.0, -1.0].map(|sign| {
+            extremum::largest(
+                |at| sign * self.phase_force(at)[0],
+                |at| sign * self.phase_force(at)[1],
+                (0.0, self.path.reach()),
+                CELLS,
+            )
+        });
         if with.value > against.value { with } else { against }
     }
 

@@ -112,7 +112,7 @@ impl LossyReversal {
     /// # Errors
     /// When the air would give work, the column is used up, or the train gives way faster than the bed comes.
     pub fn new(cam: &FrozenBuffer, fault: &Fault, losses: &Losses) -> Result<Self, ScatterError> {
-        Self::of(cam, false, fault, losses)
+        Self::solve(cam, false, fault, losses)
     }
 
     /// The same press with fixed bottoms, their column by (7): no train gives way and nothing has play.
@@ -122,10 +122,10 @@ impl LossyReversal {
     pub fn with_fixed_bottom(&self) -> Result<Self, ScatterError> {
         let losses = Losses { train_stiffness: None, is_compensated: false, play: 0.0, ..self.losses };
         let fault = Fault { phase: 0.0, lead: 0.0, column: 0.0, ..self.fault };
-        Self::of(&self.cam.with_fixed_bottom(), true, &fault, &losses)
+        Self::solve(&self.cam.with_fixed_bottom(), true, &fault, &losses)
     }
 
-    fn of(cam: &FrozenBuffer, fixed: bool, fault: &Fault, losses: &Losses) -> Result<Self, ScatterError> {
+    fn solve(cam: &FrozenBuffer, fixed: bool, fault: &Fault, losses: &Losses) -> Result<Self, ScatterError> {
         cam.fits(fault)?;
         if let Some(expansion) = losses.expansion_exponent.filter(|expansion| *expansion < fault.exponent) {
             return Err(ScatterError::ExpansionBelowCompression { expansion, compression: fault.exponent });
@@ -156,10 +156,10 @@ impl LossyReversal {
     /// the bed is decelerated most, which under a linkage is elsewhere and may be twice.
     fn turns(&self) -> Vec<(f64, f64)> {
         let path = &self.cam.path;
-        let at = |cell: u32| path.whole() * f64::from(cell) / f64::from(2 * CELLS);
         let turning: Vec<f64> = match path {
             BedPath::Linkage(_) if !self.fixed => (1..2 * CELLS)
-                .map(|cell| (at(cell - 1), at(cell)))
+                .map(|cell| (cell - 1, cell))
+                .map(|(low, high)| (self.cell_edge(low), self.cell_edge(high)))
                 .filter(|(low, high)| (path.load_slope(*low) > 0.0) != (path.load_slope(*high) > 0.0))
                 .filter_map(|(low, high)| root::bracketed(|at| path.load_slope(at), low, high, 0.0).ok())
                 .collect(),
@@ -167,6 +167,11 @@ impl LossyReversal {
         };
         let edges: Vec<f64> = std::iter::once(0.0).chain(turning).chain([path.whole()]).collect();
         edges.windows(2).filter_map(|pair| Some((*pair.first()?, *pair.get(1)?))).collect()
+    }
+
+    /// Crank angle at which a cell of the search ends, rad.
+    fn cell_edge(&self, cell: u32) -> f64 {
+        self.cam.path.whole() * f64::from(cell) / f64::from(2 * CELLS)
     }
 
     /// The stretch of a crank angle.
@@ -291,7 +296,7 @@ impl LossyReversal {
         self.residual_at(way, if way == BedWay::In { braking } else { self.cam.path.returning(braking) })
     }
 
-    /// That at a crank angle of the way itself.
+    /// Residual force at a crank angle of the way itself, N.
     fn residual_at(&self, way: BedWay, angle: f64) -> f64 {
         let sign = if way == BedWay::In { 1.0 } else { -1.0 };
         let (cam, fault, losses) = (&self.cam, &self.fault, &self.losses);
@@ -314,11 +319,10 @@ impl LossyReversal {
 
     /// The value of a force of largest size over a way by its crank angle, N, signed, and the overrun, m.
     fn largest(&self, range: (f64, f64), force: impl Fn(f64) -> f64) -> Extremum {
-        let of = |sign: f64| {
+        let [above, below] = [1.0, -1.0].map(|sign| {
             let found = extremum::largest_without_slope(|at| sign * force(at), range, CELLS, extremum::TO_ROUNDING);
             Extremum { at: self.cam.path.overrun_at(found.at), value: sign * found.value }
-        };
-        let (above, below) = (of(1.0), of(-1.0));
+        });
         if above.value.abs() >= below.value.abs() { above } else { below }
     }
 
@@ -347,22 +351,29 @@ impl LossyReversal {
     #[must_use]
     pub fn work_lost(&self) -> f64 {
         let cam = &self.cam;
-        let power = |stroke: &AirStroke, angle: f64| {
-            let fall =
-                if self.fixed { 1.0 / (cam.path.loading() * cam.column) } else { cam.fall(cam.path.load_at(angle)) };
-            (self.pressure_of(stroke, angle, self.air_in(stroke, angle)) - 1.0) * fall * cam.path.load_slope(angle)
-        };
-        let of = |stroke: &AirStroke| {
-            let (start, step) = stroke.steps();
-            let weight = |index: u32| match index {
+        let lost: f64 = self.strokes.iter().map(|stroke| self.work_over(stroke)).sum();
+        (self.fault.ambient * cam.unit_force * cam.column * lost).max(0.0)
+    }
+
+    /// ∫ (P̂ − 1)(−dw) over a stretch.
+    fn work_over(&self, stroke: &AirStroke) -> f64 {
+        let (start, step) = stroke.steps();
+        let weighted = (0..=STEPS).map(|index| {
+            let weight = match index {
                 0 | STEPS => 1.0,
                 index if index % 2 == 1 => 4.0,
                 _ => 2.0,
             };
-            let at = |index: u32| start + step * f64::from(index);
-            (0..=STEPS).map(|index| weight(index) * power(stroke, at(index))).sum::<f64>() * step / 3.0
-        };
-        let lost: f64 = self.strokes.iter().map(of).sum();
-        (self.fault.ambient * cam.unit_force * cam.column * lost).max(0.0)
+            weight * self.power_in(stroke, start + step * f64::from(index))
+        });
+        weighted.sum::<f64>() * step / 3.0
+    }
+
+    /// −(P̂ − 1) dw/dφ.
+    fn power_in(&self, stroke: &AirStroke, angle: f64) -> f64 {
+        let cam = &self.cam;
+        let fall =
+            if self.fixed { 1.0 / (cam.path.loading() * cam.column) } else { cam.fall(cam.path.load_at(angle)) };
+        (self.pressure_of(stroke, angle, self.air_in(stroke, angle)) - 1.0) * fall * cam.path.load_slope(angle)
     }
 }

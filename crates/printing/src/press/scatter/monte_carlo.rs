@@ -42,8 +42,8 @@ impl Distribution {
 
     /// Its variance over the square of the half width; that of `air_lost` is of the size of the deviation.
     #[must_use]
-    pub fn variance(self, of: Parameter) -> f64 {
-        match (self, of) {
+    pub fn variance(self, parameter: Parameter) -> f64 {
+        match (self, parameter) {
             (Self::Uniform, Parameter::AirLost) => 1.0 / 12.0,
             (Self::Uniform, _) => 1.0 / 3.0,
             (Self::Triangular, Parameter::AirLost) => 1.0 / 18.0,
@@ -212,21 +212,21 @@ impl<'a> Rivals<'a> {
 /// When a press cannot be: its column is used up, or no column balances its end.
 pub fn draw(cam: &FrozenBuffer, sampling: &Sampling, friction: f64) -> Result<Samples, ScatterError> {
     let rivals = Rivals::new(cam, sampling, friction);
-    let one = |sample: &u32| -> Result<[f64; 3], ScatterError> {
+    let all = parallel::map(&rivals.samples(), |sample| -> Result<[f64; 3], ScatterError> {
         let [built, reset, fixed] = rivals.presses(*sample)?.map(|(body, fault)| body.largest(&fault));
         Ok([built?, reset?, fixed?])
-    };
-    let all: Vec<[f64; 3]> = parallel::map(&rivals.samples(), one).into_iter().collect::<Result<_, _>>()?;
-    let sorted = |of: fn(&[f64; 3]) -> f64| {
-        let mut sizes: Vec<f64> = all.iter().map(of).collect();
+    });
+    let mut samples = Samples::default();
+    for sizes in all {
+        let [built, reset, fixed] = sizes?;
+        samples.as_built.push(built);
+        samples.reset.push(reset);
+        samples.fixed.push(fixed);
+    }
+    for sizes in [&mut samples.as_built, &mut samples.reset, &mut samples.fixed] {
         sizes.sort_by(f64::total_cmp);
-        sizes
-    };
-    Ok(Samples {
-        as_built: sorted(|[built, ..]| *built),
-        reset: sorted(|[_, reset, _]| *reset),
-        fixed: sorted(|[.., fixed]| *fixed),
-    })
+    }
+    Ok(samples)
 }
 
 /// P95 of the largest residual forces of the sampled presses, N.
@@ -257,22 +257,19 @@ pub fn left_in_practice(
     if !has_percentile(samples.len(), SHARE) {
         return Ok(None);
     }
-    let one = |sample: &u32| -> Result<[f64; 3], ScatterError> {
+    let all = parallel::map(&samples, |sample| -> Result<[f64; 3], ScatterError> {
         let [built, reset, fixed] = rivals.presses(*sample)?.map(|(body, fault)| body.bound(&fault));
         Ok([built?, reset?, fixed?])
-    };
-    let bounds: Vec<[f64; 3]> = parallel::map(&samples, one).into_iter().collect::<Result<_, _>>()?;
-    let of = |index: usize, bound: fn(&[f64; 3]) -> f64| {
-        let largest = |sample: &u32| match rivals.presses(*sample)?.get(index) {
-            Some((body, fault)) => body.largest(fault),
-            None => Ok(f64::NAN),
-        };
-        ranked(&bounds.iter().map(bound).collect::<Vec<_>>(), largest)
-    };
+    });
+    let mut bounds = [Vec::new(), Vec::new(), Vec::new()];
+    for sizes in all {
+        bounds.iter_mut().zip(sizes?).for_each(|(list, bound)| list.push(bound));
+    }
+    let [built, reset, fixed] = bounds;
     Ok(Some(LeftInPractice {
-        as_built: of(0, |[built, ..]| *built)?,
-        reset: of(1, |[_, reset, _]| *reset)?,
-        fixed: of(2, |[.., fixed]| *fixed)?,
+        as_built: ranked(&built, |sample| rivals.presses(*sample).and_then(|[(body, fault), ..]| body.largest(&fault)))?,
+        reset: ranked(&reset, |sample| rivals.presses(*sample).and_then(|[_, (body, fault), _]| body.largest(&fault)))?,
+        fixed: ranked(&fixed, |sample| rivals.presses(*sample).and_then(|[.., (body, fault)]| body.largest(&fault)))?,
     }))
 }
 
@@ -280,13 +277,12 @@ pub fn left_in_practice(
 fn ranked(bounds: &[f64], size: impl Fn(&u32) -> Result<f64, ScatterError> + Sync) -> Result<f64, ScatterError> {
     let count = bounds.len() + 1 - rank(bounds.len(), SHARE);
     let mut order: Vec<(f64, u32)> = bounds.iter().copied().zip(0..).collect();
-    let falling = |a: &(f64, u32), b: &(f64, u32)| b.0.total_cmp(&a.0);
     let (mut largest, mut rest): (Vec<f64>, &mut [(f64, u32)]) = (Vec::new(), &mut order);
     // The first chunk fills the ranks; behind it most bounds are below the `count`th largest size so far, which can only grow.
     let mut chunk = count;
     while !rest.is_empty() {
         let at = chunk.min(rest.len()) - 1;
-        rest.select_nth_unstable_by(at, falling);
+        rest.select_nth_unstable_by(at, |a, b| b.0.total_cmp(&a.0));
         let (next, after) = rest.split_at_mut(at + 1);
         let least = largest.get(count - 1).copied().unwrap_or(f64::NEG_INFINITY);
         let next: Vec<u32> = next.iter().filter(|(bound, _)| *bound >= least).map(|(_, sample)| *sample).collect();
@@ -335,7 +331,8 @@ pub fn percentile(sorted: &[f64], q: f64) -> Option<[f64; 3]> {
     let count = sorted.len() as f64;
     let spread = 1.96 * libm::sqrt(count * q * (1.0 - q));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the ranks")]
-    let at = |rank: f64| sorted.get((rank.clamp(1.0, count) as usize).checked_sub(1)?).copied();
-    let middle = sorted.get(rank(sorted.len(), q).checked_sub(1)?).copied();
-    Some([middle?, at((q * count - spread).floor())?, at((q * count + spread).ceil())?])
+    let [low, high] = [(q * count - spread).floor(), (q * count + spread).ceil()]
+        .map(|rank| rank.clamp(1.0, count) as usize);
+    let [middle, low, high] = [rank(sorted.len(), q), low, high].map(|rank| sorted.get(rank.checked_sub(1)?).copied());
+    Some([middle?, low?, high?])
 }

@@ -19,9 +19,9 @@ pub fn inverse(share: f64) -> f64 {
 /// Numerator and denominator, the highest power first.
 type Rational = [[f64; 8]; 2];
 
-fn ratio([above, below]: &Rational, r: f64) -> f64 {
-    let sum = |coefficients: &[f64; 8]| coefficients.iter().fold(0.0, |sum, coefficient| sum * r + coefficient);
-    sum(above) / sum(below)
+fn ratio(rational: &Rational, r: f64) -> f64 {
+    let [above, below] = rational.map(|coefficients| coefficients.iter().fold(0.0, |sum, c| sum * r + c));
+    above / below
 }
 
 const CENTRE: Rational = [

@@ -8,7 +8,7 @@ use super::fault::{FrozenBuffer, Station};
 use super::monte_carlo::{self, Sampling};
 use super::parameter::{HalfWidths, Parameter};
 use super::propagation::{self, Corners};
-use super::section::Percentiles;
+use super::section::{Percentiles, whole_newtons};
 use crate::press::buffer::Cylinder;
 use crate::press::buffer::crank_law::CrankLaw;
 use crate::press::machine::{PressCams, Shift};
@@ -55,50 +55,58 @@ fn without(half_widths: &HalfWidths, parameters: &[Parameter]) -> HalfWidths {
     left
 }
 
-/// The section of a conoid with the laws of its sections at their speeds, rpm; `None` where a band reaches a press that cannot be.
+/// The law of a conoid's section at its speed.
+#[derive(Debug, Clone, Copy)]
+pub struct LawAtSpeed {
+    /// Of the main shaft, rpm.
+    pub rpm: f64,
+    /// The law of the bottom.
+    pub law: CrankLaw,
+}
+
+/// The section of a conoid with the laws of its sections; `None` where a band reaches a press that cannot be.
 #[must_use]
-pub fn of_conoid(cams: &PressCams, cylinder: &Cylinder, shift: Shift, laws: &[(f64, CrankLaw)]) -> Option<Section> {
+pub fn of_conoid(cams: &PressCams, cylinder: &Cylinder, shift: Shift, laws: &[LawAtSpeed]) -> Option<Section> {
     let followed = followed(shift);
     let sampling = Sampling { half_widths: without(&cams.scatter.half_widths, followed), ..cams.scatter };
-    let at = |(rpm, law): &(f64, CrankLaw)| {
+    let mut speeds = Vec::new();
+    for LawAtSpeed { rpm, law } in laws {
         let cam = FrozenBuffer::of_law(law, cylinder);
         let bands = bands_of(&cam, &sampling, false).ok()?;
         let left = monte_carlo::left_in_practice(&cam, &sampling, cams.losses.bed_friction).ok().flatten();
-        Some(SpeedScatter {
+        speeds.push(SpeedScatter {
             rpm: *rpm,
             worst_weak_n: bands.worst_weak_n,
             worst_strong_n: bands.worst_strong_n,
             linear_bound_n: bands.linear_bound_n,
             sigma_n: bands.sigma_n,
             left: left.into(),
-        })
-    };
-    let mut speeds: Vec<SpeedScatter> = laws.iter().map(at).collect::<Option<_>>()?;
+        });
+    }
     // A conoid for one speed has two sections of it.
     speeds.dedup_by(|next, before| next.rpm == before.rpm);
     let followed = followed.iter().map(|parameter| parameter.name()).collect();
     let values = ConoidScatter { followed, reset: sampling.rule.word(), speeds };
-    let words = values.words();
+    let words = values.describe();
     Some(Section::new("scatter", &values).with_words(words))
 }
 
 impl ConoidScatter {
-    fn words(&self) -> Vec<String> {
-        let rounded = |force: f64| shown(force.round());
-        let of = |at: &SpeedScatter| {
+    fn describe(&self) -> Vec<String> {
+        let names = self.followed.join(", ").replace('_', " ");
+        let mut lines = vec![format!(
+            "presses that differ from the machine file at the speeds of the sections; the shift follows {names}"
+        )];
+        lines.extend(self.speeds.iter().map(|at| {
             format!(
                 "{:>6} rpm  all bands at once leave {} to {} N{}",
                 shown(at.rpm),
-                rounded(at.worst_strong_n),
-                rounded(at.worst_weak_n),
-                at.left.words(self.reset)
+                whole_newtons(at.worst_strong_n),
+                whole_newtons(at.worst_weak_n),
+                at.left.describe(self.reset)
             )
-        };
-        let names = self.followed.join(", ").replace('_', " ");
-        let head = format!(
-            "presses that differ from the machine file at the speeds of the sections; the shift follows {names}"
-        );
-        std::iter::once(head).chain(self.speeds.iter().map(of)).collect()
+        }));
+        lines
     }
 }
 
@@ -184,7 +192,7 @@ impl FrozenPlate<'_> {
     }
 
     fn of_way(&self, way: usize, name: &'static str) -> WayScatter {
-        let corners = Corners::of(&self.buffer, &self.half_widths);
+        let corners = Corners::new(&self.buffer, &self.half_widths);
         let none = super::fault::Fault::none(self.buffer.exponent);
         let mut found = WayScatter {
             way: name,
@@ -233,25 +241,24 @@ pub fn of_plate(
         ways: vec![plate.of_way(0, "in"), plate.of_way(1, "back")],
         p95_fixed_bottom_n: monte_carlo::left_in_practice(&buffer, sampling, 0.0).ok().flatten().map(|left| left.fixed),
     };
-    let words = values.words();
+    let words = values.describe();
     Some(Section::new("scatter", &values).with_words(words))
 }
 
 impl PlateScatter {
-    fn words(&self) -> Vec<String> {
-        let rounded = |force: f64| shown(force.round());
-        let of = |way: &WayScatter| {
+    fn describe(&self) -> Vec<String> {
+        let ways = self.ways.iter().map(|way| {
             format!(
                 "{}: presses that differ leave {} to {} N, {} N where nothing differs; P95 about {} N as built, {} N with the screw reset",
                 if way.way == "in" { "while braking" } else { "on the return" },
-                rounded(way.worst_strong_n),
-                rounded(way.worst_weak_n),
-                rounded(way.residual_n),
-                rounded(way.p95_as_built_n),
-                rounded(way.p95_reset_n)
+                whole_newtons(way.worst_strong_n),
+                whole_newtons(way.worst_weak_n),
+                whole_newtons(way.residual_n),
+                whole_newtons(way.p95_as_built_n),
+                whole_newtons(way.p95_reset_n)
             )
-        };
-        let fixed = |force: f64| format!("P95 of a fixed bottom without friction {} N", rounded(force));
-        self.ways.iter().map(of).chain(self.p95_fixed_bottom_n.map(fixed)).collect()
+        });
+        let fixed = self.p95_fixed_bottom_n.map(whole_newtons);
+        ways.chain(fixed.map(|force| format!("P95 of a fixed bottom without friction {force} N"))).collect()
     }
 }

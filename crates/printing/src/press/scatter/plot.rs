@@ -17,19 +17,24 @@ fn curve(name: &str, colour: usize, bold: bool, points: Vec<[f64; 2]>) -> PlotCu
 }
 
 /// The plot: effects of the half widths over the overrun, distributions with their P95, and the settings.
-pub(super) fn of(
+pub(super) fn plot(
     machine: &str,
     rpm: f64,
-    (places, settings, samples): (&[PlaceRow], &[SettingRow], &Samples),
+    places: &[PlaceRow],
+    settings: &[SettingRow],
+    samples: &Samples,
     percentiles: &[PercentileRow],
     rule: ScrewRule,
 ) -> Plot {
-    let braking = || places.iter().filter(|place| !place.back);
-    let effect = |(index, parameter): (usize, Parameter)| {
-        let points = braking().map(|place| [MILLIMETRES * place.x, place.effects.get(index).copied().unwrap_or(0.0)]);
-        curve(&parameter.name().replace('_', " "), index, true, points.collect())
-    };
-    let effects = Parameter::ALL.into_iter().enumerate().filter(|(_, parameter)| *parameter != Parameter::Screw);
+    let mut effects = Vec::new();
+    for (index, parameter) in Parameter::ALL.into_iter().enumerate() {
+        if parameter == Parameter::Screw {
+            continue;
+        }
+        let braking = places.iter().filter(|place| !place.back);
+        let points = braking.map(|place| [MILLIMETRES * place.x, place.effects.get(index).copied().unwrap_or(0.0)]);
+        effects.push(curve(&parameter.name().replace('_', " "), index, true, points.collect()));
+    }
     let mut own = Vec::new();
     if !samples.as_built.is_empty() {
         own.push(("largest residual force of a press, N".to_owned(), distributions(samples, percentiles)));
@@ -41,7 +46,7 @@ pub(super) fn of(
         places: "overrun x of the bed, mm".into(),
         panels: vec![PlotPanel {
             name: "Residual force of the half width of each parameter, N".into(),
-            curves: effects.map(effect).collect(),
+            curves: effects,
         }],
         own,
         scheme: None,
@@ -57,9 +62,11 @@ fn distributions(samples: &Samples, percentiles: &[PercentileRow]) -> PlotPanel 
             continue;
         }
         #[expect(clippy::cast_precision_loss, reason = "a few hundred points")]
-        let share = |step: usize| step as f64 / POINTS as f64;
-        let at = |step: usize| sorted.get(step * (sorted.len() - 1) / POINTS).copied();
-        let points = (0..=POINTS).filter_map(|step| Some([at(step)?, 100.0 * share(step)])).collect();
+        let points = (0..=POINTS).filter_map(|step| {
+            let size = sorted.get(step * (sorted.len() - 1) / POINTS)?;
+            Some([*size, 100.0 * (step as f64 / POINTS as f64)])
+        });
+        let points = points.collect();
         curves.push(curve(name, colour, true, points));
     }
     for row in percentiles.iter().filter(|row| row.percentile == 95.0) {
@@ -73,26 +80,28 @@ fn distributions(samples: &Samples, percentiles: &[PercentileRow]) -> PlotPanel 
     PlotPanel { name: "Share of the presses that leave less, %; marks: P95".into(), curves }
 }
 
-/// What both leave over the variable.
+fn over_variable(settings: &[SettingRow], value: fn(&SettingRow) -> f64) -> Vec<[f64; 2]> {
+    settings.iter().map(|row| [row.v, value(row)]).collect()
+}
+
+/// Residual forces of both over the variable.
 fn residuals(settings: &[SettingRow], rule: ScrewRule) -> PlotPanel {
-    let of = |value: fn(&SettingRow) -> f64| settings.iter().map(|row| [row.v, value(row)]).collect();
     PlotPanel {
         name: format!("Residual force, reset of the screw: {}, N", rule.word()),
         curves: vec![
-            curve("cam", 0, true, of(|row| row.residual_n)),
-            curve("fixed bottom", plot::GREY, false, of(|row| row.fixed_residual_n)),
+            curve("cam", 0, true, over_variable(settings, |row| row.residual_n)),
+            curve("fixed bottom", plot::GREY, false, over_variable(settings, |row| row.fixed_residual_n)),
         ],
     }
 }
 
 /// The columns of both over the variable.
 fn columns(settings: &[SettingRow]) -> PlotPanel {
-    let of = |value: fn(&SettingRow) -> f64| settings.iter().map(|row| [row.v, value(row)]).collect();
     PlotPanel {
         name: "Air column, mm".into(),
         curves: vec![
-            curve("cam", 0, true, of(|row| row.column_mm)),
-            curve("fixed bottom", plot::GREY, false, of(|row| row.fixed_column_mm)),
+            curve("cam", 0, true, over_variable(settings, |row| row.column_mm)),
+            curve("fixed bottom", plot::GREY, false, over_variable(settings, |row| row.fixed_column_mm)),
         ],
     }
 }

@@ -23,24 +23,30 @@ pub struct Corners {
 impl Corners {
     /// The corners of the bands of a cam, without the error of the screw, which acts after a reset only.
     #[must_use]
-    pub fn of(cam: &FrozenBuffer, half_widths: &HalfWidths) -> Self {
-        let corner = |sign: f64| {
-            let none = Fault::none(cam.exponent);
-            Parameter::ALL.into_iter().zip(half_widths).fold(none, |fault, (parameter, half_width)| match parameter {
-                Parameter::Mass | Parameter::Speed | Parameter::Column => parameter.changed(fault, sign * half_width),
-                Parameter::AirLost if sign < 0.0 => fault,
-                Parameter::AirLost => parameter.changed(fault, *half_width),
-                Parameter::Phase | Parameter::Screw => fault,
-                _ => parameter.changed(fault, -sign * half_width),
-            })
-        };
-        let phase = Parameter::ALL.into_iter().zip(half_widths).find(|(parameter, _)| *parameter == Parameter::Phase);
-        Self { weak: corner(1.0), strong: corner(-1.0), phase: phase.map_or(0.0, |(_, half_width)| *half_width) }
+    pub fn new(cam: &FrozenBuffer, half_widths: &HalfWidths) -> Self {
+        let none = Fault::none(cam.exponent);
+        let mut corners = Self { weak: none, strong: none, phase: 0.0 };
+        for (parameter, half_width) in Parameter::ALL.into_iter().zip(half_widths) {
+            match parameter {
+                Parameter::Mass | Parameter::Speed | Parameter::Column => {
+                    corners.weak = parameter.changed(corners.weak, *half_width);
+                    corners.strong = parameter.changed(corners.strong, -half_width);
+                }
+                Parameter::AirLost => corners.weak = parameter.changed(corners.weak, *half_width),
+                Parameter::Phase => corners.phase = *half_width,
+                Parameter::Screw => {}
+                _ => {
+                    corners.weak = parameter.changed(corners.weak, -half_width);
+                    corners.strong = parameter.changed(corners.strong, *half_width);
+                }
+            }
+        }
+        corners
     }
 
     /// Least and largest residual force at a crank angle, N.
     #[must_use]
-    pub fn at(&self, cam: &FrozenBuffer, angle: f64) -> [f64; 2] {
+    pub fn extremes_at(&self, cam: &FrozenBuffer, angle: f64) -> [f64; 2] {
         let load = cam.path.load_at(angle);
         let (length, phase) = (cam.length(load), (self.phase * cam.phase_force(angle)[0]).abs());
         [cam.residual(&self.strong, load, length) - phase, cam.residual(&self.weak, load, length) + phase]
@@ -54,17 +60,21 @@ impl Corners {
         if let BedPath::Linkage(_) = cam.path {
             return self.worst_of_linkage(cam);
         }
-        let phase = |at: f64| {
-            let angle = if at >= cam.path.stroke() { FRAC_PI_2 } else { libm::asin(at / cam.path.stroke()) };
-            // At the end of the stroke the bed stands still, and the phase does not matter.
-            if angle == FRAC_PI_2 { 0.0 } else { (self.phase * cam.phase_force(angle)[0]).abs() }
-        };
         let ([strong, _], [_, weak]) = (cam.extremes(&self.strong)?, cam.extremes(&self.weak)?);
-        let with = |found: Extremum, sign: f64| Extremum { value: found.value + sign * phase(found.at), ..found };
-        Ok([with(strong, -1.0), with(weak, 1.0)])
+        Ok([
+            Extremum { value: strong.value - self.phase_at_overrun(cam, strong.at), ..strong },
+            Extremum { value: weak.value + self.phase_at_overrun(cam, weak.at), ..weak },
+        ])
     }
 
-    /// Those at the stations: of one load a linkage has two places, where the phase counts differently.
+    /// Largest force of the phase error at an overrun x, m, under a yoke, N.
+    fn phase_at_overrun(&self, cam: &FrozenBuffer, x: f64) -> f64 {
+        let angle = if x >= cam.path.stroke() { FRAC_PI_2 } else { libm::asin(x / cam.path.stroke()) };
+        // At the end of the stroke the bed stands still, and the phase does not matter.
+        if angle == FRAC_PI_2 { 0.0 } else { (self.phase * cam.phase_force(angle)[0]).abs() }
+    }
+
+    /// As [`Self::worst`] at the stations: of one load a linkage has two places, where the phase counts differently.
     fn worst_of_linkage(&self, cam: &FrozenBuffer) -> Result<[Extremum; 2], ScatterError> {
         cam.fits(&self.strong)?;
         cam.fits(&self.weak)?;
@@ -104,29 +114,43 @@ pub struct ParameterBand {
 /// Both directions of a deviation are looked at; a difference below this share is rounding.
 const ALIKE: f64 = 1e-9;
 
-/// What a press leaves as built, and with the screw set by some rules: ΔL and the force.
-type LeftBy = (Extremum, Vec<(f64, Extremum)>);
-
-fn left_by(cam: &FrozenBuffer, fault: &Fault, screw: f64, rules: &[ScrewRule]) -> Result<LeftBy, ScatterError> {
-    let after = |rule: &ScrewRule| -> Result<(f64, Extremum), ScatterError> {
-        let column = cam.setting(fault, *rule)? + screw;
-        Ok((column, cam.worst(&fault.with_column(column))?))
-    };
-    Ok((cam.worst(fault)?, rules.iter().map(after).collect::<Result<_, _>>()?))
+/// The residual forces of a press.
+struct PressResiduals {
+    as_built: Extremum,
+    /// ΔL, m, and the force after a reset by each of some rules.
+    reset: Vec<(f64, Extremum)>,
 }
 
-/// What a phase error leaves whose largest force for a radian is known; no screw changes it.
-fn left_by_phase(cam: &FrozenBuffer, found: Extremum, half_width: f64, rules: &[ScrewRule]) -> LeftBy {
-    let left = Extremum { at: cam.path.overrun_at(found.at), value: half_width * found.value };
-    (left, rules.iter().map(|_| (0.0, left)).collect())
-}
+impl PressResiduals {
+    /// Of a press with this error of the screw, m.
+    fn new(cam: &FrozenBuffer, fault: &Fault, screw: f64, rules: &[ScrewRule]) -> Result<Self, ScatterError> {
+        let as_built = cam.worst(fault)?;
+        let mut reset = Vec::with_capacity(rules.len());
+        for rule in rules {
+            let column = cam.setting(fault, *rule)? + screw;
+            reset.push((column, cam.worst(&fault.with_column(column))?));
+        }
+        Ok(Self { as_built, reset })
+    }
 
-/// In the direction that leaves more as built, or, where both leave alike, after the end setting.
-fn worse(left: LeftBy, other: LeftBy) -> LeftBy {
-    let end = |of: &LeftBy| of.1.first().map_or(0.0, |(_, end)| end.value.abs());
-    let (built, of_other) = (left.0.value.abs(), other.0.value.abs());
-    let alike = (of_other - built).abs() <= ALIKE * built;
-    if of_other > built * (1.0 + ALIKE) || (alike && end(&other) > end(&left) * (1.0 + ALIKE)) { other } else { left }
+    /// Of a phase error, rad, by the largest force of a radian; no screw changes it.
+    fn of_phase(cam: &FrozenBuffer, largest: Extremum, phase: f64, rules: &[ScrewRule]) -> Self {
+        let as_built = Extremum { at: cam.path.overrun_at(largest.at), value: phase * largest.value };
+        Self { as_built, reset: rules.iter().map(|_| (0.0, as_built)).collect() }
+    }
+
+    /// The force after the end setting, N.
+    fn after_end_setting(&self) -> f64 {
+        self.reset.first().map_or(0.0, |(_, end)| end.value.abs())
+    }
+
+    /// The one with the larger force as built or, if these are alike, after the end setting.
+    fn or_worse(self, other: Self) -> Self {
+        let (built, of_other) = (self.as_built.value.abs(), other.as_built.value.abs());
+        let alike = (of_other - built).abs() <= ALIKE * built;
+        let worse_reset = other.after_end_setting() > self.after_end_setting() * (1.0 + ALIKE);
+        if of_other > built * (1.0 + ALIKE) || (alike && worse_reset) { other } else { self }
+    }
 }
 
 /// What the bands leave, each alone, in its worse direction: as built, after the end setting, and after the level one where that is asked for.
@@ -141,31 +165,40 @@ pub fn bands(
 ) -> Result<Vec<ParameterBand>, ScatterError> {
     let (total, ahead) = (variance(cam, half_widths, distribution), cam.largest_phase_force());
     let rules = if levelled { &[ScrewRule::End, ScrewRule::Level][..] } else { &[ScrewRule::End] };
-    let one = |(parameter, half_width): (Parameter, &f64)| -> Result<ParameterBand, ScatterError> {
-        let at = |sign: f64| {
-            let fault = parameter.changed(Fault::none(cam.exponent), sign * half_width);
-            left_by(cam, &fault, if parameter == Parameter::Screw { sign * half_width } else { 0.0 }, rules)
-        };
-        let (residual, after) = match parameter {
-            Parameter::Phase => left_by_phase(cam, ahead, *half_width, rules),
-            Parameter::AirLost => at(1.0)?,
-            _ => worse(at(1.0)?, at(-1.0)?),
+    let mut bands = Vec::with_capacity(half_widths.len());
+    for (parameter, half_width) in Parameter::ALL.into_iter().zip(half_widths.iter().copied()) {
+        let found = match parameter {
+            Parameter::Phase => PressResiduals::of_phase(cam, ahead, half_width, rules),
+            Parameter::AirLost => with_deviation(cam, parameter, half_width, rules)?,
+            _ => with_deviation(cam, parameter, half_width, rules)?
+                .or_worse(with_deviation(cam, parameter, -half_width, rules)?),
         };
         // A screw that is not touched has no error.
         let none = Extremum { at: 0.0, value: 0.0 };
-        let own = variance_of(cam, (parameter, *half_width), distribution);
-        Ok(ParameterBand {
+        let own = variance_of(cam, parameter, half_width, distribution);
+        bands.push(ParameterBand {
             parameter,
-            half_width: *half_width,
+            half_width,
             sensitivity: half_width
                 * if parameter == Parameter::Phase { ahead.value } else { sensitivity(cam, parameter) },
-            residual: if parameter == Parameter::Screw { none } else { residual },
-            end: after.first().copied().unwrap_or((0.0, none)),
-            level: after.get(1).copied(),
+            residual: if parameter == Parameter::Screw { none } else { found.as_built },
+            end: found.reset.first().copied().unwrap_or((0.0, none)),
+            level: found.reset.get(1).copied(),
             share_of_variance: if total > 0.0 { own / total } else { 0.0 },
-        })
-    };
-    Parameter::ALL.into_iter().zip(half_widths).map(one).collect()
+        });
+    }
+    Ok(bands)
+}
+
+/// A press in which one parameter deviates.
+fn with_deviation(
+    cam: &FrozenBuffer,
+    parameter: Parameter,
+    deviation: f64,
+    rules: &[ScrewRule],
+) -> Result<PressResiduals, ScatterError> {
+    let fault = parameter.changed(Fault::none(cam.exponent), deviation);
+    PressResiduals::new(cam, &fault, if parameter == Parameter::Screw { deviation } else { 0.0 }, rules)
 }
 
 /// S, N for one of a parameter in SI: its largest effect over the stroke, which is that at the largest load but for the phase.
@@ -178,7 +211,7 @@ pub fn sensitivity(cam: &FrozenBuffer, parameter: Parameter) -> f64 {
 }
 
 /// Variance at the largest load as built of one band, N², to first order. The phase and the error of the screw have none.
-fn variance_of(cam: &FrozenBuffer, (parameter, half_width): (Parameter, f64), distribution: Distribution) -> f64 {
+fn variance_of(cam: &FrozenBuffer, parameter: Parameter, half_width: f64, distribution: Distribution) -> f64 {
     if matches!(parameter, Parameter::Phase | Parameter::Screw) {
         return 0.0;
     }
@@ -190,7 +223,7 @@ fn variance_of(cam: &FrozenBuffer, (parameter, half_width): (Parameter, f64), di
 #[must_use]
 pub fn variance(cam: &FrozenBuffer, half_widths: &HalfWidths, distribution: Distribution) -> f64 {
     let all = Parameter::ALL.into_iter().zip(half_widths.iter().copied());
-    all.map(|band| variance_of(cam, band, distribution)).sum()
+    all.map(|(parameter, half_width)| variance_of(cam, parameter, half_width, distribution)).sum()
 }
 
 /// Σ h S over what acts at the end of the stroke as built, N: a bound of the residual force to first order.

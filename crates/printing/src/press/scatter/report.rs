@@ -2,6 +2,7 @@
 
 use super::propagation::ParameterBand;
 use super::reset::ScrewRule;
+use super::settings::VariableRange;
 use super::tables::{ParameterRow, PercentileRow, SettingRow};
 use crate::press::report::CylinderMeasures;
 use camgen_cams::report::{Section, shown};
@@ -38,7 +39,7 @@ pub struct FaultReport {
     pub residual_with_port_n: f64,
 }
 
-/// What a reversal with losses leaves.
+/// Residual forces of a reversal with losses, and where they are largest.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it, with their units")]
 pub struct LossReport {
@@ -76,7 +77,7 @@ impl LossReport {
 
     /// The values in words.
     #[must_use]
-    pub fn words(&self) -> Vec<String> {
+    pub fn describe(&self) -> Vec<String> {
         let fixed = self.residual_in_fixed_bottom_n.zip(self.residual_back_fixed_bottom_n).map(|(on_way_in, back)| {
             format!("a fixed bottom with these losses: {} N on the way in, {} N back", shown(on_way_in), shown(back))
         });
@@ -118,17 +119,23 @@ pub struct UsefulRange {
 impl UsefulRange {
     /// For the bounds of v of a cam that is cut for a speed, rpm.
     #[must_use]
-    pub fn new([least, most]: [Option<f64>; 2], rpm: f64, rule: ScrewRule) -> Self {
-        let speed = |variable: f64| rpm * libm::sqrt(variable);
-        Self { reset: rule.word(), v_min: least, rpm_min: least.map(speed), v_max: most, rpm_max: most.map(speed) }
+    pub fn new(range: VariableRange, rpm: f64, rule: ScrewRule) -> Self {
+        let [rpm_min, rpm_max] = [range.least, range.most].map(|v| v.map(|v| rpm * libm::sqrt(v)));
+        Self { reset: rule.word(), v_min: range.least, rpm_min, v_max: range.most, rpm_max }
+    }
+
+    /// Whether v is outside the range.
+    pub(super) fn excludes(&self, v: f64) -> bool {
+        self.v_min.is_some_and(|least| v < least) || self.v_max.is_some_and(|most| v > most)
     }
 
     /// A sentence.
     #[must_use]
-    pub fn words(&self) -> String {
-        let at = |v: Option<f64>, rpm: Option<f64>| v.zip(rpm).map(|(v, rpm)| format!("v = {v:.2} ({rpm:.1} rpm)"));
+    pub fn describe(&self) -> String {
+        let bounds = [self.v_min.zip(self.rpm_min), self.v_max.zip(self.rpm_max)];
+        let [least, most] = bounds.map(|bound| bound.map(|(v, rpm)| format!("v = {v:.2} ({rpm:.1} rpm)")));
         let rule = format!("than the cam, the screws of both reset by the rule {}", self.reset);
-        match (at(self.v_min, self.rpm_min), at(self.v_max, self.rpm_max)) {
+        match (least, most) {
             (Some(least), Some(most)) => {
                 format!("below {least} and above {most} a fixed bottom has less residual force {rule}")
             }
@@ -139,7 +146,7 @@ impl UsefulRange {
     }
 }
 
-/// What the bands of all parameters leave together.
+/// Residual force with all parameters varying: each alone, the worst cases, the deviation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it, with their units")]
 pub struct BandsReport {
@@ -158,14 +165,16 @@ impl BandsReport {
     #[must_use]
     pub fn ranked(&self) -> Vec<&ParameterRow> {
         let mut ranked: Vec<&ParameterRow> = self.parameters.iter().collect();
-        let size = |row: &ParameterRow| row.residual_n.abs().max(row.residual_end_n.abs() * 1e-9);
-        ranked.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        ranked.sort_by(|a, b| {
+            let [a, b] = [a, b].map(|row| row.residual_n.abs().max(row.residual_end_n.abs() * 1e-9));
+            b.total_cmp(&a)
+        });
         ranked
     }
 
     /// The parameters in words, that which leaves most as built first.
     #[must_use]
-    pub fn words(&self) -> Vec<String> {
+    pub fn describe(&self) -> Vec<String> {
         let mut lines = vec![format!(
             "{:<20} {:>10} {:>11} {:>10} {:>10} {:>10} {:>10}",
             "band of", "half width", "as built/N", "screw/mm", "then/N", "level/N", "variance/%"
@@ -233,11 +242,11 @@ impl ScatterReport<'_> {
             self.cylinders.bore_words(),
             shown(self.residual_fixed_bottom_max_n)
         )];
-        words.extend(self.fault.iter().flat_map(FaultReport::words));
-        words.extend(self.losses.iter().flat_map(LossReport::words));
-        words.extend(self.bands.words());
+        words.extend(self.fault.iter().flat_map(FaultReport::describe));
+        words.extend(self.losses.iter().flat_map(LossReport::describe));
+        words.extend(self.bands.describe());
         words.extend(self.drawn());
-        words.push(self.useful.words());
+        words.push(self.useful.describe());
         words.push(format!("settings by the rule {}:", self.reset));
         words.push(format!(
             "{:>6} {:>9} {:>10} {:>12} {:>12} {:>9} {:>11} {:>9}",
@@ -261,31 +270,30 @@ impl ScatterReport<'_> {
 
     /// The percentiles in words.
     fn drawn(&self) -> Vec<String> {
-        let of = |row: &PercentileRow| {
+        if self.percentiles.is_empty() {
+            return Vec::new();
+        }
+        let mut lines = vec![format!("{} presses drawn, {}, seed {}", self.samples, self.distribution, self.seed)];
+        for row in self.percentiles {
             let body = row.body.replace('-', " ");
             let state = match row.reset {
                 "none" => "as built".to_owned(),
                 rule => format!("reset to {rule}"),
             };
-            format!(
+            lines.push(format!(
                 "P{:.0} of a {body}, {state}: {} N ({} to {})",
                 row.percentile,
                 shown(row.residual_n),
                 shown(row.low_n),
                 shown(row.high_n)
-            )
-        };
-        let head = format!("{} presses drawn, {}, seed {}", self.samples, self.distribution, self.seed);
-        if self.percentiles.is_empty() {
-            Vec::new()
-        } else {
-            std::iter::once(head).chain(self.percentiles.iter().map(of)).collect()
+            ));
         }
+        lines
     }
 }
 
 impl FaultReport {
-    fn words(&self) -> Vec<String> {
+    fn describe(&self) -> Vec<String> {
         vec![
             format!(
                 "this machine leaves {} N at x = {} mm, {} N at the end of the stroke; v = {}",

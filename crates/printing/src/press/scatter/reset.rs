@@ -53,14 +53,10 @@ impl FrozenBuffer {
     /// When no column balances the end.
     pub fn level_reset(&self, fault: &Fault) -> Result<f64, ScatterError> {
         let end = self.end_reset(fault)?;
-        let both = |column: f64| {
-            let both = self.extremes_by_load(&fault.with_column(column));
-            both.map_or(f64::NAN, |[least, largest]| least.value + largest.value)
-        };
         // Under a linkage the air may be shorter elsewhere than at the dead point, and used up there: then a longer column is the first to be tried.
-        let longer = |doublings: u32| end + (self.column + end) * (libm::exp2(f64::from(doublings) / 16.0) - 1.0);
-        let all = (0..=16 * DOUBLINGS).map(longer);
-        let start = all.into_iter().find(|column| self.fits(&fault.with_column(*column)).is_ok()).unwrap_or(end);
+        let mut longer = (0..=16 * DOUBLINGS)
+            .map(|doublings| end + (self.column + end) * (libm::exp2(f64::from(doublings) / 16.0) - 1.0));
+        let start = longer.find(|column| self.fits(&fault.with_column(*column)).is_ok()).unwrap_or(end);
         let (end, ends) = (start, start == end);
         let [least, largest] = self.extremes_by_load(&fault.with_column(end))?;
         let start = if least.value.abs() > largest.value.abs() { least.at } else { largest.at };
@@ -70,25 +66,36 @@ impl FrozenBuffer {
         }
         // The air at the end of the stroke is multiplied, so that it never is used up.
         let left = self.shortest_length() + (end - fault.lead) / self.column;
-        let column = |doublings: u32| {
+        let mut columns = (1..=16 * DOUBLINGS).map(|doublings| {
             let share = libm::exp2(f64::from(doublings) / 16.0 * if sum > 0.0 { -1.0 } else { 1.0 });
             end + self.column * left * (share - 1.0)
-        };
-        let beyond = (1..=16 * DOUBLINGS).map(column).find(|column| {
-            let value = both(*column);
+        });
+        let beyond = columns.find(|column| {
+            let value = self.sum_of_extremes(&fault.with_column(*column));
             value.is_nan() || (value > 0.0) != (sum > 0.0)
         });
-        let level = beyond.and_then(|beyond| root::bracketed(both, end, beyond, 0.0).ok()).unwrap_or(end);
+        let level = beyond.and_then(|beyond| {
+            root::bracketed(|column| self.sum_of_extremes(&fault.with_column(column)), end, beyond, 0.0).ok()
+        });
+        let level = level.unwrap_or(end);
         // A port that shuts late leaves a force at the start that the screw hardly moves: then the end setting may leave less.
-        let left = |column: f64| {
-            let set = fault.with_column(column);
-            let worst = match fault.phase {
-                0.0 => self.extremes_by_load(&set).map(|[least, largest]| largest.value.max(-least.value)),
-                _ => self.worst(&set).map(|worst| worst.value.abs()),
-            };
-            worst.unwrap_or(f64::INFINITY)
+        let [with_end, with_level] = [end, level].map(|column| self.largest_residual(&fault.with_column(column)));
+        Ok(if with_end <= with_level { end } else { level })
+    }
+
+    /// Sum of the least and the largest residual force, N; NaN if the column is used up.
+    fn sum_of_extremes(&self, fault: &Fault) -> f64 {
+        let extremes = self.extremes_by_load(fault);
+        extremes.map_or(f64::NAN, |[least, largest]| least.value + largest.value)
+    }
+
+    /// Largest size of the residual force, N; infinite if the column is used up.
+    fn largest_residual(&self, fault: &Fault) -> f64 {
+        let worst = match fault.phase {
+            0.0 => self.extremes_by_load(fault).map(|[least, largest]| largest.value.max(-least.value)),
+            _ => self.worst(fault).map(|worst| worst.value.abs()),
         };
-        Ok(if left(end) <= left(level) { end } else { level })
+        worst.unwrap_or(f64::INFINITY)
     }
 
     /// The setting of the screw by a rule, m; that of the fault where it stays.
@@ -103,7 +110,7 @@ impl FrozenBuffer {
         }
     }
 
-    /// ΔL and Δe, m, that leave nothing at both ends of the braking half: the screw, and the place of the port.
+    /// ΔL and Δe, m, that leave no residual force at both ends of the braking half: the screw, and the position of the port.
     ///
     /// # Errors
     /// When no column balances the end.
@@ -111,26 +118,29 @@ impl FrozenBuffer {
         if self.level.is_some() {
             return self.reset_of_levelled(fault);
         }
-        let power = |ratio: f64| libm::exp(libm::log(ratio) / fault.exponent);
-        let rise = power(1.0 + fault.variable() * self.end_load());
+        let [rise, closing] = [1.0 + fault.variable() * self.end_load(), fault.closing]
+            .map(|ratio| libm::exp(libm::log(ratio) / fault.exponent));
         if !(rise > 1.0) {
             return Err(ScatterError::NoColumn { share: 1.0, needed: rise });
         }
         let share = rise * (1.0 - self.end_length()) / (rise - 1.0);
-        let longer = self.column * (share / (fault.air * power(fault.closing)) - 1.0);
+        let longer = self.column * (share / (fault.air * closing) - 1.0);
         Ok([longer, longer - self.column * (share - 1.0)])
     }
 
-    /// Those of a cam that levels both ways, whose port shuts before the reversal: the end setting for each place of the port, and that place
+    /// As [`Self::reset_of_column_and_port`] for a cam that levels both ways, whose port shuts before the reversal: the end setting for each place of the port, and that place
     /// by the force at the start.
     fn reset_of_levelled(&self, fault: &Fault) -> Result<[f64; 2], ScatterError> {
-        let column = |lead: f64| self.end_reset(&Fault { lead, ..*fault });
-        let start = |lead: f64| {
-            let set = column(lead).map(|column| Fault { column, lead, ..*fault });
-            set.map_or(f64::NAN, |set| self.residual(&set, 0.0, self.length(0.0)))
-        };
         let reach = PORT * self.column;
-        let lead = root::bracketed(start, -reach, reach, 0.0).unwrap_or(fault.lead);
-        Ok([column(lead)?, lead])
+        let lead = root::bracketed(|lead| self.residual_at_start(fault, lead), -reach, reach, 0.0);
+        let lead = lead.unwrap_or(fault.lead);
+        Ok([self.end_reset(&Fault { lead, ..*fault })?, lead])
+    }
+
+    /// The force at the start of the reversal after the end setting for a lead, m, of the port, N; NaN if no column balances the end.
+    fn residual_at_start(&self, fault: &Fault, lead: f64) -> f64 {
+        let moved = Fault { lead, ..*fault };
+        let column = self.end_reset(&moved);
+        column.map_or(f64::NAN, |column| self.residual(&moved.with_column(column), 0.0, self.length(0.0)))
     }
 }

@@ -3,7 +3,7 @@
 use super::analysis::{bands_of, cam_of};
 use super::monte_carlo::{self, LeftInPractice};
 use super::report::{BandsReport, UsefulRange};
-use super::settings;
+use super::settings::{self, VariableRange};
 use crate::press::machine::PressCams;
 use camgen_cams::machine::Machine;
 use camgen_cams::report::{Section, shown};
@@ -46,19 +46,23 @@ impl From<Option<LeftInPractice>> for Percentiles {
     }
 }
 
+/// A force in whole newtons.
+pub(super) fn whole_newtons(force: f64) -> String {
+    shown(force.round())
+}
+
 impl Percentiles {
     /// The words after the bounds of all bands; empty if no press was sampled.
-    pub(super) fn words(&self, rule: &str) -> String {
+    pub(super) fn describe(&self, rule: &str) -> String {
         let (Some(built), Some(reset), Some(fixed)) = (self.p95_as_built_n, self.p95_reset_n, self.p95_fixed_bottom_n)
         else {
             return String::new();
         };
-        let rounded = |force: f64| shown(force.round());
         let reset = match rule {
             "none" => String::new(),
-            rule => format!(", {} N with the screw reset ({rule})", rounded(reset)),
+            rule => format!(", {} N with the screw reset ({rule})", whole_newtons(reset)),
         };
-        format!("; P95 {} N as built{reset}, {} N with a fixed bottom", rounded(built), rounded(fixed))
+        format!("; P95 {} N as built{reset}, {} N with a fixed bottom", whole_newtons(built), whole_newtons(fixed))
     }
 }
 
@@ -67,7 +71,7 @@ impl Percentiles {
 #[must_use]
 pub fn of_cam(machine: &Machine, rpm: f64) -> Option<Section> {
     let values = values(machine, rpm).ok()?;
-    let words = values.words();
+    let words = values.describe();
     Some(Section::new("scatter", &values).with_words(words))
 }
 
@@ -79,33 +83,31 @@ fn values(machine: &Machine, rpm: f64) -> Result<CamScatter, Refusal> {
         bands: bands_of(&cam, sampling, false)?,
         reset: sampling.rule.word(),
         left: monte_carlo::left_in_practice(&cam, sampling, losses.bed_friction).ok().flatten().into(),
-        useful: UsefulRange::new([least, None], rpm, sampling.rule),
+        useful: UsefulRange::new(VariableRange { least, most: None }, rpm, sampling.rule),
     })
 }
 
 impl CamScatter {
-    fn words(&self) -> Vec<String> {
+    fn describe(&self) -> Vec<String> {
         let ranked = self.bands.ranked();
         let named = ranked.iter().take(NAMED).map(|row| {
             format!(
                 "a band of {} of {} leaves {} N, {} N with the screw reset to the end",
                 row.half_width_words(),
                 row.parameter.replace('_', " "),
-                shown(row.residual_n.abs().round()),
-                shown(row.residual_end_n.abs().round())
+                whole_newtons(row.residual_n.abs()),
+                whole_newtons(row.residual_end_n.abs())
             )
         });
-        let named: Vec<String> = named.collect();
-        let rounded = |force: f64| shown(force.round());
         let together = [
             format!(
                 "all bands at once leave {} to {} N{}",
-                rounded(self.bands.worst_strong_n),
-                rounded(self.bands.worst_weak_n),
-                self.left.words(self.reset)
+                whole_newtons(self.bands.worst_strong_n),
+                whole_newtons(self.bands.worst_weak_n),
+                self.left.describe(self.reset)
             ),
-            format!("{}; `camgen scatter` reports the rest", self.useful.words()),
+            format!("{}; `camgen scatter` reports the rest", self.useful.describe()),
         ];
-        named.into_iter().chain(together).collect()
+        named.chain(together).collect()
     }
 }

@@ -32,7 +32,7 @@ const REACH: i32 = 200;
 const STEP: f64 = 1.25;
 const STEPS: i32 = 20;
 
-/// A fixed bottom in the place of a cam.
+/// A fixed bottom instead of a cam.
 #[derive(Debug, Clone)]
 pub struct FixedBottom<'a> {
     cam: &'a FrozenBuffer,
@@ -41,18 +41,17 @@ pub struct FixedBottom<'a> {
 }
 
 impl<'a> FixedBottom<'a> {
-    /// In the place of this cam.
+    /// Instead of this cam.
     #[must_use]
     pub fn new(cam: &'a FrozenBuffer) -> Self {
         let path = &cam.path;
-        let at = |place: u32| {
-            let angle = path.whole() * f64::from(place) / f64::from(PLACES);
-            [path.overrun_at(angle), path.load_at(angle)]
-        };
-        let bed = match path {
-            BedPath::Yoke { .. } => Vec::new(),
-            BedPath::Linkage(_) => (0..=PLACES).map(at).collect(),
-        };
+        let mut bed = Vec::new();
+        if let BedPath::Linkage(_) = path {
+            for place in 0..=PLACES {
+                let angle = path.whole() * f64::from(place) / f64::from(PLACES);
+                bed.push([path.overrun_at(angle), path.load_at(angle)]);
+            }
+        }
         Self { cam, bed }
     }
 
@@ -65,38 +64,43 @@ impl<'a> FixedBottom<'a> {
         }
     }
 
-    /// Those over the places of the reversal.
+    /// Least and largest residual force over the reversal of a linkage, N.
     fn searched(&self, column: f64, variable: f64) -> [Extremum; 2] {
         let k = self.cam.exponent;
-        let left = |[x, load]: &[f64; 2]| variable * load - libm::expm1(-k * libm::log1p(-x / column));
-        let values: Vec<f64> = self.bed.iter().map(left).collect();
-        let extreme = |sign: f64| {
-            let beyond =
-                |best: (usize, f64), next: (usize, f64)| if sign * next.1 > sign * best.1 { next } else { best };
-            let (index, value) = values.iter().copied().enumerate().fold((0, 0.0), beyond);
-            let around = index.checked_sub(1).and_then(|before| values.get(before..=index + 1));
-            let value = match around {
-                Some(&[before, at, after]) if (before - 2.0 * at + after) != 0.0 => {
-                    let slope = 0.5 * (after - before);
-                    at - 0.5 * slope * slope / (before - 2.0 * at + after)
+        let forces = self.bed.iter().map(|[x, load]| variable * load - libm::expm1(-k * libm::log1p(-x / column)));
+        let forces: Vec<f64> = forces.collect();
+        [-1.0, 1.0].map(|sign| {
+            let (mut index, mut value) = (0, 0.0);
+            for (next, force) in forces.iter().enumerate() {
+                if sign * force > sign * value {
+                    (index, value) = (next, *force);
                 }
-                _ => value,
-            };
+            }
+            // The top of the parabola through the three places about it.
+            let around = index.checked_sub(1).and_then(|before| forces.get(before..=index + 1));
+            if let Some(&[before, at, after]) = around
+                && (before - 2.0 * at + after) != 0.0
+            {
+                let slope = 0.5 * (after - before);
+                value = at - 0.5 * slope * slope / (before - 2.0 * at + after);
+            }
             Extremum { at: self.bed.get(index).map_or(0.0, |[x, _]| *x), value: self.cam.unit_force * value }
-        };
-        [extreme(-1.0), extreme(1.0)]
+        })
     }
 
     /// The column by a rule at v, m: by (7) at v = 1 without a reset, by (7) at v, or the one with the least residual force.
     #[must_use]
     pub fn column(&self, variable: f64, rule: ScrewRule) -> f64 {
-        let by_end =
-            |variable: f64| column_for(self.cam.path.stroke(), variable * self.cam.end_load(), self.cam.exponent);
         match rule {
-            ScrewRule::None => by_end(1.0),
-            ScrewRule::End => by_end(variable),
+            ScrewRule::None => self.column_by_end(1.0),
+            ScrewRule::End => self.column_by_end(variable),
             ScrewRule::Level => self.level(variable),
         }
+    }
+
+    /// The column by (7) at v, m.
+    fn column_by_end(&self, variable: f64) -> f64 {
+        column_for(self.cam.path.stroke(), variable * self.cam.end_load(), self.cam.exponent)
     }
 
     /// Largest |residual force| of a column (m) at v, N.
@@ -108,15 +112,24 @@ impl<'a> FixedBottom<'a> {
 
     /// The column with the least residual force at v, m.
     fn level(&self, variable: f64) -> f64 {
-        let beyond = |octave: f64| self.cam.path.stroke() * (1.0 + libm::exp2(octave));
-        let sum = |octave: f64| {
-            let [least, largest] = self.extremes(beyond(octave), variable);
-            least.value + largest.value
-        };
         // A short column stops the bed early, a long one hardly brakes it.
-        let low = (1..REACH).map(|octave| f64::from(-octave)).find(|octave| sum(*octave) < 0.0).unwrap_or(-1.0);
-        let high = (1..REACH).map(f64::from).find(|octave| sum(*octave) > 0.0).unwrap_or(1.0);
-        beyond(root::bracketed(sum, low, high, 0.0).unwrap_or(0.0))
+        let mut shorter = (1..REACH).map(|octave| f64::from(-octave));
+        let low = shorter.find(|octave| self.sum_at(*octave, variable) < 0.0).unwrap_or(-1.0);
+        let mut longer = (1..REACH).map(f64::from);
+        let high = longer.find(|octave| self.sum_at(*octave, variable) > 0.0).unwrap_or(1.0);
+        let octave = root::bracketed(|octave| self.sum_at(octave, variable), low, high, 0.0);
+        self.column_beyond(octave.unwrap_or(0.0))
+    }
+
+    /// A column that leaves 2^octave strokes of air at the end of the stroke, m.
+    fn column_beyond(&self, octave: f64) -> f64 {
+        self.cam.path.stroke() * (1.0 + libm::exp2(octave))
+    }
+
+    /// Sum of the least and the largest residual force of that column, N.
+    fn sum_at(&self, octave: f64, variable: f64) -> f64 {
+        let [least, largest] = self.extremes(self.column_beyond(octave), variable);
+        least.value + largest.value
     }
 
     /// The settings of cam and fixed bottom by a rule at v.
@@ -150,8 +163,8 @@ impl<'a> FixedBottom<'a> {
             let outside = libm::pow(STEP, side * f64::from(step));
             // A press without air cannot run: there the comparison gives no bound.
             if self.more(outside, rule).ok()? > 0.0 {
-                let more = |v: f64| self.more(v, rule).unwrap_or(f64::NAN);
-                return root::bracketed(more, inside, outside, tolerance).ok();
+                let found = root::bracketed(|v| self.more(v, rule).unwrap_or(f64::NAN), inside, outside, tolerance);
+                return found.ok();
             }
             inside = outside;
         }
@@ -164,15 +177,29 @@ impl<'a> FixedBottom<'a> {
 #[must_use]
 pub fn extremes_of_fixed(cam: &FrozenBuffer, column: f64, variable: f64) -> [Extremum; 2] {
     let (k, load) = (cam.exponent, variable * cam.path.loading());
-    let residual = |x: f64| load * x - libm::expm1(-k * libm::log1p(-x / column));
     let still = libm::exp((libm::log(k / load) + k * libm::log(column)) / (k + 1.0));
     let place = (column - still).clamp(0.0, cam.path.stroke());
-    let still = Extremum { at: 0.0, value: 0.0 };
-    let found = [place, cam.path.stroke()].map(|at| Extremum { at, value: cam.unit_force * residual(at) });
-    let pick = |beyond: fn(f64, f64) -> bool| {
-        found.into_iter().fold(still, |best, next| if beyond(next.value, best.value) { next } else { best })
-    };
-    [pick(|next, best| next < best), pick(|next, best| next > best)]
+    let mut least = Extremum { at: 0.0, value: 0.0 };
+    let mut largest = least;
+    for x in [place, cam.path.stroke()] {
+        let value = cam.unit_force * (load * x - libm::expm1(-k * libm::log1p(-x / column)));
+        if value < least.value {
+            least = Extremum { at: x, value };
+        }
+        if value > largest.value {
+            largest = Extremum { at: x, value };
+        }
+    }
+    [least, largest]
+}
+
+/// A range of v; `None` for a side without a bound.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VariableRange {
+    /// Least v.
+    pub least: Option<f64>,
+    /// Largest v.
+    pub most: Option<f64>,
 }
 
 /// The least v, to a tolerance, at which the cam has less residual force than a fixed bottom, each reset by the rule; `None` if at every v.
@@ -181,8 +208,9 @@ pub fn least_useful(cam: &FrozenBuffer, rule: ScrewRule, tolerance: f64) -> Opti
     FixedBottom::new(cam).bound(-1.0, rule, tolerance)
 }
 
-/// The range of v in which the cam has less residual force than a fixed bottom, each reset by the rule; `None` for a side without a bound.
+/// The range of v in which the cam has less residual force than a fixed bottom, each reset by the rule.
 #[must_use]
-pub fn useful(cam: &FrozenBuffer, rule: ScrewRule) -> [Option<f64>; 2] {
-    [-1.0, 1.0].map(|side| FixedBottom::new(cam).bound(side, rule, 0.0))
+pub fn useful(cam: &FrozenBuffer, rule: ScrewRule) -> VariableRange {
+    let fixed = FixedBottom::new(cam);
+    VariableRange { least: fixed.bound(-1.0, rule, 0.0), most: fixed.bound(1.0, rule, 0.0) }
 }

@@ -266,30 +266,32 @@ const CURVES: &[ListedColumn<PlaceRow>] = &[
 /// The places of the whole reversal, every half degree of the crank.
 #[must_use]
 pub fn places(cam: &FrozenBuffer, reversal: &LossyReversal, half_widths: &HalfWidths) -> Vec<PlaceRow> {
-    let corners = Corners::of(cam, half_widths);
-    let at = |step: u32| {
+    let corners = Corners::new(cam, half_widths);
+    let mut rows = Vec::new();
+    for step in 0..=2 * STEPS {
         let angle = 0.5 * cam.path.whole() * f64::from(step) / f64::from(STEPS);
         let back = angle > cam.path.dead();
         let (braking, way) = match cam.path {
             BedPath::Yoke { .. } if back => (PI - angle, -1.0),
             _ => (angle, 1.0),
         };
-        let [strong, weak] = corners.at(cam, braking);
+        let [strong, weak] = corners.extremes_at(cam, braking);
         let [mean, half_loop] = reversal.mean_and_half_loop(if back { cam.path.outgoing(angle) } else { angle });
         let mut effects = [0.0; Parameter::ALL.len()];
         for ((effect, parameter), half_width) in effects.iter_mut().zip(Parameter::ALL).zip(half_widths) {
             let sign = if parameter == Parameter::Phase { way } else { 1.0 };
             *effect = sign * half_width * parameter.first_order(cam, braking);
         }
-        PlaceRow { angle, back, x: cam.path.overrun_at(braking), mean, half_loop, weak, strong, effects }
-    };
-    (0..=2 * STEPS).map(at).collect()
+        let x = cam.path.overrun_at(braking);
+        rows.push(PlaceRow { angle, back, x, mean, half_loop, weak, strong, effects });
+    }
+    rows
 }
 
 /// The table of the places, in the order of the crank.
 #[must_use]
 pub fn of_places(rows: &[PlaceRow]) -> Listing {
-    let way = |row: &PlaceRow| if row.back { "back" } else { "in" }.to_owned();
-    let more_words = vec![WordColumn { name: "way", before: "mean_n", words: rows.iter().map(way).collect() }];
+    let ways = rows.iter().map(|row| if row.back { "back" } else { "in" }.to_owned()).collect();
+    let more_words = vec![WordColumn { name: "way", before: "mean_n", words: ways }];
     ("-curves", Table { more_words, ..Table::listed(CURVES, rows) })
 }

@@ -38,8 +38,9 @@ impl Wedge {
     /// Least air: as [`ForceBalanced::least_air`](crate::press::load::Balanced::least_air). Before the reversal x comes from below 0.
     pub(super) fn air(&self) -> Worst {
         let column = self.mechanism().bottom_law.column();
-        let used = |piece: usize, x: f64| x + self.motion.bottom(piece, x).s - column;
-        let least = extremes::largest_of_motion(&self.motion, (&self.acting(), 0.0), used);
+        let least = extremes::largest_of_motion(&self.motion, (&self.acting(), 0.0), |piece, x| {
+            x + self.motion.bottom(piece, x).s - column
+        });
         Worst { value: -least.value, at: least.at, z: 0.0 }
     }
 
@@ -62,7 +63,9 @@ impl Wedge {
     pub(super) fn scatter(&self) -> Option<Section> {
         let law = self.mechanism().bottom_law.by_crank();
         let motion = self.motion.motion();
-        let station = |step: u32| {
+        let mut stations = Vec::new();
+        // At the very start there is no force, and its share of friction has no value.
+        for step in 1..=STEPS {
             let angle = 0.5 * law.angle() * f64::from(step) / f64::from(STEPS);
             let [x, deceleration] = law.bed(angle);
             let x = if step == STEPS { law.stroke() } else { x };
@@ -71,10 +74,8 @@ impl Wedge {
             let air = libm::expm1(-law.exponent() * libm::log(length));
             let factors = [BedDirection::Braking, BedDirection::Return]
                 .map(|way| (load - self.mechanism().residual(x, bottom, slope, way)) / air);
-            PlateStation { at: Station { angle, load, length, phase: 0.0 }, factors }
-        };
-        // At the very start there is no force, and its share of friction has no value.
-        let stations: Vec<PlateStation> = (1..=STEPS).map(station).collect();
+            stations.push(PlateStation { at: Station { angle, load, length, phase: 0.0 }, factors });
+        }
         of_plate(&PressCams::of(&self.machine).scatter, &self.cylinder, law, &stations)
     }
 
@@ -83,23 +84,20 @@ impl Wedge {
     pub(super) fn worth_while(&self) -> Vec<String> {
         let data = self.data;
         let Some(way) = self.other_direction() else { return Vec::new() };
-        let limit = self.residual_fixed_bottom();
-        let with = |change: &dyn Fn(&mut Mechanism)| {
-            let mut mechanism = *self.mechanism();
-            change(&mut mechanism);
-            self.left_by(&mechanism, &[way]).is_some_and(|left| left < limit)
-        };
-        let degrees = |steps: f64| (steps * ANGLE_STEP * 1e6).round() / 1e6;
-        let friction = |steps: f64| with(&|mechanism| mechanism.friction_angle = degrees(steps).to_radians());
-        let efficiency = |steps: f64| with(&|mechanism| mechanism.efficiency = steps / EFFICIENCY_STEPS);
-        let arm =
-            |steps: f64| with(&|mechanism| mechanism.arm_ratio = data.bottom_arm / (1e-3 * (steps * ARM_STEP_MM)));
-        let angle = first_passing(0.0, (data.friction_angle.to_degrees() / ANGLE_STEP).ceil(), friction);
-        let share = first_passing(EFFICIENCY_STEPS, (data.efficiency * EFFICIENCY_STEPS).floor(), efficiency);
+        let own = *self.mechanism();
+        let angle = first_passing(0.0, (data.friction_angle.to_degrees() / ANGLE_STEP).ceil(), |steps| {
+            self.beats_fixed_bottom(&Mechanism { friction_angle: in_degrees(steps).to_radians(), ..own }, way)
+        });
+        let share = first_passing(EFFICIENCY_STEPS, (data.efficiency * EFFICIENCY_STEPS).floor(), |steps| {
+            self.beats_fixed_bottom(&Mechanism { efficiency: steps / EFFICIENCY_STEPS, ..own }, way)
+        });
         let from = (1e3 * data.roller_arm / ARM_STEP_MM).floor();
-        let longer = first_passing((LONGEST_ARM * from).ceil(), from, arm);
+        let longer = first_passing((LONGEST_ARM * from).ceil(), from, |steps| {
+            let arm_ratio = data.bottom_arm / (1e-3 * (steps * ARM_STEP_MM));
+            self.beats_fixed_bottom(&Mechanism { arm_ratio, ..own }, way)
+        });
         let remedies = [
-            angle.map(|steps| format!("translating.friction_angle = \"{} deg\"", degrees(steps))),
+            angle.map(|steps| format!("translating.friction_angle = \"{} deg\"", in_degrees(steps))),
             share.map(|steps| format!("translating.efficiency = {}", steps / EFFICIENCY_STEPS)),
             longer.map(|steps| format!("translating.roller_arm = \"{} mm\"", steps * ARM_STEP_MM)),
         ];
@@ -107,7 +105,17 @@ impl Wedge {
     }
 }
 
+/// Steps of the friction angle in degrees.
+fn in_degrees(steps: f64) -> f64 {
+    (steps * ANGLE_STEP * 1e6).round() / 1e6
+}
+
 impl Wedge {
+    /// Whether another mechanism leaves less than a fixed bottom in a direction.
+    fn beats_fixed_bottom(&self, mechanism: &Mechanism, way: BedDirection) -> bool {
+        self.left_by(mechanism, &[way]).is_some_and(|left| left < self.residual_fixed_bottom())
+    }
+
     /// The largest residual force of another mechanism in these directions, N; `None` where (18) has no solution. The law alone is solved: the
     /// outline does not change what it leaves.
     fn left_by(&self, mechanism: &Mechanism, ways: &[BedDirection]) -> Option<f64> {
@@ -115,11 +123,14 @@ impl Wedge {
         let motion =
             WedgeMotion::new(*mechanism, self.solver, self.machine.transition(), self.data.roller_radius).ok()?;
         let negligible = ROUNDING_OF_BALANCE * self.inertia_max();
-        let left = |way: &BedDirection| {
-            let left = |piece: usize, x: f64| unit * motion.residual(piece, x, *way);
-            extremes::largest_size_of_motion(&motion, (&self.acting(), negligible), left).value
-        };
-        Some(ways.iter().map(left).fold(0.0, f64::max))
+        let mut largest = 0.0_f64;
+        for way in ways {
+            let left = extremes::largest_size_of_motion(&motion, (&self.acting(), negligible), |piece, x| {
+                unit * motion.residual(piece, x, *way)
+            });
+            largest = largest.max(left.value);
+        }
+        Some(largest)
     }
 
     /// A longer air column that leaves less in both directions: the shortest that is useful, else the best one that fits the press.

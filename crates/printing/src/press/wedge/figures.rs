@@ -2,9 +2,9 @@
 
 use super::Wedge;
 use crate::press::load::{Balance, ForceBalanced, RunUp};
-use crate::press::motion::equation_18::{BedDirection, ExactOn};
+use crate::press::motion::equation_18::ExactOn;
 use camgen_cams::body::{Figures, LoadAsCut, stress};
-use camgen_kernel::profile::{Contact, Worst};
+use camgen_kernel::profile::Worst;
 use nalgebra::Vector2;
 
 impl Figures for Wedge {
@@ -29,8 +29,12 @@ impl Figures for Wedge {
     }
 
     fn contact_stress(&self) -> Option<Worst> {
-        let force = |(piece, x): (usize, f64), _: &Contact| Some(self.normal_force(piece, x));
-        stress::largest(&force, (self.curves(), &self.acting()), &self.machine, None)
+        stress::largest(
+            &|(piece, x), _| Some(self.normal_force(piece, x)),
+            (self.curves(), &self.acting()),
+            &self.machine,
+            None,
+        )
     }
 
     fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<String> {
@@ -49,8 +53,8 @@ impl ForceBalanced for Wedge {
     }
 
     fn residual_of_motion(&self) -> Worst {
-        let of = |way: &BedDirection| self.residual_max(*way);
-        self.balanced_directions().iter().map(of).fold(Worst::NONE, Worst::or_larger)
+        let residuals = self.balanced_directions().iter().map(|way| self.residual_max(*way));
+        residuals.fold(Worst::NONE, Worst::or_larger)
     }
 
     fn residual_of_other_direction(&self) -> Option<Worst> {
@@ -96,9 +100,10 @@ impl LoadAsCut for Wedge {
         let sigma = sin_alpha / beyond;
         let cos_psi = libm::cos(theta - self.data.delta);
         let (side, slope) = (self.motion.trend(piece, x), mechanism.arm_ratio * cos_psi * sigma);
-        let of = |way: &BedDirection| {
-            (self.cylinder.unit_force() * mechanism.residual_on(side, x, bottom, slope, *way)).abs()
-        };
-        self.balanced_directions().iter().map(of).fold(0.0, f64::max)
+        let forces = self
+            .balanced_directions()
+            .iter()
+            .map(|way| (self.cylinder.unit_force() * mechanism.residual_on(side, x, bottom, slope, *way)).abs());
+        forces.fold(0.0, f64::max)
     }
 }

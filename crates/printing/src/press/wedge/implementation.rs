@@ -1,6 +1,6 @@
 //! The plate on the bed as a [`Body`], for checks, drawings, tables and reports.
 
-use super::{KIND, Wedge, mechanism, roller_clearance, sheet};
+use super::{KIND, Wedge, mechanism, mirrored_about_axis, roller_clearance, sheet};
 use crate::press::MachineOfPress;
 use crate::press::balance::reversal_of_bed;
 use crate::press::checks::balanced::of_balance;
@@ -68,11 +68,10 @@ impl Wedge {
         let flank_edges: Vec<Edge> = Contour { vertices: lower }.edges().collect();
         let own = flank_edges.len().saturating_sub(1);
         let first = flank_edges.first().map(Edge::start);
-        let flip = |point: Vector2<f64>| Vector2::new(point.x, -point.y);
-        let mut vertices = Contour::from_edges(flank_edges.iter().take(own).copied()).vertices;
+        let mut vertices = Contour::of(flank_edges.iter().take(own).copied()).vertices;
         vertices.extend(last.map(|point| Vertex::new(point, 0.0)));
-        vertices.extend(Contour::from_edges(flank_edges.iter().take(own).rev().map(Edge::mirrored_about_x)).vertices);
-        vertices.extend(first.map(|point| Vertex::new(flip(point), 0.0)));
+        vertices.extend(Contour::of(flank_edges.iter().take(own).rev().map(Edge::mirrored_about_x)).vertices);
+        vertices.extend(first.map(|point| Vertex::new(mirrored_about_axis(point), 0.0)));
         Ok(Outline {
             contour: Contour { vertices },
             deviation: flank.deviation,
@@ -88,10 +87,10 @@ impl Wedge {
         let last = self.motion.pieces().len().saturating_sub(1);
         let end = self.curves().contact(last, self.stroke()).curve.point * MILLIMETRES;
         vertices.push(Vertex::new(end, 0.0));
-        let pairs = vertices.iter().zip(vertices.iter().skip(1));
         // A pitch curve is laid as arcs.
-        let segment = |(a, b): (&Vertex, &Vertex)| Some(Segment { start: a.point, end: b.point, bulge: a.bulge()? });
-        Ok(pairs.filter_map(segment).collect())
+        let pairs = vertices.array_windows();
+        let arcs = pairs.filter_map(|[a, b]| Some(Segment { start: a.point, end: b.point, bulge: a.bulge()? }));
+        Ok(arcs.collect())
     }
 
     fn law(&self) -> AirLaw {
@@ -110,11 +109,6 @@ impl Wedge {
         let (solver, tolerance_mm, stations) = match self.solver {
             Solver::Ode { tolerance } => ("ode", Some(MILLIMETRES * tolerance), None),
             Solver::Paper { stations } => ("paper", None, Some(stations)),
-        };
-        let then = |trend: Trend| match trend {
-            Trend::Rising => "rising",
-            Trend::Falling => "falling",
-            Trend::Stuck => "stuck",
         };
         let model = match self.mechanism().model {
             EfficiencyModel::Consistent => "consistent",
@@ -136,7 +130,14 @@ impl Wedge {
             breaks: motion
                 .breaks()
                 .iter()
-                .map(|b| SlopeBreak { x_mm: MILLIMETRES * b.x, then: then(b.then).into() })
+                .map(|b| {
+                    let then = match b.then {
+                        Trend::Rising => "rising",
+                        Trend::Falling => "falling",
+                        Trend::Stuck => "stuck",
+                    };
+                    SlopeBreak { x_mm: MILLIMETRES * b.x, then: then.into() }
+                })
                 .collect(),
         }
     }
@@ -171,14 +172,14 @@ impl Wedge {
 
     /// A place of the stroke in millimetres, as a row of the table; points of the upper flank.
     fn row(&self, x_mm: f64) -> Row {
-        self.row_at(x_mm, self.motion.locate(x_mm / MILLIMETRES))
+        let (piece, x) = self.motion.locate(x_mm / MILLIMETRES);
+        self.row_at(x_mm, piece, x)
     }
 
-    fn row_at(&self, x_mm: f64, (piece, x): (usize, f64)) -> Row {
+    fn row_at(&self, x_mm: f64, piece: usize, x: f64) -> Row {
         let bottom = self.motion.bottom(piece, x);
         let contact = self.curves().contact(piece, x);
         let profile = contact.curve.offset_inward(self.data.roller_radius);
-        let upper = |point: Vector2<f64>| Vector2::new(MILLIMETRES * point.x, -MILLIMETRES * point.y);
         let wedge = WedgeRow {
             lift: self.by_crank(x, contact.lift),
             psi_deg: self.mechanism().psi(bottom.s).to_degrees(),
@@ -192,8 +193,8 @@ impl Wedge {
         let balance = self.balance_row(x, bottom.s);
         Row {
             parameter: Some(x_mm / MILLIMETRES),
-            curve: Some(upper(contact.curve.point)),
-            profile: Some(upper(profile.point)),
+            curve: Some(mirrored_about_axis(contact.curve.point) * MILLIMETRES),
+            profile: Some(mirrored_about_axis(profile.point) * MILLIMETRES),
             pressure_angle_deg: Some(contact.pressure_angle.to_degrees()),
             curve_radius: Some(radius_of_curvature(contact.curve.curvature)),
             profile_radius: Some(radius_of_curvature(profile.curvature)),
@@ -262,8 +263,8 @@ impl Body for Wedge {
     /// Those of its two straight ends.
     fn corner_within(&self, point: Vector2<f64>, reach: f64) -> bool {
         // The upper flank is the mirror image of the lower.
-        let from = |corner: Vector2<f64>| libm::hypot(point.x - corner.x, point.y.abs() - corner.y.abs());
-        [self.start(), self.run_out()].into_iter().any(|corner| from(corner) <= reach)
+        let mut corners = [self.start(), self.run_out()].into_iter();
+        corners.any(|corner| libm::hypot(point.x - corner.x, point.y.abs() - corner.y.abs()) <= reach)
     }
 
     fn measures(&self, of: &mut Measures<'_>) {
@@ -281,8 +282,8 @@ impl Body for Wedge {
     fn edges(&self) -> Vec<[Vector2<f64>; 2]> {
         let (start, run_out) = (self.start(), self.run_out());
         let end = self.curves().profile(self.motion.pieces().len().saturating_sub(1), self.stroke()).point;
-        let mirror = |p: Vector2<f64>| Vector2::new(p.x, -p.y);
-        vec![[start, mirror(start)], [run_out, mirror(run_out)], [end, run_out], [mirror(end), mirror(run_out)]]
+        let [upper_start, upper_run_out, upper_end] = [start, run_out, end].map(mirrored_about_axis);
+        vec![[start, upper_start], [run_out, upper_run_out], [end, run_out], [upper_end, upper_run_out]]
     }
 
     /// Lower flank, run-out, end, the upper flank as the mirror image of the lower; the other end closes the loop.
@@ -304,12 +305,12 @@ impl Body for Wedge {
 
     /// `samples` + 1 rows over the overrun, at equal steps of x with both ends.
     fn rows(&self, samples: u32) -> Vec<Row> {
-        let place = |i: u32| MILLIMETRES * self.stroke() * (f64::from(i) / f64::from(samples));
-        (0..=samples).map(|i| self.row(place(i))).collect()
+        let stroke_mm = MILLIMETRES * self.stroke();
+        (0..=samples).map(|i| self.row(stroke_mm * (f64::from(i) / f64::from(samples)))).collect()
     }
 
     fn row_on(&self, piece: usize, parameter: f64) -> Option<Row> {
-        Some(self.row_at(MILLIMETRES * parameter, (piece, parameter)))
+        Some(self.row_at(MILLIMETRES * parameter, piece, parameter))
     }
 
     fn sections(&self, found: &DrawingEvidence<'_>) -> Vec<Section> {
@@ -332,8 +333,10 @@ impl Body for Wedge {
         };
         // The corners of a plate's ends are intended.
         let reach = CORNER_REACH * found.tolerance_mm / MILLIMETRES;
-        let corner = |point: Vector2<f64>| self.corner_within(point / MILLIMETRES, reach);
-        let outline = part.map(|part| part.measures(found.tolerance_mm, corner).section());
+        let outline = part.map(|part| {
+            let measures = part.measures(found.tolerance_mm, |point| self.corner_within(point / MILLIMETRES, reach));
+            measures.section()
+        });
         let mut sections = vec![cam.section(), self.law().section()];
         sections.extend(reversal_of_bed(&self.machine));
         sections.extend(self.scatter());
@@ -346,7 +349,7 @@ impl Body for Wedge {
     }
 
     fn mechanism(&self, drawn: &Drawn, samples: u32) -> MovingMechanism {
-        mechanism::of(self, drawn, samples)
+        mechanism::build(self, drawn, samples)
     }
 
     fn not_modelled(&self) -> Vec<&'static str> {

@@ -27,17 +27,17 @@ struct PlatePose {
 }
 
 /// The mechanism of a plate as it moves.
-pub(super) fn of(plate: &Wedge, drawn: &Drawn, samples: u32) -> MovingMechanism {
+pub(super) fn build(plate: &Wedge, drawn: &Drawn, samples: u32) -> MovingMechanism {
     let Some(part) = drawn.parts.first() else { return MovingMechanism::default() };
     let start = plate.motion.range().0;
     let bed = &plate.mechanism().bottom_law;
     let before = bed.crank_before(start);
     let steps = samples.max(1);
-    let at = |i: u32| {
+    let mut samples = Vec::new();
+    for i in 0..=steps {
         let crank = before + (bed.dead() - before) * f64::from(i) / f64::from(steps);
-        sample(plate, if i == steps { plate.stroke() } else { bed.overrun(crank) }, crank)
-    };
-    let samples: Vec<PlatePose> = (0..=steps).map(at).collect();
+        samples.push(sample(plate, if i == steps { plate.stroke() } else { bed.overrun(crank) }, crank));
+    }
     let mut cover = Cover::nothing();
     let outline = SheetShape::Entity(Entity::Polyline(part.outline.contour.clone()));
     let mut parts = parts(plate, &samples, outline, &mut cover);
@@ -103,41 +103,51 @@ fn parts(plate: &Wedge, samples: &[PlatePose], outline: SheetShape, cover: &mut 
     parts.push(RigidPart::new("bed", bed).at(xs.clone(), 0.0));
     parts.push(RigidPart::new("cam", vec![outline]).at(xs, 0.0).named("plate", 0.5 * plate_end, 0.0));
     parts.push(RigidPart::new("ground", vec![line((-1.1 * l1.max(radius), 0.0), (1.2 * plate_end, 0.0))]));
-    parts.extend(bell_cranks(samples, (pivot, l1, l2, delta), radius));
-    parts.extend(rod(samples, pivot.y + l2, place, (&of, radius), pivot.x));
+    let bell_crank = BellCrankPicture { pivot, roller_arm: l1, bottom_arm: l2, delta, radius };
+    parts.extend(bell_crank.parts(samples));
+    parts.push(bell_crank.rod(samples, place, &of));
     let rollers = range(samples.iter().map(|at| at.roller.y));
     cover.add((pivot.x - radius, body + width), (rollers.0 - radius, -rollers.0 + radius));
     cover.add((pivot.x - radius, pivot.x + radius), (pivot.y - 2.2 * radius, (pivot.y + l2).max(-pivot.y + radius)));
     parts
 }
 
-/// The rod from the upper arm to the bottom: its head has a slot, along which the end of the arm slides.
-fn rod(
-    samples: &[PlatePose],
-    end_y: f64,
-    place: Vector2<f64>,
-    (of, radius): (&BufferPicture, f64),
-    pivot_x: f64,
-) -> Vec<RigidPart> {
-    let half = 0.18 * radius;
-    let bottoms: Vec<f64> = samples.iter().map(|at| place.x + MILLIMETRES * at.pose.bottom).collect();
-    let back = pivot_x - place.x;
-    let thick = 0.04 * of.bore() + 0.02 * of.stroke();
-    let (low, high) = (end_y.min(place.y) - 0.8 * radius, end_y.max(place.y) + 0.4 * radius);
-    let shapes = vec![
-        rectangle((back, -thick), (-half, half)),
-        rectangle((back - 1.2 * half, back + 1.2 * half), (low - place.y, high - place.y)),
-    ];
-    vec![RigidPart::new("follower", shapes).at(bottoms, place.y)]
+/// The bell crank of the lower roller, mm.
+struct BellCrankPicture {
+    pivot: Vector2<f64>,
+    roller_arm: f64,
+    bottom_arm: f64,
+    /// Angle between the arms, rad.
+    delta: f64,
+    /// Of the roller.
+    radius: f64,
 }
 
-type CrankPose = (Vector2<f64>, f64, f64, f64);
+impl BellCrankPicture {
+    /// The rod from the upper arm to the bottom: its head has a slot, along which the end of the arm slides.
+    fn rod(&self, samples: &[PlatePose], place: Vector2<f64>, buffer: &BufferPicture) -> RigidPart {
+        let half = 0.18 * self.radius;
+        let end_y = self.pivot.y + self.bottom_arm;
+        let bottoms: Vec<f64> = samples.iter().map(|at| place.x + MILLIMETRES * at.pose.bottom).collect();
+        let back = self.pivot.x - place.x;
+        let thick = 0.04 * buffer.bore() + 0.02 * buffer.stroke();
+        let (low, high) = (end_y.min(place.y) - 0.8 * self.radius, end_y.max(place.y) + 0.4 * self.radius);
+        let shapes = vec![
+            rectangle((back, -thick), (-half, half)),
+            rectangle((back - 1.2 * half, back + 1.2 * half), (low - place.y, high - place.y)),
+        ];
+        RigidPart::new("follower", shapes).at(bottoms, place.y)
+    }
 
-fn bell_cranks(samples: &[PlatePose], (pivot, l1, l2, delta): CrankPose, radius: f64) -> Vec<RigidPart> {
-    let half = 0.22 * radius;
-    let shape = |side: f64| -> Vec<SheetShape> {
+    fn half_width(&self) -> f64 {
+        0.22 * self.radius
+    }
+
+    /// The arms about the pivot, of the lower roller for a side of 1 and of the upper one, without its other arm, for −1.
+    fn arms(&self, side: f64) -> Vec<SheetShape> {
+        let (half, l1, l2) = (self.half_width(), self.roller_arm, self.bottom_arm);
         // At ψ = 0 the roller's arm is at Δ from the other one, which is across the bed.
-        let end = Vector2::new(l1 * libm::sin(delta), side * l1 * libm::cos(delta));
+        let end = Vector2::new(l1 * libm::sin(self.delta), side * l1 * libm::cos(self.delta));
         let across = Vector2::new(-end.y, end.x).normalize() * half;
         let arm = [across, end + across, end - across, -across, across];
         let mut shapes = vec![SheetShape::Path(arm.to_vec()), circle(0.0, 0.0, 1.6 * half)];
@@ -145,27 +155,32 @@ fn bell_cranks(samples: &[PlatePose], (pivot, l1, l2, delta): CrankPose, radius:
             shapes.extend([rectangle((-half, half), (1.6 * half, l2 - 1.2 * half)), circle(0.0, l2, 1.2 * half)]);
         }
         shapes
-    };
-    let turns: Vec<f64> = samples.iter().map(|at| -at.psi_deg).collect();
-    let mirrored: Vec<f64> = samples.iter().map(|at| at.psi_deg).collect();
-    vec![
-        RigidPart::new("ghost", shape(-1.0)).at(pivot.x, -pivot.y).turned(mirrored),
-        RigidPart::new("ground", bracket(pivot, (2.6 * half, -1.0))),
-        RigidPart::new("follower", shape(1.0)).at(pivot.x, pivot.y).turned(turns).named("bell crank", 0.0, -8.0 * half),
-        RigidPart::new("pin", vec![circle(pivot.x, pivot.y, 0.6 * half)]),
-    ]
+    }
+
+    fn parts(&self, samples: &[PlatePose]) -> Vec<RigidPart> {
+        let (half, pivot) = (self.half_width(), self.pivot);
+        let turns: Vec<f64> = samples.iter().map(|at| -at.psi_deg).collect();
+        let mirrored: Vec<f64> = samples.iter().map(|at| at.psi_deg).collect();
+        let lower = RigidPart::new("follower", self.arms(1.0)).at(pivot.x, pivot.y).turned(turns);
+        vec![
+            RigidPart::new("ghost", self.arms(-1.0)).at(pivot.x, -pivot.y).turned(mirrored),
+            RigidPart::new("ground", bracket(pivot, (2.6 * half, -1.0))),
+            lower.named("bell crank", 0.0, -8.0 * half),
+            RigidPart::new("pin", vec![circle(pivot.x, pivot.y, 0.6 * half)]),
+        ]
+    }
 }
 
 fn rollers(plate: &Wedge, samples: &[PlatePose]) -> Vec<RigidPart> {
     let radius = MILLIMETRES * plate.data.roller_radius;
-    let shape = || vec![circle(0.0, 0.0, radius), circle(0.0, 0.0, 0.12 * radius)];
-    let track = |value: fn(&PlatePose) -> f64| samples.iter().map(value).collect::<Vec<f64>>();
-    let x = track(|at| at.roller.x);
+    let roller = RigidPart::new("roller", vec![circle(0.0, 0.0, radius), circle(0.0, 0.0, 0.12 * radius)]);
+    let x: Vec<f64> = samples.iter().map(|at| at.roller.x).collect();
+    let y: Vec<f64> = samples.iter().map(|at| at.roller.y).collect();
+    let upper_y: Vec<f64> = y.iter().map(|y| -y).collect();
+    let normals: Vec<f64> = samples.iter().map(|at| at.normal_deg).collect();
     vec![
-        RigidPart::new("roller", shape()).at(x.clone(), track(|at| -at.roller.y)),
-        RigidPart::new("roller", shape()).at(x.clone(), track(|at| at.roller.y)),
-        RigidPart::new("normal", vec![line((-radius, 0.0), (1.9 * radius, 0.0))])
-            .at(x, track(|at| at.roller.y))
-            .turned(track(|at| at.normal_deg)),
+        roller.clone().at(x.clone(), upper_y),
+        roller.at(x.clone(), y.clone()),
+        RigidPart::new("normal", vec![line((-radius, 0.0), (1.9 * radius, 0.0))]).at(x, y).turned(normals),
     ]
 }

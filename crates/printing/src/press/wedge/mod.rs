@@ -119,9 +119,8 @@ impl Wedge {
 
     /// Puts the bed's axis where the plate gets its height, and finds where it is thinnest.
     fn place_axis(&mut self) {
-        let up = |piece: usize, x: f64| -self.curves().profile(piece, x).point.y;
-        let highest = largest(self.curves(), up);
-        let lowest = largest(self.curves(), |piece, x| -up(piece, x));
+        let highest = largest(self.curves(), |piece, x| -self.curves().profile(piece, x).point.y);
+        let lowest = largest(self.curves(), |piece, x| self.curves().profile(piece, x).point.y);
         let run_out = -self.run_out().y;
         let high = highest.value.max(run_out);
         let (low, at) = if run_out < -lowest.value { (run_out, self.stroke()) } else { (-lowest.value, lowest.at) };
@@ -188,15 +187,16 @@ impl Wedge {
     pub fn largest_displacement(&self) -> (f64, f64) {
         let motion = self.motion.motion();
         let breaks = motion.breaks().iter().map(|b| b.x).chain([self.stroke()]);
-        let ranges = breaks.scan(0.0, |from, to| Some((std::mem::replace(from, to), to)));
-        let of = |range| chebyshev::largest_size(|x| motion.at(x, false)[0], range, SearchStart::nothing(0.0));
-        let worst = ranges.map(of).fold(
-            (0.0, 0.0),
-            |best: (f64, f64), next| {
-                if next.value > best.1 { (next.at, next.value) } else { best }
-            },
-        );
-        (worst.0, motion.at(worst.0, false)[0])
+        let (mut from, mut worst, mut size) = (0.0, 0.0, 0.0);
+        for to in breaks {
+            let range = (from, to);
+            let found = chebyshev::largest_size(|x| motion.at(x, false)[0], range, SearchStart::nothing(0.0));
+            if found.value > size {
+                (worst, size) = (found.at, found.value);
+            }
+            from = to;
+        }
+        (worst, motion.at(worst, false)[0])
     }
 
     /// Inertia force of the bed at its largest, N.
@@ -220,8 +220,8 @@ impl Wedge {
     #[must_use]
     pub fn residual_max(&self, way: BedDirection) -> Worst {
         let negligible = ROUNDING_OF_BALANCE * self.inertia_max();
-        let left = |piece: usize, x: f64| self.residual(piece, x, way);
-        plane(extremes::largest_size(self.curves(), (&self.acting(), negligible), left))
+        let acting = self.acting();
+        plane(extremes::largest_size(self.curves(), (&acting, negligible), |piece, x| self.residual(piece, x, way)))
     }
 
     /// The largest of something that is smooth but at the start of the reversal.
@@ -249,8 +249,9 @@ impl Wedge {
     /// Largest of these in either direction, N.
     #[must_use]
     pub fn roller_force_max(&self) -> f64 {
-        let of = |way: BedDirection| self.largest_force(|piece, x| self.roller_force(piece, x, way)).value;
-        of(BedDirection::Braking).max(of(BedDirection::Return)).max(0.0)
+        let [braking, back] = [BedDirection::Braking, BedDirection::Return]
+            .map(|way| self.largest_force(|piece, x| self.roller_force(piece, x, way)).value);
+        braking.max(back).max(0.0)
     }
 
     /// The direction in which the forces are to balance, or both.
@@ -284,6 +285,11 @@ impl Wedge {
         let by_air = 0.5 * self.cylinder.unit_force() * air * self.mechanism().arm_ratio * cosine;
         by_air + follower.preload.unwrap_or(0.0) + inertia
     }
+}
+
+/// A point of the other flank.
+fn mirrored_about_axis(point: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(point.x, -point.y)
 }
 
 /// Why a machine whose bed has two decelerations at a place has no plate.

@@ -23,8 +23,7 @@ pub const CHECK: Check = Check {
 impl Wedge {
     /// Room between the two rollers, m, and where it is least.
     fn roller_clearance(&self) -> Worst {
-        let away = |piece: usize, x: f64| self.curves().contact(piece, x).curve.point.y;
-        let nearest = largest(self.curves(), away);
+        let nearest = largest(self.curves(), |piece, x| self.curves().contact(piece, x).curve.point.y);
         Worst { value: 2.0 * (-nearest.value - self.data.roller_radius), ..nearest }
     }
 }

@@ -1,6 +1,6 @@
 //! What the review sheet of a cam plate shows.
 
-use super::Wedge;
+use super::{Wedge, mirrored_about_axis};
 use camgen_cams::body::sheet::{length_cell, overall, pressure_angle, roller, side_view, tolerance_note, travelled};
 use camgen_cams::body::{Body, Drawn, Figures};
 use camgen_cams::report::sheet::Dimensions;
@@ -26,10 +26,12 @@ const STEPS: u32 = 72;
 /// [`OutlineError`] when the pitch curve cannot be drawn.
 pub(super) fn view(plate: &Wedge, drawn: &Drawn) -> Result<SheetView, OutlineError> {
     let lower = plate.pitch_curve()?;
-    let flip = |point: Vector2<f64>| Vector2::new(point.x, -point.y);
-    let mirrored =
-        |segment: &Segment| Segment { start: flip(segment.start), end: flip(segment.end), bulge: -segment.bulge };
-    let both: Vec<Segment> = lower.iter().copied().chain(lower.iter().map(mirrored)).collect();
+    let upper = lower.iter().map(|segment| Segment {
+        start: mirrored_about_axis(segment.start),
+        end: mirrored_about_axis(segment.end),
+        bulge: -segment.bulge,
+    });
+    let both: Vec<Segment> = lower.iter().copied().chain(upper).collect();
     let contours: Vec<_> = drawn.parts.iter().map(|part| part.outline.contour.clone()).collect();
     let outline = contours.iter().map(Contour::extents).reduce(|a, b| a.with(&b));
     let outline = outline.unwrap_or(Extents { least: Vector2::zeros(), largest: Vector2::zeros() });
@@ -90,30 +92,29 @@ fn rollers(plate: &Wedge) -> (Vec<SheetShape>, Vec<Mark>) {
     let (piece, x) = curves.motion.locate(worst.at);
     let contact = curves.contact(piece, x);
     let radius = MILLIMETRES * plate.data.roller_radius;
-    let flip = |v: Vector2<f64>| Vector2::new(v.x, -v.y);
     let (centre, drive, outward) = (contact.curve.point * MILLIMETRES, contact.drive, contact.curve.outward());
     let mut shapes = roller(centre, drive, outward, radius);
-    shapes.extend(roller(flip(centre), flip(drive), flip(outward), radius));
+    let [upper, upper_drive, upper_outward] = [centre, drive, outward].map(mirrored_about_axis);
+    shapes.extend(roller(upper, upper_drive, upper_outward, radius));
     let text = format!("α = {:.2}° at {}", worst.value.to_degrees(), travelled(&plate.machine, worst.at));
-    (shapes, pressure_angle(flip(centre), flip(drive), flip(outward), radius, text))
+    (shapes, pressure_angle(upper, upper_drive, upper_outward, radius, text))
+}
+
+fn added_value(row: &Row, name: &str) -> Option<f64> {
+    row.added.iter().find(|(column, _)| column.name == name).map(|(_, value)| *value)
 }
 
 /// Overrun, travel of the bottom and the upper flank's profile.
 fn places(plate: &Wedge) -> Vec<PlaceTable> {
-    let added =
-        |row: &Row, name: &str| row.added.iter().find(|(column, _)| column.name == name).map(|(_, value)| *value);
     let units = plate.machine.units();
     let unit = units.symbol();
-    let row = |row: &Row| {
-        let cell = |value: Option<f64>| length_cell(value, units);
-        vec![
-            cell(added(row, "x_mm")),
-            cell(added(row, "dx_mm")),
-            cell(row.profile.map(|point| point.x)),
-            cell(row.profile.map(|point| point.y)),
-        ]
-    };
-    let rows: Arc<[Vec<String>]> = plate.rows(STEPS).iter().map(row).collect();
+    let mut rows = Vec::new();
+    for row in plate.rows(STEPS) {
+        let profile = [row.profile.map(|point| point.x), row.profile.map(|point| point.y)];
+        let cells = [added_value(&row, "x_mm"), added_value(&row, "dx_mm")].into_iter().chain(profile);
+        rows.push(cells.map(|value| length_cell(value, units)).collect());
+    }
+    let rows: Arc<[Vec<String>]> = rows.into();
     let heads = ["x, mm", "Δx, mm", "profile x", "profile y"].map(|head| head.replace("mm", unit)).to_vec();
     [1, 2, 4]
         .map(|every| PlaceTable {

@@ -144,7 +144,7 @@ fn remedies_pass() {
 #[test]
 fn the_cam_is_a_disc_on_its_shaft() {
     let told = machine(&[]);
-    let carried = CamOnShaft::of(&told, &[]).expect("a cam").expect("a press");
+    let carried = CamOnShaft::solve(&told, &[]).expect("a cam").expect("a press");
     let disc = carried.disc.expect("a thickness");
     for (got, want) in [(disc.mass, 12.0794), (disc.polar_inertia, 0.111_68), (disc.diametral_inertia, 0.056_74)] {
         assert!((got / want - 1.0).abs() < 1e-4, "{got} is not {want}");

@@ -135,7 +135,7 @@ fn drawn_presses_and_settings_under_a_linkage() {
         assert!((largest(&v, Some(column)) / left - 1.0).abs() < 5e-5, "{name}: {left}");
         assert!(left <= largest(&v, Some(column + 1e-5)) + 0.1 && left <= largest(&v, Some(column - 1e-5)) + 0.1);
         // Where both leave as much the range ends; where there is no such speed the cam leaves less down to the slowest.
-        let [least, _] = settings::useful(&cam, ScrewRule::Level);
+        let least = settings::useful(&cam, ScrewRule::Level).least;
         let setting = fixed.setting(least.unwrap_or(0.02), ScrewRule::Level).expect("possible");
         let share = setting.residual.value.abs() / setting.fixed_residual;
         assert!(
@@ -152,7 +152,7 @@ fn air_that_is_shortest_beside_the_dead_point() {
         let rod = format!("linkage.rod_ratio={rod}");
         for offset in ["linkage.offset_ratio=0", "linkage.offset_ratio=0.2"] {
             let (cam, _) = under_a_linkage("dpi-crank-slider", &["inner", &rod, offset]);
-            let [least, most] = settings::useful(&cam, ScrewRule::Level);
+            let settings::VariableRange { least, most } = settings::useful(&cam, ScrewRule::Level);
             assert!(least.is_none_or(|least| least < 1.0) && most.is_none_or(|most| most > 1.0), "{rod} {offset}");
             for variable in [0.2, 0.7, 1.3, 4.0] {
                 let setting = FixedBottom::new(&cam).setting(variable, ScrewRule::Level).expect("possible");
