@@ -70,7 +70,7 @@ fn of_cam(
     let (machine, name) = at_end(args.end, loaded.map_err(|failure| without_kind(args, failure))?)?;
     let target = target.unwrap_or_else(|| kind_of(&machine));
     if target == TradeTarget::Conoid {
-        let range = match (args.rpm, PressCams::of(&machine).regimes.speeds.as_slice()) {
+        let (from, to) = match (args.rpm, PressCams::of(&machine).regimes.speeds.as_slice()) {
             (Some(Speed::Range(from, to)), _) => (from, to),
             (None, [from, .., to]) => (*from, *to),
             _ => {
@@ -81,7 +81,7 @@ fn of_cam(
         if args.acceleration.is_some() {
             return Err(Failure("--acceleration belongs to one outline, not to the sections of a conoid".into()));
         }
-        return Ok((of_press::conoid(&machine, range, limits, run.clock), name, "conoid"));
+        return Ok((of_press::conoid(&machine, from, to, limits, run.clock), name, "conoid"));
     }
     let rpm = match args.rpm {
         None => None,

@@ -50,12 +50,11 @@ const SPEEDS: usize = 60;
 
 /// The highest speed below `from` (rpm) at which an error may be as large as `error` (m); three digits.
 pub(super) fn fitting_speed(allowed: impl Fn(f64) -> f64, from: f64, error: f64) -> Option<f64> {
-    let excess = |rpm: f64| allowed(rpm) - error;
     let mut tried = std::iter::successors(Some(from), |rpm| Some(SLOWER * rpm)).take(SPEEDS);
-    let slow = tried.find(|rpm| excess(*rpm) > 0.0)?;
-    let speed = root::bracketed(excess, slow, slow / SLOWER, 0.0).unwrap_or(slow);
+    let slow = tried.find(|rpm| allowed(*rpm) - error > 0.0)?;
+    let speed = root::bracketed(|rpm| allowed(rpm) - error, slow, slow / SLOWER, 0.0).unwrap_or(slow);
     let rounded = three_digits_down(speed);
-    (excess(rounded) >= 0.0).then_some(rounded)
+    (allowed(rounded) - error >= 0.0).then_some(rounded)
 }
 
 #[cfg(test)]

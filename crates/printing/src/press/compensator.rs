@@ -161,13 +161,12 @@ impl RotaryCam {
     fn velocity_jump(&self) -> Option<f64> {
         let motion = self.disc.curves().motion;
         let pieces = motion.pieces();
-        let jump = |index: usize| {
+        (0..pieces.len()).find_map(|index| {
             let next = (index + 1) % pieces.len();
             let (end, start) = (pieces.get(index)?.end, pieces.get(next)?.start);
             let (before, after) = (motion.jet(index, end).ds, motion.jet(next, start).ds);
             ((before - after).abs() > ROUNDING * self.disc.max_lift()).then_some(end)
-        };
-        (0..pieces.len()).find_map(jump)
+        })
     }
 
     /// The figures of a compensating cam that is made for this one, by its law.
@@ -176,26 +175,29 @@ impl RotaryCam {
     /// As [`RotaryCam::compensating_disc`].
     pub fn compensated_by(&self, second: &Disc) -> Result<CompensatorFigures, Refusal> {
         let law = self.counter_torque()?;
-        let left = |angle: f64| {
-            let torque = |disc: &Disc| torque::force_and_torque(disc, angle).map_or(0.0, |[_, torque]| torque);
-            (torque(&self.disc) + torque(second)).abs()
-        };
         let (machine, buffer) = (self.disc.machine(), &self.buffer);
         let lossy = loop_of_air::reversal(machine, buffer.cylinder(), &buffer.reversal().law().bottom_law);
         let in_losses = lossy.map(|lossy| {
-            let off = |angle: f64| self.torque_of_losses(&lossy, angle).abs();
             let pieces = self.disc.curves().motion.distinct();
-            pieces.iter().flat_map(|piece| within(piece, TURN)).map(off).fold(0.0, f64::max)
+            let angles = pieces.iter().flat_map(|piece| within(piece, TURN));
+            angles.map(|angle| self.torque_of_losses(&lossy, angle).abs()).fold(0.0, f64::max)
         });
         let after = second.curves().motion.distinct().iter().flat_map(|piece| within(piece, PLACES));
         Ok(CompensatorFigures {
             work: law.stored(),
             before: self.disc.torque_max().map_or(0.0, |torque| torque.value),
-            after: after.map(left).fold(0.0, f64::max),
+            after: after.map(|angle| self.torque_left(second, angle).abs()).fold(0.0, f64::max),
             in_losses,
             spring_force: law.law().spring_force(second.max_lift()),
             by_speed: self.at_other_speeds(&law, second),
         })
+    }
+
+    /// The torque of both discs on the camshaft at a cam angle, N·m.
+    fn torque_left(&self, second: &Disc, angle: f64) -> f64 {
+        let [one, other] = [&self.disc, second]
+            .map(|disc| torque::force_and_torque(disc, angle).map_or(0.0, |[_, torque]| torque));
+        one + other
     }
 
     /// The torque on the camshaft at a cam angle of the force that the air of a press that loses has beyond that of the law, N·m.
@@ -220,11 +222,11 @@ impl RotaryCam {
         let (design, cylinder) = (press.bottom_law(own), press.cylinder());
         let (lead, exponent) = (design.lead(), design.exponent());
         let (rate, own_preload) = (law.law().rate(), law.law().preload());
-        let inertia = |disc: &Disc| {
+        let first_preload = machine.follower.preload.unwrap_or(0.0);
+        let [first_inertia, second_inertia] = [&self.disc, second].map(|disc| {
             let mass = disc.machine().follower.mass.zip(disc.shaft_speed());
             mass.map_or(0.0, |(mass, speed)| mass * speed * speed)
-        };
-        let (first_preload, masses) = (machine.follower.preload.unwrap_or(0.0), (inertia(&self.disc), inertia(second)));
+        });
         // Where the followers are does not depend on the speed.
         let places: Vec<CamAngleState> = second
             .curves()
@@ -233,40 +235,64 @@ impl RotaryCam {
             .iter()
             .filter(|piece| !piece.dwell)
             .flat_map(|piece| within(piece, TURN))
-            .map(|angle| CamAngleState::of(self, second, angle))
+            .map(|angle| CamAngleState::new(self, second, angle))
             .collect();
-        let at = |(rpm, slower): (f64, f64)| {
+        // Speed, and the square of its share of the cam's own.
+        let speeds: Vec<(f64, f64)> = match PressCams::of(machine).compensator_speeds.as_slice() {
+            [] => SEVENTHS.map(|sevenths| (own * sevenths / 7.0, sevenths * sevenths / 49.0)).to_vec(),
+            given => given.iter().map(|rpm| (*rpm, (rpm / own) * (rpm / own))).collect(),
+        };
+        let mut found = Vec::with_capacity(speeds.len());
+        for (rpm, slower) in speeds {
             let column = regime::reset(&design, &cylinder, rpm, Reset::End).column;
-            // What does not depend on the preload of the second disc, with and without that disc, and the slope the preload works on.
-            let torques: Vec<(f64, f64, f64)> = places
+            let torques: Vec<TorqueParts> = places
                 .iter()
                 .map(|place| {
                     let left = column - (place.overrun + lead) - place.displacement;
                     let ratio = libm::exp(exponent * libm::log(column / left));
                     let air = if place.reversing { cylinder.force(ratio) / lever } else { 0.0 };
                     let (one, two) = (place.first, place.second);
-                    let alone = (air + first_preload + slower * masses.0 * one.dds) * one.ds;
-                    (alone, (rate * two.s + slower * masses.1 * two.dds) * two.ds, two.ds)
+                    TorqueParts {
+                        first: (air + first_preload + slower * first_inertia * one.dds) * one.ds,
+                        second: (rate * two.s + slower * second_inertia * two.dds) * two.ds,
+                        preload_arm: two.ds,
+                    }
                 })
                 .collect();
-            let largest = |preload: f64, share: f64| {
-                let left: Vec<f64> =
-                    torques.iter().map(|(alone, two, slope)| alone + share * (two + preload * slope)).collect();
-                let of_piece = |left: &[f64]| left.windows(3).map(top).fold(0.0, f64::max);
-                left.chunks(TURN + 1).map(of_piece).fold(0.0, f64::max)
-            };
             let range = (0.0, 2.0 * own_preload * slower.max(1.0));
-            let best = extremum::largest_without_slope(|preload| -largest(preload, 1.0), range, CELLS, SECTIONS);
-            let (before, unchanged) = (largest(0.0, 0.0), largest(own_preload, 1.0));
-            TorqueAtSpeed { rpm, preload: best.at, before, unchanged, after: -best.value }
-        };
-        // Speed, and the square of its share of the cam's own.
-        let speeds: Vec<(f64, f64)> = match PressCams::of(machine).compensator_speeds.as_slice() {
-            [] => SEVENTHS.map(|sevenths| (own * sevenths / 7.0, sevenths * sevenths / 49.0)).to_vec(),
-            given => given.iter().map(|rpm| (*rpm, (rpm / own) * (rpm / own))).collect(),
-        };
-        speeds.into_iter().map(at).collect()
+            let best = extremum::largest_without_slope(
+                |preload| -largest_torque(&torques, preload, 1.0),
+                range,
+                CELLS,
+                SECTIONS,
+            );
+            found.push(TorqueAtSpeed {
+                rpm,
+                preload: best.at,
+                before: largest_torque(&torques, 0.0, 0.0),
+                unchanged: largest_torque(&torques, own_preload, 1.0),
+                after: -best.value,
+            });
+        }
+        found
     }
+}
+
+/// The torques on the camshaft at a cam angle, N·m.
+struct TorqueParts {
+    /// Of the first disc.
+    first: f64,
+    /// Of the second disc without its preload.
+    second: f64,
+    /// Torque of its preload, m.
+    preload_arm: f64,
+}
+
+/// The largest size of the torque over the pieces, with a preload (N) of the second disc and that disc counted by a share.
+fn largest_torque(torques: &[TorqueParts], preload: f64, share: f64) -> f64 {
+    let left: Vec<f64> =
+        torques.iter().map(|parts| parts.first + share * (parts.second + preload * parts.preload_arm)).collect();
+    left.chunks(TURN + 1).flat_map(|piece| piece.windows(3)).map(top).fold(0.0, f64::max)
 }
 
 /// The largest size of three neighbouring values, or that of the top of the parabola through them.
@@ -279,11 +305,10 @@ fn top(three: &[f64]) -> f64 {
 
 /// Equal parts of a piece from slightly after its start to slightly before its end, where the force of one disc may have jumped already and
 /// that of the other not yet.
+#[expect(clippy::cast_precision_loss, reason = "a few hundred")]
 fn within(piece: &Piece, parts: usize) -> impl Iterator<Item = f64> + use<> {
     let (start, whole) = (piece.start, piece.end - piece.start);
-    #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
-    let place = move |i: usize| start + whole * (INSET + (1.0 - 2.0 * INSET) * i as f64 / parts as f64);
-    (0..=parts).map(place)
+    (0..=parts).map(move |i| start + whole * (INSET + (1.0 - 2.0 * INSET) * i as f64 / parts as f64))
 }
 
 /// Where bed and followers are at a cam angle.
@@ -296,20 +321,20 @@ struct CamAngleState {
 }
 
 impl CamAngleState {
-    fn of(first: &RotaryCam, second: &Disc, angle: f64) -> Self {
-        let jet = |disc: &Disc| {
+    fn new(first: &RotaryCam, second: &Disc, angle: f64) -> Self {
+        let [first_jet, second_jet] = [&first.disc, second].map(|disc| {
             let motion = disc.curves().motion;
             let (piece, inside) = motion.locate(angle);
             motion.jet(piece, inside)
-        };
+        });
         let (piece, inside) = first.disc.curves().motion.locate(angle);
         let state = first.buffer.state(piece, inside);
         Self {
             overrun: state.overrun,
             displacement: state.displacement,
             reversing: state.reversing,
-            first: jet(&first.disc),
-            second: jet(second),
+            first: first_jet,
+            second: second_jet,
         }
     }
 }

@@ -49,20 +49,20 @@ pub(super) fn reversal(machine: &Machine, cylinder: &Cylinder, law: &CrankLaw) -
 pub(super) fn section(machine: &Machine, cylinder: &Cylinder, law: &CrankLaw) -> Option<Section> {
     let reversal = reversal(machine, cylinder, law)?;
     let air = law.of_yoke().and_then(|law| law.level.as_ref());
-    let back = |length: f64| air.map(|air| cylinder.unit_force() * (1.0 - air.pressures(length)[1]));
+    let at_port = air.map(|air| cylinder.unit_force() * (1.0 - air.pressures(1.0)[1]));
     let values = LoopOfAir {
         balance: if air.is_some() { "level" } else { "braking" },
         lead_mm: air.map(|_| MILLIMETRES * law.lead()),
-        residual_at_port_n: back(1.0),
-        pull_n: back(1.0).map(|pull| pull.max(0.0)),
+        residual_at_port_n: at_port,
+        pull_n: at_port.map(|pull| pull.max(0.0)),
         losses: lost_in(&reversal),
     };
-    let words = values.words();
+    let words = values.describe();
     Some(Section::new("losses", &values).with_words(words))
 }
 
 impl LoopOfAir {
-    fn words(&self) -> Vec<String> {
+    fn describe(&self) -> Vec<String> {
         let port = self.lead_mm.zip(self.residual_at_port_n).map(|(lead, left)| {
             format!(
                 "half of the loop is left in each direction (buffer.balance); the port shuts {} mm before the reversal, and until it opens again \

@@ -81,23 +81,24 @@ pub(super) struct PressPose {
 
 /// The press at so many steps of a turn of the cam, and at its end.
 pub(super) fn press_poses(reversal: &Reversal, law: &CrankLaw, lobes: u32, samples: u32) -> Vec<PressPose> {
-    let pose = |index: u32| {
+    let mut poses = Vec::new();
+    for index in 0..=samples {
         let (at, wrapped) = (turned(index, samples, lobes), index >= samples);
         let (piece, angle) = reversal.locate(if wrapped { 0.0 } else { at.angle });
         let state = reversal.state(piece, angle);
         let crank = f64::from(lobes) * if wrapped { TAU } else { at.angle };
-        PressPose { crank, overrun: law.place(crank), bottom: state.displacement, ratio: state.pressure_ratio }
-    };
-    (0..=samples).map(pose).collect()
+        let (bottom, ratio) = (state.displacement, state.pressure_ratio);
+        poses.push(PressPose { crank, overrun: law.place(crank), bottom, ratio });
+    }
+    poses
 }
 
-/// The buffer with its bottom at a place (mm) where Δx is 0: cylinder, air, bottom, bed with piston. The bed has a slot for the
-/// pin of the crank where `crank` is set.
+/// The buffer with its bottom at a point (mm) where Δx is 0: cylinder, air, bottom, piston and bed of a width.
 pub(super) fn buffer(
     buffer: &BufferPicture,
     poses: &[PressPose],
     place: Vector2<f64>,
-    body: (f64, f64),
+    width: f64,
     cover: &mut Cover,
 ) -> Vec<RigidPart> {
     let half = 0.5 * buffer.bore;
@@ -128,9 +129,9 @@ pub(super) fn buffer(
     let shapes = vec![
         head,
         rectangle((buffer.piston(), buffer.rod()), (-rod, rod)),
-        rectangle((buffer.rod(), buffer.rod() + body.1), (-half, half)),
+        rectangle((buffer.rod(), buffer.rod() + width), (-half, half)),
     ];
-    let (name_x, name_y) = (buffer.rod() + 0.5 * body.1, below - place.y);
+    let (name_x, name_y) = (buffer.rod() + 0.5 * width, below - place.y);
     vec![
         air,
         RigidPart::new("cylinder", barrel.to_vec()).named("air cylinder", place.x + 0.5 * buffer.column, below),
@@ -153,7 +154,7 @@ pub(super) struct PressPicture {
 
 impl DrivenMechanism for PressPicture {
     fn shapes(&self, driven: &FollowerTrack, cover: &mut Cover) -> Vec<RigidPart> {
-        behind(&self.buffer, &self.poses, (driven, self.lever), cover)
+        behind(&self.buffer, &self.poses, driven, self.lever, cover)
     }
 
     fn notes(&self) -> Vec<String> {
@@ -165,10 +166,11 @@ impl DrivenMechanism for PressPicture {
 fn behind(
     of: &BufferPicture,
     poses: &[PressPose],
-    (driven, ratio): (&FollowerTrack, f64),
+    driven: &FollowerTrack,
+    ratio: f64,
     cover: &mut Cover,
 ) -> Vec<RigidPart> {
-    let (low, high) = range(driven.rollers.iter().map(|p| p.x));
+    let (low, _) = range(driven.rollers.iter().map(|p| p.x));
     let line_y = driven.rollers.first().map_or(0.0, |p| p.y);
     let clear = (driven.reach - low).max(0.0) + 1.6 * driven.radius;
     let half = 0.22 * driven.radius;
@@ -183,12 +185,12 @@ fn behind(
         let apart = rollers.iter().zip(&bottoms).map(|(roller, bottom)| roller - bottom);
         Vector2::new(apart.fold(f64::NEG_INFINITY, f64::max) + clear + thick, line_y)
     } else {
-        let (bar, place) = lever((driven, ratio), (low, high), clear, &bottoms, thick);
+        let (bar, place) = lever(driven, ratio, clear, &bottoms, thick);
         parts.extend(bar);
         place
     };
     let width = 0.5 * of.stroke;
-    parts.extend(buffer(of, poses, place, (of.rod(), width), cover));
+    parts.extend(buffer(of, poses, place, width, cover));
     if of.yoke {
         parts.extend(crank(of, poses, place, width, cover));
     }
@@ -197,12 +199,13 @@ fn behind(
 
 /// A slotted lever between the rods of roller and bottom: with straight rods its two travels have one ratio everywhere.
 fn lever(
-    (driven, ratio): (&FollowerTrack, f64),
-    (low, high): (f64, f64),
+    driven: &FollowerTrack,
+    ratio: f64,
     clear: f64,
     bottoms: &[f64],
     thick: f64,
 ) -> (Vec<RigidPart>, Vector2<f64>) {
+    let (low, high) = range(driven.rollers.iter().map(|p| p.x));
     let line_y = driven.rollers.first().map_or(0.0, |p| p.y);
     let (middle, travel) = (0.5 * (low + high), high - low);
     // From the pivot to the line of the roller, and to that of the bottom.

@@ -42,17 +42,21 @@ pub struct CutForShaft(pub Result<ShaftCompliance, String>);
 /// [`Refusal`] where the shaft deflects too much.
 pub(super) fn cut_for(
     of_law: &Disc,
-    (angle, lever): (f64, f64),
-    (shaft, train): (&ShaftCompliance, Option<&RaiseSeries>),
+    angle: f64,
+    lever: f64,
+    shaft: &ShaftCompliance,
+    train: Option<&RaiseSeries>,
     cut: impl Fn(Arc<RaiseSeries>) -> Result<Disc, Refusal>,
 ) -> Result<Arc<RaiseSeries>, Refusal> {
     let range = (0.0, angle);
     let points = ChebyshevSeries::points(range, TERMS);
     let (mut shape, mut before) = (of_law.clone(), vec![0.0; points.len()]);
     for _ in 0..ROUNDS {
-        let of_train = |crank: f64| train.map_or(0.0, |train| train.at(crank)[0]);
-        let height = |crank: &f64| of_train(*crank) + height(of_law, &shape, *crank, shaft) / lever;
-        let heights: Vec<f64> = points.iter().map(height).collect();
+        let mut heights = Vec::with_capacity(points.len());
+        for crank in &points {
+            let of_train = train.map_or(0.0, |train| train.at(*crank)[0]);
+            heights.push(of_train + height(of_law, &shape, *crank, shaft) / lever);
+        }
         let apart = heights.iter().zip(&before).map(|(new, old)| (new - old).abs()).fold(0.0, f64::max);
         let raise = Arc::new(RaiseSeries::new(&ChebyshevSeries::through(range, &heights, ROUNDING)));
         if apart * lever < AGREED {
@@ -121,13 +125,13 @@ pub(super) fn train_section(press: &Press, rpm: f64, lever: f64) -> Option<Secti
 fn left_by_twist(disc: &Disc) -> f64 {
     let Some(CutForShaft(Ok(shaft))) = disc.machine().part() else { return 0.0 };
     let motion = disc.curves().motion;
-    let left = |piece: usize, angle: f64| {
+    let largest = disc.largest_force(|piece, angle| {
         let lift = motion.jet(piece, angle);
         let twisted = shaft.twist * disc.path_force(piece, angle).unwrap_or(0.0) * lift.ds;
         let (there, inside) = motion.locate(angle - twisted);
         (motion.jet(there, inside).s - (lift.s - twisted * lift.ds)).abs()
-    };
-    disc.largest_force(left).value
+    });
+    largest.value
 }
 
 /// The section of the report on how much higher than its law a disc is cut.

@@ -222,9 +222,9 @@ impl AirLaw {
         if let Some(solved) = &self.equation_18 {
             words.push(solved.words(self.start_slope));
             words.extend(solved.omitted_friction());
-            let then = |at: &SlopeBreak| format!("{} from x = {:.3} mm", at.then, at.x_mm);
             if !solved.breaks.is_empty() {
-                let breaks: Vec<String> = solved.breaks.iter().map(then).collect();
+                let breaks: Vec<String> =
+                    solved.breaks.iter().map(|at| format!("{} from x = {:.3} mm", at.then, at.x_mm)).collect();
                 words.push(format!("the bottom is {}", breaks.join(", ")));
             }
         }

@@ -54,12 +54,16 @@ pub fn of_disc(disc: &Disc) -> Option<RollerLife> {
     let pieces = curves.motion.pieces().len() / curves.motion.lobes().max(1) as usize;
     for (index, piece) in curves.motion.pieces().iter().enumerate().take(pieces) {
         for stretch in stretches(piece, &acting) {
-            let speed = |at: f64| curves.profile(index, at).speed.abs();
-            // In the force over its largest nothing overflows.
-            let share =
-                |at: f64| libm::pow(disc.normal_force(index, at).unwrap_or(f64::NAN).max(0.0) / largest, EXPONENT);
-            length += quadrature::integrate(speed, stretch, PANELS);
-            worn += quadrature::integrate(|at| share(at) * speed(at), stretch, PANELS);
+            length += quadrature::integrate(|at| curves.profile(index, at).speed.abs(), stretch, PANELS);
+            worn += quadrature::integrate(
+                |at| {
+                    // In the force over its largest nothing overflows.
+                    let share = disc.normal_force(index, at).unwrap_or(f64::NAN).max(0.0) / largest;
+                    libm::pow(share, EXPONENT) * curves.profile(index, at).speed.abs()
+                },
+                stretch,
+                PANELS,
+            );
         }
     }
     let mean = largest * libm::pow(worn / length, 1.0 / EXPONENT);

@@ -61,9 +61,10 @@ pub fn rotary(machine: &Machine, rpm: f64) -> Result<RotaryCam, Refusal> {
     let shaft = shaft
         .as_ref()
         .map_err(|why| Refusal::new(why.as_str()).context("the cam is to be cut for its shaft (shaft.compensate)"))?;
-    let angle_and_lever = (machine.press()?.bottom_law(rpm).angle(), PressCams::of(machine).lever);
-    let cut = |raise: Arc<RaiseSeries>| of_reversal(machine, rpm, Some(raise)).map(|cam| cam.disc);
-    let raise = raised_disc::cut_for(&cam.disc, angle_and_lever, (shaft, train.as_deref()), cut)?;
+    let (angle, lever) = (machine.press()?.bottom_law(rpm).angle(), PressCams::of(machine).lever);
+    let raise = raised_disc::cut_for(&cam.disc, angle, lever, shaft, train.as_deref(), |raise| {
+        of_reversal(machine, rpm, Some(raise)).map(|cam| cam.disc)
+    })?;
     of_reversal(machine, rpm, Some(raise)).map(|cam| RotaryCam { cut_for_shaft: true, ..cam })
 }
 
@@ -131,17 +132,15 @@ impl ForceBalanced for BalancedDisc<'_> {
 
     /// Where the bottom stays off the piston.
     fn as_cut(&self, tolerance: f64) -> Option<AsCut> {
-        let (press, machine) = (&self.duty.press, self.disc.machine());
-        let cylinder = press.cylinder();
-        let allowed = |rpm: f64| press.rotary_law(rpm).map_or(0.0, |law| allowed_error(&cylinder, &law));
+        let machine = self.disc.machine();
         // Along the path an error is larger than along the normal.
         let lean = self.disc.pressure_angle().value;
         let lean = machine.limits.pressure_angle.map_or(lean, |limit| lean.max(limit)).min(STEEPEST);
         let per_tolerance = 1.0 / (self.duty.lever * libm::cos(lean));
         self.duty.buffer.least_air()?;
         Some(AsCut {
-            speed: fitting_speed(allowed, self.duty.rpm, tolerance * per_tolerance),
-            tolerance: 1e-6 * three_digits_down(1e6 * allowed(self.duty.rpm) / per_tolerance),
+            speed: fitting_speed(|rpm| self.duty.allowed_error_at(rpm), self.duty.rpm, tolerance * per_tolerance),
+            tolerance: 1e-6 * three_digits_down(1e6 * self.duty.allowed_error_at(self.duty.rpm) / per_tolerance),
         })
     }
 
@@ -159,6 +158,11 @@ impl ForceBalanced for BalancedDisc<'_> {
 }
 
 impl BedBalanceDuty {
+    /// By how much the bottom may miss the law for a speed, m; 0 without a law for it.
+    fn allowed_error_at(&self, rpm: f64) -> f64 {
+        self.press.rotary_law(rpm).map_or(0.0, |law| allowed_error(&self.press.cylinder(), &law))
+    }
+
     fn law(&self) -> &CrankLaw {
         &self.buffer.reversal().law().bottom_law
     }
@@ -182,7 +186,7 @@ impl Duty for BedBalanceDuty {
 
     fn forces(&self, disc: &Disc, rolled: Option<&Rolled>) -> Option<Section> {
         let residual_max_n = rolled.map_or_else(|| disc.residual_max().value, |rolled| rolled.residual_max_n);
-        let force = |piece: usize, angle: f64| disc.path_force(piece, angle).unwrap_or(f64::NAN);
+        let largest = disc.largest_force(|piece, angle| disc.path_force(piece, angle).unwrap_or(f64::NAN));
         let inertia_max_n = self.buffer.largest();
         let forces = ForceMeasures {
             inertia_max_n,
@@ -190,7 +194,7 @@ impl Duty for BedBalanceDuty {
             residual_share: residual_max_n / inertia_max_n,
             residual_fixed_bottom_max_n: self.buffer.residual_without_cam(),
             by_direction: None,
-            roller_force_max_n: disc.largest_force(force).value,
+            roller_force_max_n: largest.value,
             torque_max_nm: disc.torque_max().map(|torque| torque.value),
         };
         Some(forces.section())

@@ -21,13 +21,20 @@ pub(super) fn smoother(machine: &Machine, laws: impl Fn(&Press) -> Vec<CrankLaw>
         (with_ramp.to_owned(), *press, ramp, cams.transition == Transition::None),
         (format!("{no_lead} with {with_ramp}"), direct, ramp, press.lead > 0.0 && cams.transition == Transition::None),
     ];
-    let keeps = |bottom_law: CrankLaw, transition: Transition| {
-        let law = ReversalLaw { bottom_law, lever: cams.lever, lobes: cams.lobes, transition };
-        let jump = Reversal::new(law).map(|motion| jump::largest(&motion));
-        jump.is_ok_and(|jump| jump.is_none_or(|jump| f64::from(jump.order) - 1.0 >= machine.limits.continuity))
-    };
-    let applies = changes.into_iter().filter(|(.., applies)| *applies);
-    let mut kept =
-        applies.filter(|(_, press, transition, _)| laws(press).into_iter().all(|law| keeps(law, *transition)));
-    kept.next().map(|(words, ..)| format!("{words} would pass"))
+    for (words, press, transition, applies) in changes {
+        if !applies {
+            continue;
+        }
+        let mut motions = laws(&press).into_iter().map(|bottom_law| {
+            Reversal::new(ReversalLaw { bottom_law, lever: cams.lever, lobes: cams.lobes, transition })
+        });
+        if motions.all(|motion| motion.is_ok_and(|motion| keeps_continuity(machine, &motion))) {
+            return Some(format!("{words} would pass"));
+        }
+    }
+    None
+}
+
+fn keeps_continuity(machine: &Machine, motion: &Reversal) -> bool {
+    jump::largest(motion).is_none_or(|jump| f64::from(jump.order) - 1.0 >= machine.limits.continuity)
 }

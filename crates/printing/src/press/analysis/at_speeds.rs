@@ -87,7 +87,7 @@ impl CurveAxis {
     pub(super) const OVERRUN: Self =
         Self { list: CURVES, column: "x_mm", words: "overrun x of the bed, mm", value: |place| MILLIMETRES * place.x };
 
-    pub(super) fn of(design: &CrankLaw) -> Self {
+    pub(super) fn for_bed(design: &CrankLaw) -> Self {
         match design {
             CrankLaw::Yoke(_) => Self::OVERRUN,
             CrankLaw::Linkage(_) => Self {
@@ -132,19 +132,31 @@ pub(super) fn unsigned_zero(value: f64, decimals: usize) -> String {
 
 /// The forces of both and what is left, a curve for each speed.
 pub(super) fn force_panels(all: &[ForcePlace], along: &CurveAxis) -> Vec<PlotPanel> {
-    let speeds: Vec<&[ForcePlace]> = all.chunks(PLACES as usize + 1).collect();
-    let curve = |(colour, places): (usize, &&[ForcePlace]), bold: bool, value: fn(&ForcePlace) -> f64| PlotCurve {
-        name: places.first().filter(|_| bold).map_or_else(String::new, |place| format!("{} rpm", shown(place.rpm))),
-        colour,
-        bold,
-        points: places.iter().map(|place| [(along.value)(place), value(place)]).collect(),
-    };
-    let of = |bold, value: fn(&ForcePlace) -> f64| -> Vec<PlotCurve> {
-        speeds.iter().enumerate().map(|one| curve(one, bold, value)).collect()
-    };
-    let forces = [of(false, |place| place.inertia), of(true, |place| place.air)].concat();
+    let inertia = force_curves(all, along, false, |place| place.inertia);
+    let forces = [inertia, force_curves(all, along, true, |place| place.air)].concat();
+    let residuals = force_curves(all, along, true, |place| place.residual);
     vec![
         PlotPanel { name: "Force, N: inertia of the bed (thin), air of both cylinders (bold)".into(), curves: forces },
-        PlotPanel { name: "Residual force, inertia less air, N".into(), curves: of(true, |place| place.residual) },
+        PlotPanel { name: "Residual force, inertia less air, N".into(), curves: residuals },
     ]
+}
+
+/// A curve of a force for each speed; bold ones have a name.
+fn force_curves(
+    all: &[ForcePlace],
+    along: &CurveAxis,
+    bold: bool,
+    value: fn(&ForcePlace) -> f64,
+) -> Vec<PlotCurve> {
+    let mut curves = Vec::new();
+    for (colour, places) in all.chunks(PLACES as usize + 1).enumerate() {
+        let named = places.first().filter(|_| bold);
+        curves.push(PlotCurve {
+            name: named.map_or_else(String::new, |place| format!("{} rpm", shown(place.rpm))),
+            colour,
+            bold,
+            points: places.iter().map(|place| [(along.value)(place), value(place)]).collect(),
+        });
+    }
+    curves
 }

@@ -65,7 +65,7 @@ fn degrees(angle: f64) -> f64 {
 }
 
 impl DriveRow {
-    fn of(state: &DriveState, crank: f64, data: &DriveData) -> Self {
+    fn new(state: &DriveState, crank: f64, data: &DriveData) -> Self {
         Self {
             crank,
             phase: state.phase,
@@ -150,25 +150,17 @@ pub fn analysis(machine: &DriveMachine, solver: DriveSolver, step: f64) -> Resul
     let data = machine.data;
     let (drive, open) = solved(machine)?;
     let nodes = drive::sections(&drive, step);
-    let lead = data.lead_angle;
-    // The row where the crank begins to turn the bed is the last of the first phase.
-    // An open machine has no speed at the end of its stroke.
     let closes = open.is_none();
-    let exact = |crank: f64| {
-        let state = if crank <= lead { drive.at_phase(Phase::Lead, crank) } else { drive.at(crank) };
-        let row = state.map(|state| DriveRow::of(&state, crank, &data));
-        row.filter(|row| closes || row.crank < lead + FRAC_PI_2)
-    };
     let rows: Vec<DriveRow> = match solver {
         DriveSolver::Energy => {
-            let rows = ends(data.lead_angle, step).into_iter().filter_map(exact).collect();
+            let rows = ends(data.lead_angle, step).into_iter().filter_map(|crank| exact_row(&drive, &data, closes, crank)).collect();
             if closes { timed(&drive, rows) } else { rows }
         }
         DriveSolver::Paper => by_sections(machine, &drive, &nodes),
     };
-    let fine: Vec<DriveRow> =
-        (0..=PLACES).filter_map(|i| exact((data.lead_angle + FRAC_PI_2) * f64::from(i) / f64::from(PLACES))).collect();
-    let drive_figures = figures(machine, (&drive, closes), step, &nodes);
+    let cranks = (0..=PLACES).map(|i| (data.lead_angle + FRAC_PI_2) * f64::from(i) / f64::from(PLACES));
+    let fine: Vec<DriveRow> = cranks.filter_map(|crank| exact_row(&drive, &data, closes, crank)).collect();
+    let drive_figures = figures(machine, &drive, closes, step, &nodes);
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs().iter().cloned());
     inputs.extend([Input::word("solver", solver.word()), Input::quantity("step", step, ("deg", PI / 180.0))]);
@@ -178,7 +170,7 @@ pub fn analysis(machine: &DriveMachine, solver: DriveSolver, step: f64) -> Resul
         machine: machine.name().to_owned(),
         speeds: Speeds::Any(()),
         inputs,
-        sections: vec![Section::new(KIND.command, &drive_figures).with_words(words(&drive_figures))],
+        sections: vec![Section::new(KIND.command, &drive_figures).with_words(describe(&drive_figures))],
         measures: vec![
             closing::CHECK
                 .measure(arrival(machine, drive_figures.work_over_energy), Some(closing::ARRIVAL))
@@ -194,6 +186,15 @@ pub fn analysis(machine: &DriveMachine, solver: DriveSolver, step: f64) -> Resul
         diagrams: &[],
         not_modelled: NOT_MODELLED.to_vec(),
     })
+}
+
+/// The row at a crank angle, rad; `None` where the bed stands. The row where the crank begins to turn the bed is the last of the first
+/// phase; a machine that does not close has no speed at the end of its stroke.
+fn exact_row(drive: &Drive, data: &DriveData, closes: bool, crank: f64) -> Option<DriveRow> {
+    let lead = data.lead_angle;
+    let state = if crank <= lead { drive.at_phase(Phase::Lead, crank) } else { drive.at(crank) };
+    let row = DriveRow::new(&state?, crank, data);
+    (closes || row.crank < lead + FRAC_PI_2).then_some(row)
 }
 
 /// The speed that the bed has left at the end of its stroke, or lacks there, m/s: 0 where the machine closes but for rounding.
@@ -243,7 +244,7 @@ fn timed(drive: &Drive, mut rows: Vec<DriveRow>) -> Vec<DriveRow> {
     let (mut crank, mut time) = (0.0, 0.0);
     for row in &mut rows {
         let before = if row.phase == Phase::Lead { 0.0 } else { lead };
-        time += drive.time_between(row.phase, (crank - before, row.crank - before), PANELS);
+        time += drive.time_between(row.phase, crank - before, row.crank - before, PANELS);
         (crank, row.time) = (row.crank, time);
     }
     rows
@@ -251,12 +252,13 @@ fn timed(drive: &Drive, mut rows: Vec<DriveRow>) -> Vec<DriveRow> {
 
 /// Crank angles of the rows: the ends of the sections of both phases.
 fn ends(lead: f64, step: f64) -> Vec<f64> {
-    let of = |from: f64, length: f64| {
+    let mut ends = vec![0.0];
+    for (from, length) in [(0.0, lead), (lead, FRAC_PI_2)] {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at least 0.01 degrees")]
         let count = (length / step - 1e-9).ceil().max(0.0) as u32;
-        (1..=count).map(move |i| if i == count { from + length } else { from + step * f64::from(i) })
-    };
-    std::iter::once(0.0).chain(of(0.0, lead)).chain(of(lead, FRAC_PI_2)).collect()
+        ends.extend((1..=count).map(|i| if i == count { from + length } else { from + step * f64::from(i) }));
+    }
+    ends
 }
 
 /// The rows of the paper's sections that have a speed; the time by the mean speed of a section, its torque by the difference.
@@ -282,7 +284,7 @@ fn by_sections(machine: &DriveMachine, drive: &Drive, nodes: &[SectionEnd]) -> V
             force: drive.force(node.x),
             velocity: r * omega * lever,
             omega,
-            motor_rpm: data.motor_ratio.map(|ratio| 30.0 / PI * ratio * omega),
+            motor_rpm: motor_rpm(&data, omega),
             torque: data.inertia.map(|inertia| inertia * product),
             time: since + step / (0.5 * (omega + before)),
         });
@@ -291,38 +293,34 @@ fn by_sections(machine: &DriveMachine, drive: &Drive, nodes: &[SectionEnd]) -> V
 }
 
 /// Largest error of the speed by sections over it, at the nodes that have one.
-/// Largest error of the crank's speed that the sections of the paper leave at a step of the crank angle (rad), as a share.
-///
-/// # Errors
-/// As [`analysis`].
-pub(super) fn error_of_sections(machine: &DriveMachine, step: f64) -> Result<f64, DriveError> {
-    let (drive, _) = solved(machine)?;
-    Ok(error(&drive, &drive::sections(&drive, step), f64::INFINITY))
-}
-
 fn error(drive: &Drive, nodes: &[SectionEnd], within: f64) -> f64 {
     let lead = drive.machine.lead_angle;
-    let of = |node: &SectionEnd| {
+    let errors = nodes.iter().filter_map(|node| {
         let crank = if node.phase == Phase::Lead { node.angle } else { lead + node.angle };
         let exact = drive.at(crank).filter(|_| crank <= within)?.omega;
         Some((node.speed.omega()? / exact - 1.0).abs())
-    };
-    nodes.iter().filter_map(of).fold(0.0, f64::max)
+    });
+    errors.fold(0.0, f64::max)
 }
 
 /// Largest size of the torque that the inertia of the drive needs, N·m: at either side of the seam of the phases, or within one.
 fn largest_torque(drive: &Drive, inertia: f64) -> f64 {
-    let of = |phase: Phase, end: f64| {
-        let torque = |angle: f64| drive.at_phase(phase, angle).map_or(0.0, |state| state.torque(inertia).abs());
-        extremum::largest_without_slope(torque, (0.0, end), CELLS, extremum::TO_ROUNDING).value
-    };
-    of(Phase::Lead, drive.machine.lead_angle).max(of(Phase::Crank, FRAC_PI_2))
+    let phases = [(Phase::Lead, drive.machine.lead_angle), (Phase::Crank, FRAC_PI_2)];
+    let [lead, crank] = phases.map(|(phase, end)| {
+        let found = extremum::largest_without_slope(
+            |angle| drive.at_phase(phase, angle).map_or(0.0, |state| state.torque(inertia).abs()),
+            (0.0, end),
+            CELLS,
+            extremum::TO_ROUNDING,
+        );
+        found.value
+    });
+    lead.max(crank)
 }
 
-fn figures(machine: &DriveMachine, (drive, closes): (&Drive, bool), step: f64, nodes: &[SectionEnd]) -> DriveFigures {
+fn figures(machine: &DriveMachine, drive: &Drive, closes: bool, step: f64, nodes: &[SectionEnd]) -> DriveFigures {
     let (of, data) = (&drive.machine, machine.data);
     let least = closes.then(|| drive.least_speed());
-    let motor = |omega: f64| data.motor_ratio.map(|ratio| 30.0 / PI * ratio * omega);
     let end = drive.at(data.lead_angle + FRAC_PI_2).filter(|_| closes).map(|state| state.omega);
     // Where the crank begins to turn the bed every step is compared at the same angle.
     let [whole, half] = [1.0, 0.5].map(|share| error(drive, &drive::sections(drive, share * step), data.lead_angle));
@@ -354,8 +352,8 @@ fn figures(machine: &DriveMachine, (drive, closes): (&Drive, bool), step: f64, n
         speed_drop: least.map(|least| least.drop.max(0.0)),
         lead_time_s: drive.time_of(Phase::Lead, data.lead_angle),
         crank_time_s: closes.then(|| drive.time_of(Phase::Crank, FRAC_PI_2)),
-        motor_rpm_before: motor(drive.omega_before()),
-        motor_rpm_least: least.and_then(|least| motor(least.omega)),
+        motor_rpm_before: motor_rpm(&data, drive.omega_before()),
+        motor_rpm_least: least.and_then(|least| motor_rpm(&data, least.omega)),
         torque_max_nm: data.inertia.filter(|_| closes).map(|inertia| largest_torque(drive, inertia)),
         energy_swing_j: data.inertia.filter(|_| closes).map(|inertia| drive.energy_swing(inertia)),
         paper: SectionFigures {
@@ -366,6 +364,11 @@ fn figures(machine: &DriveMachine, (drive, closes): (&Drive, bool), step: f64, n
             failure_radicand_per_s2: failure.map(|(_, radicand)| radicand),
         },
     }
+}
+
+/// Speed of the motor at a speed of the crank, rad/s.
+fn motor_rpm(data: &DriveData, omega: f64) -> Option<f64> {
+    data.motor_ratio.map(|ratio| 30.0 / PI * ratio * omega)
 }
 
 /// How slow the crank becomes, where the machine closes.
@@ -380,7 +383,7 @@ fn slowest(drive_figures: &DriveFigures) -> String {
     format!(", least {least:.5} at {at:.3}° of phase 2 (−{:.3} %), {end:.5} at the end", 100.0 * drop)
 }
 
-fn words(drive_figures: &DriveFigures) -> Vec<String> {
+fn describe(drive_figures: &DriveFigures) -> Vec<String> {
     let mut lines = vec![
         format!(
             "{}; stroke {} mm, force of all at its end {} N, work over the bed's energy {}",
@@ -412,14 +415,13 @@ fn words(drive_figures: &DriveFigures) -> Vec<String> {
     lines
 }
 
+fn by_crank(name: &str, rows: &[DriveRow], value: fn(&DriveRow) -> f64) -> PlotCurve {
+    let points = rows.iter().map(|row| [row.crank.to_degrees(), value(row)]).collect();
+    PlotCurve { name: name.into(), colour: 0, bold: true, points }
+}
+
 fn plot(machine: &DriveMachine, fine: &[DriveRow], nodes: &[SectionEnd]) -> Plot {
     let lead = machine.data.lead_angle;
-    let curve = |name: &str, colour: usize, value: &dyn Fn(&DriveRow) -> f64| PlotCurve {
-        name: name.into(),
-        colour,
-        bold: true,
-        points: fine.iter().map(|row| [row.crank.to_degrees(), value(row)]).collect(),
-    };
     let by_sections = PlotCurve {
         name: "by sections".into(),
         colour: 1,
@@ -432,15 +434,19 @@ fn plot(machine: &DriveMachine, fine: &[DriveRow], nodes: &[SectionEnd]) -> Plot
             })
             .collect(),
     };
-    let panel = |name: &str, curves: Vec<PlotCurve>| PlotPanel { name: name.into(), curves };
     let mut panels = vec![
-        panel("Speed of the crank, rad/s", vec![curve("by energy", 0, &|row| row.omega), by_sections]),
-        panel("Speed of the bed, m/s", vec![curve("bed", 0, &|row| row.velocity)]),
-        panel("Force of the buffers, N", vec![curve("air", 0, &|row| row.force)]),
+        PlotPanel {
+            name: "Speed of the crank, rad/s".into(),
+            curves: vec![by_crank("by energy", fine, |row| row.omega), by_sections],
+        },
+        PlotPanel { name: "Speed of the bed, m/s".into(), curves: vec![by_crank("bed", fine, |row| row.velocity)] },
+        PlotPanel { name: "Force of the buffers, N".into(), curves: vec![by_crank("air", fine, |row| row.force)] },
     ];
     if machine.data.inertia.is_some() {
-        let torque = curve("drive", 0, &|row| row.torque.unwrap_or(f64::NAN));
-        panels.push(panel("Torque for the inertia of the drive, N·m", vec![torque]));
+        panels.push(PlotPanel {
+            name: "Torque for the inertia of the drive, N·m".into(),
+            curves: vec![by_crank("drive", fine, |row| row.torque.unwrap_or(f64::NAN))],
+        });
     }
     Plot {
         title: format!("{}: the drive through a reversal", machine.name()),

@@ -172,7 +172,7 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
         Input::word("without-cam", "true"),
         Input::word("reset", reset.word()),
     ]);
-    let words = words(&section);
+    let words = describe(&section);
     Ok(Analysis {
         kind: &KIND,
         machine: machine.name().to_owned(),
@@ -188,7 +188,7 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
         picture: Picture::Curves(picture(machine.name(), &curves, &family_curves, &trials)),
         mechanism: None,
         document: None,
-        tables: tables_of(&rows, &curves, (&family, &family_curves), &trials),
+        tables: tables_of(&rows, &curves, &family, &family_curves, &trials),
         by: &["rpm"],
         along: "x_mm",
         diagrams: &[],
@@ -201,7 +201,8 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
 fn tables_of(
     rows: &[PlainRow],
     curves: &[ForcePlace],
-    (family, family_curves): (&[FamilyRow], &[FamilyPlace]),
+    family: &[FamilyRow],
+    family_curves: &[FamilyPlace],
     trials: &[TrialRow],
 ) -> Vec<Listing> {
     let trials = (!trials.is_empty()).then(|| ("-equation-18", Table::listed(trial_bottoms::COLUMNS, trials)));
@@ -215,8 +216,8 @@ fn tables_of(
 
 /// The keys that were given and have an effect on a cam alone.
 fn notes(machine: &Machine) -> Vec<String> {
-    let given = |key: &&str| machine.given().iter().any(|given| given == key);
-    let of_cam = ["buffer.column", "buffer.lead"].into_iter().filter(given);
+    let of_cam = ["buffer.column", "buffer.lead"].into_iter();
+    let of_cam = of_cam.filter(|key| machine.given().iter().any(|given| given == key));
     let of_cam = of_cam.map(|key| format!("`{key}` has no effect on fixed bottoms: the column is that of the reset, and the port shuts as the reversal starts"));
     // The plate is that of figure 9.
     let idle = machine.idle_key_notes(KIND.keys, KIND.noun).into_iter().filter(|note| !note.contains("`translating."));
@@ -280,8 +281,9 @@ fn pressures(press: &Press) -> Vec<f64> {
 fn of_end(press: &Press, end: f64) -> (Cylinder, [BottomLaw; 2]) {
     let (k, p0, r) = (press.polytropic_exponent, press.ambient_pressure, press.bed.crank_radius);
     let cylinder = Cylinder::sized(&press.bed, press.design_rpm, k, p0, end);
-    let law = |rule| BottomLaw::new(cylinder.loading(press.design_rpm), k, r, rule, 0.0);
-    (cylinder, [law(ColumnRule::Return), law(ColumnRule::Matched)])
+    let laws = [ColumnRule::Return, ColumnRule::Matched]
+        .map(|rule| BottomLaw::new(cylinder.loading(press.design_rpm), k, r, rule, 0.0));
+    (cylinder, laws)
 }
 
 fn of_pressure(press: &Press, end: f64) -> FamilyRow {
@@ -315,7 +317,7 @@ fn family_curve(press: &Press, end: f64) -> Vec<FamilyPlace> {
         .collect()
 }
 
-fn words(found: &PlainBuffers<'_>) -> Vec<String> {
+fn describe(found: &PlainBuffers<'_>) -> Vec<String> {
     let mut lines = vec![format!("fixed bottoms without a cam; reset: {}; {}", found.reset, found.cylinders.words())];
     lines.push(format!(
         "{:>8} {:>11} {:>13} {:>13} {:>11} {:>8} {:>9} {:>10} {:>9}",

@@ -123,11 +123,11 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
         .iter()
         .map(|(rpm, regime)| {
             let fixed = left_by_reset(&FrozenBuffer::of_law(&press.bottom_law(*rpm), &cylinder), reset);
-            at_speed((press, &design), *rpm, (regime, fixed), lobes)
+            at_speed(press, &design, *rpm, regime, fixed, lobes)
         })
         .collect();
     let curves: Vec<ForcePlace> = all.iter().flat_map(|(rpm, regime)| curve(&design, *rpm, regime)).collect();
-    let along = CurveAxis::of(&design);
+    let along = CurveAxis::for_bed(&design);
     let columns: Vec<(f64, f64)> = rows.iter().map(|row| (row.column_length_mm / MILLIMETRES, row.rpm)).collect();
     let resets: Vec<ColumnReset> = rows.iter().map(SpeedRow::reset).collect();
     let rivals: Vec<Rivals> = rows.iter().map(SpeedRow::rivals).collect();
@@ -150,7 +150,7 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
         machine: machine.name().to_owned(),
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
-        sections: std::iter::once(Section::new(KIND.command, &regimes).with_words(words(&regimes)))
+        sections: std::iter::once(Section::new(KIND.command, &regimes).with_words(describe(&regimes)))
             .chain(reversal_of_bed(machine))
             .collect(),
         measures: std::iter::once(volume(&resets, CUBIC * cylinder.volume(design.column())))
@@ -193,9 +193,11 @@ const NOT_MODELLED: &[&str] = &[
 ];
 
 fn at_speed(
-    (press, design): (&Press, &CrankLaw),
+    press: &Press,
+    design: &CrankLaw,
     rpm: f64,
-    (regime, fixed): (&Regime, FixedSetting),
+    regime: &Regime,
+    fixed: FixedSetting,
     lobes: f64,
 ) -> SpeedRow {
     let residual_at = match design {
@@ -223,21 +225,29 @@ fn at_speed(
 
 /// Over the braking half under a yoke, whose other half is its mirror; over the whole reversal under a linkage.
 fn curve(design: &CrankLaw, rpm: f64, regime: &Regime) -> Vec<ForcePlace> {
-    let at = |crank: f64, [x, a]: [f64; 2]| ForcePlace {
-        rpm,
-        crank,
-        x,
-        inertia: regime.inertia(a),
-        air: regime.air(a),
-        residual: regime.residual(a),
-    };
     match design {
-        CrankLaw::Yoke(law) => places(law.stroke).map(|x| at(f64::NAN, [x, x])).collect(),
-        CrankLaw::Linkage(law) => places(law.end.angle()).map(|crank| at(crank, design.bed(crank))).collect(),
+        CrankLaw::Yoke(law) => places(law.stroke).map(|x| force_place(regime, rpm, f64::NAN, x, x)).collect(),
+        CrankLaw::Linkage(law) => places(law.end.angle())
+            .map(|crank| {
+                let [x, deceleration] = design.bed(crank);
+                force_place(regime, rpm, crank, x, deceleration)
+            })
+            .collect(),
     }
 }
 
-fn words(regimes: &Regimes<'_>) -> Vec<String> {
+fn force_place(regime: &Regime, rpm: f64, crank: f64, x: f64, deceleration: f64) -> ForcePlace {
+    ForcePlace {
+        rpm,
+        crank,
+        x,
+        inertia: regime.inertia(deceleration),
+        air: regime.air(deceleration),
+        residual: regime.residual(deceleration),
+    }
+}
+
+fn describe(regimes: &Regimes<'_>) -> Vec<String> {
     let mut lines = vec![format!(
         "cam for {} rpm, column {:.3} mm there; reset: {}; {}",
         regimes.cam_rpm,

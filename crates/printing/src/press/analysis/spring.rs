@@ -139,8 +139,8 @@ pub fn analysis(
     }
     SETS.allow(all.len().saturating_mul(speeds.len()))?;
     let sets = sets_of(press, &all, speeds)?;
-    let rows: Vec<SpringSet> = sets.iter().map(|(rpm, spring)| set_of(*rpm, spring)).collect();
-    let curves: Vec<SpringRow> = sets.iter().flat_map(|(rpm, spring)| curve(press, *rpm, spring)).collect();
+    let rows: Vec<SpringSet> = sets.iter().map(set_of).collect();
+    let curves: Vec<SpringRow> = sets.iter().flat_map(|set| curve(press, set)).collect();
     let (curve_columns, along) = match press.stroke_end {
         None => (CURVES, "x_mm"),
         Some(_) => (CURVES_OF_A_LINKAGE, "crank_deg"),
@@ -161,8 +161,8 @@ pub fn analysis(
         machine: machine.name().to_owned(),
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
-        sections: std::iter::once(Section::new(KIND.command, &springs).with_words(words(&springs, press)))
-            .chain(bodies.as_ref().map(|(rows, _)| section_of_bodies(rows)))
+        sections: std::iter::once(Section::new(KIND.command, &springs).with_words(describe(&springs, press)))
+            .chain(bodies.as_ref().map(|bodies| section_of_bodies(&bodies.rows)))
             .collect(),
         measures: measures(machine, &sets, bodies.as_ref()),
         notes: machine.idle_key_notes(KIND.keys, KIND.noun),
@@ -170,7 +170,7 @@ pub fn analysis(
         mechanism: None,
         document: None,
         tables: std::iter::once(("", Table::listed(COLUMNS, &rows)))
-            .chain(bodies.as_ref().map(|(rows, _)| ("-bodies", Table::listed(BODIES, rows))))
+            .chain(bodies.as_ref().map(|bodies| ("-bodies", Table::listed(BODIES, &bodies.rows))))
             .chain([("-curves", Table::listed(curve_columns, &curves))])
             .collect(),
         by: &["stiffness_n_per_mm", "rpm"],
@@ -181,13 +181,9 @@ pub fn analysis(
 }
 
 /// What checks judge: the columns, and the springs where the file describes them.
-fn measures(
-    machine: &Machine,
-    sets: &[(f64, SpringBuffer)],
-    bodies: Option<&(Vec<SpringBodyRow>, f64)>,
-) -> Vec<Measure> {
-    let columns: Vec<(f64, f64)> = sets.iter().map(|(rpm, spring)| (spring.column, *rpm)).collect();
-    let of_bodies = bodies.map_or_else(Vec::new, |(rows, stress)| measures_of(rows, *stress));
+fn measures(machine: &Machine, sets: &[SpringAtSpeed], bodies: Option<&SpringBodies>) -> Vec<Measure> {
+    let columns: Vec<(f64, f64)> = sets.iter().map(|set| (set.spring.column, set.rpm)).collect();
+    let of_bodies = bodies.map_or_else(Vec::new, SpringBodies::measures);
     column::measure_of_analysis(&columns, machine).into_iter().chain(of_bodies).collect()
 }
 
@@ -221,16 +217,25 @@ const BODIES: &[ListedColumn<SpringBodyRow>] = &[
     ("buckling", |row| row.buckling),
 ];
 
-/// The springs of each stiffness, with the allowable stress, Pa; `None` where the file does not describe them.
-fn bodies_of(machine: &Machine, sets: &[(f64, SpringBuffer)]) -> Option<(Vec<SpringBodyRow>, f64)> {
+/// The springs of each stiffness.
+struct SpringBodies {
+    rows: Vec<SpringBodyRow>,
+    /// Allowable stress, Pa.
+    allowable: f64,
+}
+
+/// `None` where the file does not describe the springs.
+fn bodies_of(machine: &Machine, sets: &[SpringAtSpeed]) -> Option<SpringBodies> {
     let (data, bed) = (PressCams::of(machine).spring_body?, machine.bed()?);
-    let fastest = sets.iter().map(|(rpm, _)| *rpm).fold(0.0, f64::max);
+    let fastest = sets.iter().map(|set| set.rpm).fold(0.0, f64::max);
     let crank_hz = bed.crank_speed(fastest) / std::f64::consts::TAU;
-    let of = |of_one: &[(f64, SpringBuffer)]| {
-        let rate = of_one.first()?.1.stiffness;
-        let force = of_one.iter().map(|(_, spring)| spring.spring_force_max).fold(0.0, f64::max);
+    let mut rows = Vec::new();
+    for of_one in sets.chunk_by(|a, b| a.spring.stiffness == b.spring.stiffness) {
+        let Some(first) = of_one.first() else { continue };
+        let rate = first.spring.stiffness;
+        let force = of_one.iter().map(|set| set.spring.spring_force_max).fold(0.0, f64::max);
         let body = SpringBody::new(data.shape, force, rate, data.stress);
-        Some(SpringBodyRow {
+        rows.push(SpringBodyRow {
             stiffness_n_per_mm: rate / MILLIMETRES,
             force_max_n: force,
             wire_mm: MILLIMETRES * body.wire,
@@ -242,10 +247,9 @@ fn bodies_of(machine: &Machine, sets: &[(f64, SpringBuffer)]) -> Option<(Vec<Spr
             solid_length_mm: MILLIMETRES * body.solid_length,
             free_length_mm: MILLIMETRES * body.free_length,
             buckling: body.buckling,
-        })
-    };
-    let rows = sets.chunk_by(|(_, a), (_, b)| a.stiffness == b.stiffness).filter_map(of).collect();
-    Some((rows, data.stress))
+        });
+    }
+    Some(SpringBodies { rows, allowable: data.stress })
 }
 
 fn section_of_bodies(rows: &[SpringBodyRow]) -> Section {
@@ -273,34 +277,44 @@ fn section_of_bodies(rows: &[SpringBodyRow]) -> Section {
 /// Rounding of the stress of a wire that is found for it.
 const ROUNDING: f64 = 1e-12;
 
-fn measures_of(rows: &[SpringBodyRow], allowable: f64) -> Vec<Measure> {
-    let largest = rows.iter().map(|row| row.stress_mpa).fold(0.0, f64::max);
-    let slowest = rows.iter().map(|row| row.surge_hz / row.crank_hz).fold(f64::INFINITY, f64::min);
-    let limit = 1e-6 * allowable;
-    let bent = rows.iter().map(|row| row.buckling).fold(0.0, f64::max);
-    let least = |of: fn(&SpringBodyRow) -> f64| rows.iter().map(of).fold(f64::INFINITY, f64::min);
-    let thickest = rows.iter().map(|row| row.wire_mm).fold(0.0, f64::max);
-    let stress = spring_stress::CHECK.measure(largest, Some(limit)).kept(largest <= limit * (1.0 + ROUNDING));
-    let coiled = spring_coils::measures(least(|row| row.coils), thickest, least(|row| row.coil_mm / row.wire_mm));
-    std::iter::once(stress)
-        .chain(coiled)
-        .chain([surge::CHECK.measure(slowest, Some(surge::LEAST)), buckling::measure(bent)])
-        .collect()
+impl SpringBodies {
+    fn measures(&self) -> Vec<Measure> {
+        let rows = &self.rows;
+        let largest = rows.iter().map(|row| row.stress_mpa).fold(0.0, f64::max);
+        let slowest = rows.iter().map(|row| row.surge_hz / row.crank_hz).fold(f64::INFINITY, f64::min);
+        let limit = 1e-6 * self.allowable;
+        let bent = rows.iter().map(|row| row.buckling).fold(0.0, f64::max);
+        let fewest_coils = rows.iter().map(|row| row.coils).fold(f64::INFINITY, f64::min);
+        let least_index = rows.iter().map(|row| row.coil_mm / row.wire_mm).fold(f64::INFINITY, f64::min);
+        let thickest = rows.iter().map(|row| row.wire_mm).fold(0.0, f64::max);
+        let stress = spring_stress::CHECK.measure(largest, Some(limit)).kept(largest <= limit * (1.0 + ROUNDING));
+        std::iter::once(stress)
+            .chain(spring_coils::measures(fewest_coils, thickest, least_index))
+            .chain([surge::CHECK.measure(slowest, Some(surge::LEAST)), buckling::measure(bent)])
+            .collect()
+    }
+}
+
+/// A spring set for a speed.
+struct SpringAtSpeed {
+    rpm: f64,
+    spring: SpringBuffer,
+}
+
+fn set_spring(press: &Press, stiffness: f64, rpm: f64) -> Result<SpringAtSpeed, Refusal> {
+    let spring = spring::set_for(&braked_by(press), &press.cylinder(), stiffness, rpm);
+    Ok(SpringAtSpeed { rpm, spring: spring.map_err(|soft| soft.at(format!("{rpm} rpm")))? })
 }
 
 /// Every spring at every speed.
-fn sets_of(press: &Press, stiffnesses: &[f64], speeds: &[f64]) -> Result<Vec<(f64, SpringBuffer)>, Refusal> {
-    let set = |stiffness: f64, rpm: f64| {
-        let set = spring::set_for(&braked_by(press), &press.cylinder(), stiffness, rpm);
-        set.map_err(|soft| soft.at(format!("{rpm} rpm")))
-    };
+fn sets_of(press: &Press, stiffnesses: &[f64], speeds: &[f64]) -> Result<Vec<SpringAtSpeed>, Refusal> {
     // The speed that needs the stiffest spring comes first: its report serves for all.
     let fastest = speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     for stiffness in stiffnesses {
-        set(*stiffness, fastest)?;
+        set_spring(press, *stiffness, fastest)?;
     }
     let all = stiffnesses.iter().flat_map(|stiffness| speeds.iter().map(|rpm| (*stiffness, *rpm)));
-    all.map(|(stiffness, rpm)| Ok((rpm, set(stiffness, rpm)?))).collect()
+    all.map(|(stiffness, rpm)| set_spring(press, stiffness, rpm)).collect()
 }
 
 const NOT_MODELLED: &[&str] = &[
@@ -308,13 +322,14 @@ const NOT_MODELLED: &[&str] = &[
     "Leakage and the flow of heat: the exponent of the air is the same at every speed.",
 ];
 
-fn set_of(rpm: f64, spring: &SpringBuffer) -> SpringSet {
+fn set_of(set: &SpringAtSpeed) -> SpringSet {
+    let SpringAtSpeed { rpm, spring } = set;
     SpringSet {
         stiffness_n_per_mm: spring.stiffness / MILLIMETRES,
         spring_travel_mm: MILLIMETRES * spring.travel,
         air_length_mm: MILLIMETRES * spring.column,
         residual_max_n: spring.residual,
-        rpm,
+        rpm: *rpm,
         compressed_length_mm: MILLIMETRES * spring.compressed_length,
         residual_at_mm: MILLIMETRES * spring.residual_at,
         screw_mm: spring.screw.map(|screw| MILLIMETRES * screw),
@@ -323,24 +338,41 @@ fn set_of(rpm: f64, spring: &SpringBuffer) -> SpringSet {
 }
 
 /// Over the braking half under a yoke, whose other half is its mirror; over the whole reversal under a linkage.
-fn curve(press: &Press, rpm: f64, spring: &SpringBuffer) -> Vec<SpringRow> {
-    let at = |crank: f64, [x, deceleration]: [f64; 2], residual: f64| {
-        let inertia = press.bed.inertia(rpm, deceleration);
-        let (air, travel) = (spring.air(x), spring.spring_travel(x));
-        SpringRow { stiffness: spring.stiffness, rpm, crank, x, inertia, air, residual, travel }
-    };
+fn curve(press: &Press, set: &SpringAtSpeed) -> Vec<SpringRow> {
+    let SpringAtSpeed { rpm, spring } = set;
     match &press.stroke_end {
-        None => places(press.bed.crank_radius).map(|x| at(f64::NAN, [x, x], spring.residual(x))).collect(),
+        None => places(press.bed.crank_radius)
+            .map(|x| SpringRow {
+                stiffness: spring.stiffness,
+                rpm: *rpm,
+                crank: f64::NAN,
+                x,
+                inertia: press.bed.inertia(*rpm, x),
+                air: spring.air(x),
+                residual: spring.residual(x),
+                travel: spring.spring_travel(x),
+            })
+            .collect(),
         Some(end) => places(end.angle())
             .map(|crank| {
                 let bed = end.at(crank);
-                at(crank, [bed.x[0], bed.deceleration()[0].max(0.0)], spring.residual_at_crank(crank))
+                let [x, ..] = bed.x;
+                SpringRow {
+                    stiffness: spring.stiffness,
+                    rpm: *rpm,
+                    crank,
+                    x,
+                    inertia: press.bed.inertia(*rpm, bed.deceleration()[0].max(0.0)),
+                    air: spring.air(x),
+                    residual: spring.residual_at_crank(crank),
+                    travel: spring.spring_travel(x),
+                }
             })
             .collect(),
     }
 }
 
-fn words(springs: &Springs<'_>, press: &Press) -> Vec<String> {
+fn describe(springs: &Springs<'_>, press: &Press) -> Vec<String> {
     let design = press.design_rpm;
     let fastest = springs.settings.iter().map(|row| row.rpm).fold(design, f64::max);
     let faster = spring::least_stiffness(&braked_by(press), fastest) / MILLIMETRES;
@@ -377,39 +409,26 @@ fn words(springs: &Springs<'_>, press: &Press) -> Vec<String> {
 }
 
 /// Figure 11 of the paper, with the residual below.
-fn curves_of(machine: &str, sets: &[(f64, SpringBuffer)], rows: &[SpringRow]) -> Plot {
-    let name =
-        |rpm: f64, spring: &SpringBuffer| format!("{:.2} N/mm, {} rpm", spring.stiffness / MILLIMETRES, shown(rpm));
+fn curves_of(machine: &str, sets: &[SpringAtSpeed], rows: &[SpringRow]) -> Plot {
     let of_sets: Vec<&[SpringRow]> = rows.chunks(PLACES as usize + 1).collect();
     let by_crank = rows.first().is_some_and(|row| row.crank.is_finite());
-    let points = |rows: &[SpringRow], value: fn(&SpringRow) -> f64| -> Vec<[f64; 2]> {
-        let place = |row: &SpringRow| if by_crank { row.crank.to_degrees() } else { MILLIMETRES * row.x };
-        rows.iter().map(|row| [place(row), value(row)]).collect()
-    };
-    let of = |value: fn(&SpringRow) -> f64| -> Vec<PlotCurve> {
-        let curve = |(colour, ((rpm, spring), rows)): (usize, (&(f64, SpringBuffer), &&[SpringRow]))| PlotCurve {
-            name: name(*rpm, spring),
-            colour,
-            bold: true,
-            points: points(rows, value),
-        };
-        sets.iter().zip(&of_sets).enumerate().map(curve).collect()
-    };
     let mut speeds: Vec<&[SpringRow]> = of_sets.clone();
     speeds.sort_by(|a, b| speed_of(a).total_cmp(&speed_of(b)));
     speeds.dedup_by(|a, b| speed_of(a) == speed_of(b));
-    let inertia = |rows: &[SpringRow]| {
+    let mut forces = Vec::new();
+    for rows in speeds {
         let all = points(rows, |row| row.inertia);
         // Under a yoke it is a straight line.
         let ends = [all.first(), all.last()].into_iter().flatten().copied().collect();
-        PlotCurve {
+        forces.push(PlotCurve {
             name: format!("inertia, {} rpm", shown(speed_of(rows))),
             colour: plot::GREY,
             bold: false,
             points: if by_crank { all } else { ends },
-        }
-    };
-    let forces = [speeds.into_iter().map(inertia).collect(), of(|row| row.air)].concat();
+        });
+    }
+    forces.extend(curve_of_each(sets, &of_sets, |row| row.air));
+    let residuals = curve_of_each(sets, &of_sets, |row| row.residual);
     let along = if by_crank { "crank angle from the start of the reversal, degrees" } else { CurveAxis::OVERRUN.words };
     Plot {
         title: format!("{machine}: buffers on springs"),
@@ -419,10 +438,29 @@ fn curves_of(machine: &str, sets: &[(f64, SpringBuffer)], rows: &[SpringRow]) ->
                 name: "Force, N: inertia of the bed (thin), air of both cylinders (bold)".into(),
                 curves: forces,
             },
-            PlotPanel { name: "Residual force, inertia less air, N".into(), curves: of(|row| row.residual) },
+            PlotPanel { name: "Residual force, inertia less air, N".into(), curves: residuals },
         ],
         ..Plot::default()
     }
+}
+
+/// A value over the crank angle (degrees) under a linkage, over the overrun (mm) under a yoke.
+fn points(rows: &[SpringRow], value: fn(&SpringRow) -> f64) -> Vec<[f64; 2]> {
+    let mut points = Vec::with_capacity(rows.len());
+    for row in rows {
+        let along = if row.crank.is_finite() { row.crank.to_degrees() } else { MILLIMETRES * row.x };
+        points.push([along, value(row)]);
+    }
+    points
+}
+
+fn curve_of_each(sets: &[SpringAtSpeed], of_sets: &[&[SpringRow]], value: fn(&SpringRow) -> f64) -> Vec<PlotCurve> {
+    let mut curves = Vec::new();
+    for (colour, (set, rows)) in sets.iter().zip(of_sets).enumerate() {
+        let name = format!("{:.2} N/mm, {} rpm", set.spring.stiffness / MILLIMETRES, shown(set.rpm));
+        curves.push(PlotCurve { name, colour, bold: true, points: points(rows, value) });
+    }
+    curves
 }
 
 fn speed_of(rows: &[SpringRow]) -> f64 {

@@ -5,14 +5,14 @@ use crate::press::SpecOfPress;
 use crate::press::cams;
 use crate::press::conoid::Conoid;
 use crate::press::machine::exact_on;
-use crate::press::motion::equation_18::{BedDirection, BottomMotion, Solver};
+use crate::press::motion::equation_18::{BedDirection, Solver};
 use crate::press::scatter::{self, reset::ScrewRule};
 use crate::press::wedge::LAW_TOLERANCE;
 use crate::press::wedge::Wedge;
 use camgen_cams::analysis::Analysis;
 use camgen_cams::body::Kind;
 use camgen_cams::machine::Machine;
-use camgen_cams::pipeline::Spec;
+use camgen_cams::pipeline::{Cam, Spec};
 use camgen_cams::report::{Speeds, failed, shown};
 use camgen_cams::trade::solver::{self, SolverRow, SolverTask};
 use camgen_cams::trade::{
@@ -35,7 +35,7 @@ pub const CONOID: Kind =
     Kind { command: COMMAND, noun: "time and accuracy of the sections of a conoid", keys: cams::CONOID };
 
 /// Numbers of sections of a conoid.
-const SECTIONS: [u32; 8] = [2, 3, 4, 5, 6, 8, 10, 12];
+const SECTIONS: [usize; 8] = [2, 3, 4, 5, 6, 8, 10, 12];
 /// A conoid whose checks are asked for is drawn to this, m.
 const TOLERANCE: f64 = 5e-6;
 /// Largest residual force by default, as a share of the largest inertia.
@@ -57,7 +57,7 @@ pub struct PressTradeLimits {
     pub acceleration: Option<f64>,
 }
 
-/// The disc cam of a press for a speed (rpm) over all settings, with what other parts of the machine leave.
+/// The disc cam of a press for a speed (rpm) over all settings, with the residual forces of other parts of the machine.
 ///
 /// # Errors
 /// [`Refusal`] when the machine is no press, or a setting cannot be made.
@@ -71,7 +71,7 @@ pub fn rotary(
     let others = others.into_iter().chain(left_in_practice(machine, rpm)).collect();
     let own = machine.clone();
     let settings = of_disc(move || Ok(Spec::rotary(own.clone(), rpm)))?;
-    of_press(&ROTARY, cams::ROTARY, (machine, rpm), limits, (settings, others), run)
+    of_press(&ROTARY, machine, rpm, limits, settings, others, run)
 }
 
 /// The plate of a press for a speed (rpm) over all settings, those of its differential equation among them.
@@ -94,7 +94,7 @@ pub fn translating(
         shown(back)
     );
     let others = vec![LeftOver::of_force("law", braking.max(back), about)];
-    of_press(&TRANSLATING, cams::TRANSLATING, (machine, rpm), limits, (settings, others), run)
+    of_press(&TRANSLATING, machine, rpm, limits, settings, others, run)
 }
 
 /// What 19 of 20 presses stay below that differ as the file says; `None` where no column balances them, or a linkage moves the bed.
@@ -110,10 +110,11 @@ fn left_in_practice(machine: &Machine, rpm: f64) -> Option<LeftOver> {
 
 fn of_press(
     kind: &'static Kind,
-    cam: &'static str,
-    (machine, rpm): (&Machine, f64),
+    machine: &Machine,
+    rpm: f64,
     limits: PressTradeLimits,
-    (settings, others): (SettingLadder, Vec<LeftOver>),
+    settings: SettingLadder,
+    others: Vec<LeftOver>,
     run: TradeRun<'_>,
 ) -> Result<Analysis, Refusal> {
     let inertia = machine.press()?.largest_inertia(rpm);
@@ -121,6 +122,7 @@ fn of_press(
         residual: Some(limits.residual.unwrap_or(SHARE * inertia)),
         acceleration: Some(limits.acceleration.unwrap_or(ACCELERATION)),
     };
+    let cam = kind.keys;
     trade::analysis(
         &TradeTask { kind, cam, machine, rpm: Some(rpm), settings, limits, inputs: machine.inputs(cam), others },
         run,
@@ -129,19 +131,10 @@ fn of_press(
 
 /// Evenly spaced speeds, those between the ends in thousandths.
 #[expect(clippy::cast_precision_loss, reason = "sections")]
-fn spaced((from, to): (f64, f64), count: usize) -> Vec<f64> {
-    let inner = |i: usize| (1e3 * (from + (to - from) * i as f64 / (count - 1) as f64)).round() / 1e3;
-    (0..count)
-        .map(|i| {
-            if i == 0 {
-                from
-            } else if i + 1 == count {
-                to
-            } else {
-                inner(i)
-            }
-        })
-        .collect()
+fn spaced(from: f64, to: f64, count: usize) -> Vec<f64> {
+    let inner = 1..count.saturating_sub(1);
+    let inner = inner.map(|i| (1e3 * (from + (to - from) * i as f64 / (count - 1) as f64)).round() / 1e3);
+    std::iter::once(from).chain(inner).chain([to]).collect()
 }
 
 /// The sections of a conoid for speeds from one to another (rpm): what they leave between them.
@@ -150,35 +143,21 @@ fn spaced((from, to): (f64, f64), count: usize) -> Vec<f64> {
 /// [`Refusal`] when the machine has no conoid, or not for these speeds.
 pub fn conoid(
     machine: &Machine,
-    (from, to): (f64, f64),
+    from: f64,
+    to: f64,
     limits: PressTradeLimits,
     clock: &dyn Fn() -> Duration,
 ) -> Result<Analysis, Refusal> {
     let limit = limits.residual.unwrap_or(SHARE * machine.press()?.largest_inertia(to));
-    let row = |count: &u32| {
-        let rounded = |rpm: f64| (1e3 * rpm).round() / 1e3;
-        let inner = |i: u32| rounded(from + (to - from) * f64::from(i) / f64::from(count - 1));
-        let speeds: Vec<f64> = (0..*count)
-            .map(|i| {
-                if i == 0 {
-                    from
-                } else if i + 1 == *count {
-                    to
-                } else {
-                    inner(i)
-                }
-            })
-            .collect();
+    let mut rows = Vec::with_capacity(SECTIONS.len());
+    for count in SECTIONS {
+        let speeds = spaced(from, to, count);
         let typed: Vec<String> = speeds.iter().map(|rpm| shortest(*rpm)).collect();
-        let setting = (format!("{count} sections"), format!("--rpm {}", typed.join(",")), *count as usize);
-        SolverRow::measured(setting, clock, || Ok(Conoid::unsized_of(machine, &speeds)?.residual_between().force))
-    };
-    let rows: Vec<SolverRow> = SECTIONS.iter().map(row).collect::<Result<_, _>>()?;
-    let failing = |count: usize| -> Result<Vec<String>, Refusal> {
-        let made = Spec::conoid(machine.clone(), spaced((from, to), count), None).solve().map_err(Refusal::of)?;
-        let proven = made.draw(TOLERANCE).and_then(camgen_cams::pipeline::Drawing::prove).map_err(Refusal::of)?;
-        Ok(failed(proven.findings()).into_iter().map(str::to_owned).collect())
-    };
+        let setting = (format!("{count} sections"), format!("--rpm {}", typed.join(",")), count);
+        rows.push(SolverRow::measured(setting, clock, || {
+            Ok(Conoid::unsized_of(machine, &speeds)?.residual_between().force)
+        })?);
+    }
     let task = SolverTask {
         kind: &CONOID,
         machine: machine.name(),
@@ -188,30 +167,26 @@ pub fn conoid(
         error: ("residual_n", "N", "largest residual force between the sections of a conoid"),
         limit,
     };
-    solver::analysis(task, &rows, failing)
+    solver::analysis(task, &rows, |count| {
+        let made = Spec::conoid(machine.clone(), spaced(from, to, count), None).solve().map_err(Refusal::of)?;
+        let proven = made.draw(TOLERANCE).and_then(camgen_cams::pipeline::Drawing::prove).map_err(Refusal::of)?;
+        Ok(failed(proven.findings()).into_iter().map(str::to_owned).collect())
+    })
 }
 
 /// The plate: all outlines with the finest law, then every law at 1 µm. Every law is solved once a round.
 fn of_plate(machine: &Machine, rpm: f64) -> Result<SettingLadder, Refusal> {
-    let ([.., (_, finest)], balance) = (ODE, exact_on(machine));
-    let solve = |solver: Solver| Wedge::solve(machine, rpm, solver, balance).map_err(Refusal::of);
-    let truth = solve(Solver::Ode { tolerance: finest })?;
-    let law = |solver: Solver| -> Result<TradeLaw, Refusal> {
-        let (machine, plate) = (machine.clone(), solve(solver)?);
-        let spec = move || Spec::translating(machine.clone(), rpm, solver, balance);
-        let solve = move || spec().solve().map_err(Refusal::of);
-        let (error_mm, residual_n) = (1e3 * apart(&truth, &plate), plate.residual_max(BedDirection::Braking).value);
-        Ok(TradeLaw { cam: solve()?, solve: Box::new(solve), error_mm, residual_n })
-    };
-    let ode = |(name, tolerance): &(&str, f64)| (format!("ode {name} mm, 1 µm"), Solver::Ode { tolerance: *tolerance });
-    let paper = |stations: &u32| (format!("paper {stations}, 1 µm"), Solver::Paper { stations: *stations });
-    let of_law: Vec<(String, Solver)> = ODE.iter().map(ode).chain(STATIONS.iter().map(paper)).collect();
-    let mut laws = vec![law(Solver::Ode { tolerance: finest })?];
+    let [.., (_, finest)] = ODE;
+    let finest = Solver::Ode { tolerance: finest };
+    let truth = Wedge::solve(machine, rpm, finest, exact_on(machine)).map_err(Refusal::of)?;
+    let mut laws = vec![law_by(machine, rpm, finest, &truth)?];
     let mut settings = ladder();
-    for (name, solver) in of_law {
-        let is_finest = solver == Solver::Ode { tolerance: finest };
+    let by_ode = ODE.map(|(name, tolerance)| (format!("ode {name} mm, 1 µm"), Solver::Ode { tolerance }));
+    let by_stations = STATIONS.map(|stations| (format!("paper {stations}, 1 µm"), Solver::Paper { stations }));
+    for (name, solver) in by_ode.into_iter().chain(by_stations) {
+        let is_finest = solver == finest;
         if !is_finest {
-            laws.push(law(solver)?);
+            laws.push(law_by(machine, rpm, solver, &truth)?);
         }
         let number = if is_finest { 0 } else { laws.len() - 1 };
         let made = TradeProduct::Outline { laid: SegmentKind::Arcs, share: None };
@@ -227,12 +202,25 @@ fn of_plate(machine: &Machine, rpm: f64) -> Result<SettingLadder, Refusal> {
     Ok((laws, settings))
 }
 
+/// The plate with its law by a solver, and the error of the law against the true one.
+fn law_by(machine: &Machine, rpm: f64, solver: Solver, truth: &Wedge) -> Result<TradeLaw, Refusal> {
+    let plate = Wedge::solve(machine, rpm, solver, exact_on(machine)).map_err(Refusal::of)?;
+    let again = machine.clone();
+    Ok(TradeLaw {
+        cam: solve_plate(machine, rpm, solver)?,
+        solve: Box::new(move || solve_plate(&again, rpm, solver)),
+        error_mm: 1e3 * apart(truth, &plate),
+        residual_n: plate.residual_max(BedDirection::Braking).value,
+    })
+}
+
+fn solve_plate(machine: &Machine, rpm: f64, solver: Solver) -> Result<Cam, Refusal> {
+    Spec::translating(machine.clone(), rpm, solver, exact_on(machine)).solve().map_err(Refusal::of)
+}
+
 /// Largest distance of two motions over the stroke, m.
 fn apart(a: &Wedge, b: &Wedge) -> f64 {
-    let at = |motion: &BottomMotion, x: f64| motion.at(x, false)[0];
-    let off = |i: u32| {
-        let x = a.stroke() * f64::from(i) / f64::from(PLACES);
-        (at(a.motion().motion(), x) - at(b.motion().motion(), x)).abs()
-    };
-    (0..=PLACES).map(off).fold(0.0, f64::max)
+    let (one, other) = (a.motion().motion(), b.motion().motion());
+    let overruns = (0..=PLACES).map(|i| a.stroke() * f64::from(i) / f64::from(PLACES));
+    overruns.map(|x| (one.at(x, false)[0] - other.at(x, false)[0]).abs()).fold(0.0, f64::max)
 }

@@ -68,19 +68,14 @@ fn plate(machine: &Machine) -> Option<Wedge> {
 /// Figure 9: a curve and a level for each place of the bed.
 pub(super) fn panel(rows: &[TrialRow]) -> Option<(String, PlotPanel)> {
     let places = rows.chunk_by(|a, b| a.x == b.x).enumerate();
-    let of = |colour: usize, bold: bool, name: String, rows: &[TrialRow], value: fn(&TrialRow) -> f64| PlotCurve {
-        name,
-        colour,
-        bold,
-        points: rows.iter().map(|row| [MILLIMETRES * row.off, value(row)]).collect(),
-    };
-    let curves: Vec<PlotCurve> = places
-        .flat_map(|(colour, rows)| {
-            let x = rows.first().map_or(f64::NAN, |row| MILLIMETRES * row.x);
-            let name = format!("x = {} mm", shown(x));
-            [of(colour, true, name, rows, |row| row.right), of(colour, false, String::new(), rows, |row| row.left)]
-        })
-        .collect();
+    let mut curves = Vec::new();
+    for (colour, rows) in places {
+        let x = rows.first().map_or(f64::NAN, |row| MILLIMETRES * row.x);
+        let right = rows.iter().map(|row| [MILLIMETRES * row.off, row.right]).collect();
+        let left = rows.iter().map(|row| [MILLIMETRES * row.off, row.left]).collect();
+        curves.push(PlotCurve { name: format!("x = {} mm", shown(x)), colour, bold: true, points: right });
+        curves.push(PlotCurve { name: String::new(), colour, bold: false, points: left });
+    }
     let name = "Equation (18) at four places of the bed, N: right side (bold) and left side (thin); they meet where the bottom balances";
     (!curves.is_empty()).then(|| {
         (

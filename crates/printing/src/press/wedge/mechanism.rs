@@ -93,7 +93,7 @@ fn parts(plate: &Wedge, samples: &[PlatePose], outline: SheetShape, cover: &mut 
     let width = 0.4 * of.stroke();
     let place_x = (plate_end + 0.5 * radius - of.rod() - of.column()).max(pivot.x + 1.5 * radius + of.stroke() * 0.6);
     let place = Vector2::new(place_x, axis_y);
-    let mut parts = buffer(&of, &poses, place, (of.rod(), width), cover);
+    let mut parts = buffer(&of, &poses, place, width, cover);
     let xs: Vec<f64> = samples.iter().map(|at| -at.x).collect();
     let body = place.x + of.column() + of.rod();
     let bed = vec![

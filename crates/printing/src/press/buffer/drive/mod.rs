@@ -126,8 +126,7 @@ impl Drive {
             return Err(DriveError::ArrivesWithSpeed { speed: misfit.sqrt(), remedies });
         }
         let stroke = machine.stroke();
-        let left = |x: f64| machine.energy() - drive.work(x);
-        let x = root::bracketed(left, 0.0, stroke, 0.0).unwrap_or(stroke);
+        let x = root::bracketed(|x| machine.energy() - drive.work(x), 0.0, stroke, 0.0).unwrap_or(stroke);
         Err(DriveError::StopsEarly { x, stroke, remedies })
     }
 
@@ -261,22 +260,25 @@ impl Drive {
     /// Time of a phase up to an angle, s: ∫ dφ/ω; the part in which the bed moves.
     #[must_use]
     pub fn time_of(&self, phase: Phase, angle: f64) -> f64 {
-        self.time_between(phase, (0.0, angle), PANELS)
+        self.time_between(phase, 0.0, angle, PANELS)
     }
 
     /// Time between two angles of a phase, s, by so many panels of eight points. Over a whole phase [`Drive::time_of`] errs by less
     /// than 1e-10 for a machine that closes and is not compressed beyond a tenth of its column; an open machine's integrand has an end
     /// that is not smooth.
     #[must_use]
-    pub fn time_between(&self, phase: Phase, range: (f64, f64), panels: u32) -> f64 {
-        let pace = |angle: f64| {
-            let omega = match phase {
-                Phase::Lead => self.lead_omega(angle),
-                Phase::Crank => self.crank_omega(angle),
-            };
-            omega.map_or(0.0, |omega| 1.0 / omega)
-        };
-        quadrature::integrate(pace, range, panels)
+    pub fn time_between(&self, phase: Phase, from: f64, to: f64, panels: u32) -> f64 {
+        quadrature::integrate(
+            |angle| {
+                let omega = match phase {
+                    Phase::Lead => self.lead_omega(angle),
+                    Phase::Crank => self.crank_omega(angle),
+                };
+                omega.map_or(0.0, |omega| 1.0 / omega)
+            },
+            (from, to),
+            panels,
+        )
     }
 
     /// Least speed of the crank of a machine that closes.
@@ -286,21 +288,23 @@ impl Drive {
     #[must_use]
     pub fn least_speed(&self) -> LeastSpeed {
         let r = self.machine.crank_radius;
-        let stationary = |left: f64| {
-            let (_, bracket, slope) = self.bracket(left);
-            (2.0 * r - left) * slope + bracket
-        };
         let left = if self.machine.lead_angle == 0.0 {
             r
-        } else if stationary(0.0) >= 0.0 {
+        } else if self.fall_of_speed(0.0) >= 0.0 {
             0.0
         } else {
-            root::bracketed(stationary, 0.0, r, 0.0).unwrap_or(r)
+            root::bracketed(|left| self.fall_of_speed(left), 0.0, r, 0.0).unwrap_or(r)
         };
         let phase_angle = FRAC_PI_2 - 2.0 * libm::asin((0.5 * left / r).sqrt());
         let (scale, bracket, _) = self.bracket(left);
         let omega = (scale * bracket / (2.0 - left / r)).sqrt();
         LeastSpeed { omega, phase_angle, drop: 1.0 - omega / self.omega_before() }
+    }
+
+    /// (2 r − D) B' + B, which has the sign of −dω/dφ' where an overrun D, m, is left.
+    fn fall_of_speed(&self, left: f64) -> f64 {
+        let (_, bracket, slope) = self.bracket(left);
+        (2.0 * self.machine.crank_radius - left) * slope + bracket
     }
 
     /// Greatest speed of the crank of a machine that closes, rad/s, and the crank angle of the braking: before it or at its end.
