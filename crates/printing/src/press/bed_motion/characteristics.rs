@@ -18,6 +18,14 @@ const CELLS: u32 = 96;
 /// x and its derivatives up to the fourth.
 type MotionDerivatives = [f64; 5];
 
+/// A point of the grid of one turn.
+pub(crate) struct GridPoint {
+    /// Angle of the driving crank, rad.
+    theta: f64,
+    /// x and its derivatives there.
+    motion: MotionDerivatives,
+}
+
 /// The figures of a linkage; angles of the driving crank from the base (from the slider's line without a drag link), in [0, 2π).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Characteristics {
@@ -65,47 +73,45 @@ pub struct LinkageComparison {
 }
 
 /// The grid of one turn; it closes with the very numbers it began with.
-pub(crate) fn grid(linkage: &Linkage) -> Vec<(f64, MotionDerivatives)> {
-    let node = |cell: u32| {
+pub(crate) fn grid(linkage: &Linkage) -> Vec<GridPoint> {
+    let mut points = Vec::new();
+    for cell in 0..=CELLS {
         let theta = TAU * (f64::from(cell) / f64::from(CELLS));
-        (theta, linkage.motion(turned(theta)))
-    };
-    (0..=CELLS).map(node).collect()
+        points.push(GridPoint { theta, motion: linkage.motion(turned(theta)) });
+    }
+    points
 }
 
 /// Roots of `value` over the turn, in [0, 2π) and in order; `slope` is its derivative.
 pub(crate) fn roots(
     linkage: &Linkage,
-    grid: &[(f64, MotionDerivatives)],
+    grid: &[GridPoint],
     value: impl Fn(&MotionDerivatives) -> f64,
     slope: impl Fn(&MotionDerivatives) -> f64,
 ) -> Vec<f64> {
-    let at = |theta: f64| value(&linkage.motion(turned(theta)));
-    let mut found = Vec::new();
-    let mut solve = |low: f64, high: f64| {
-        if let Ok(root) = root::bracketed(at, low, high, 0.0) {
-            found.push(root);
+    let mut brackets = Vec::new();
+    for [before, behind] in grid.array_windows() {
+        let (low, high) = (before.theta, behind.theta);
+        // 0 counts as positive, so that a root on a point of the grid is found in one of its two cells.
+        let starts_negative = value(&before.motion) < 0.0;
+        if starts_negative != (value(&behind.motion) < 0.0) {
+            brackets.push([low, high]);
+            continue;
         }
-    };
-    // 0 counts as positive, so that a root on a point of the grid is found in one of its two cells.
-    let negative = |motion: &MotionDerivatives| value(motion) < 0.0;
-    for ((low, before), (high, behind)) in grid.iter().zip(grid.iter().skip(1)) {
-        if negative(before) == negative(behind) {
-            let toward = if negative(before) { -1.0 } else { 1.0 };
-            if toward * slope(before) < 0.0
-                && toward * slope(behind) > 0.0
-                && let Ok(middle) = root::bracketed(|theta| slope(&linkage.motion(theta)), *low, *high, 0.0)
-                && toward * at(middle) < 0.0
-            {
-                solve(*low, middle);
-                solve(middle, *high);
-            }
-        } else {
-            solve(*low, *high);
+        let toward = if starts_negative { -1.0 } else { 1.0 };
+        if toward * slope(&before.motion) < 0.0
+            && toward * slope(&behind.motion) > 0.0
+            && let Ok(middle) = root::bracketed(|theta| slope(&linkage.motion(theta)), low, high, 0.0)
+            && toward * value(&linkage.motion(turned(middle))) < 0.0
+        {
+            brackets.extend([[low, middle], [middle, high]]);
         }
     }
-    for root in &mut found {
-        *root = turned(*root);
+    let mut found = Vec::new();
+    for [low, high] in brackets {
+        if let Ok(root) = root::bracketed(|theta| value(&linkage.motion(turned(theta))), low, high, 0.0) {
+            found.push(turned(root));
+        }
     }
     found.sort_by(f64::total_cmp);
     found.dedup();
@@ -113,12 +119,12 @@ pub(crate) fn roots(
 }
 
 /// Places where x'' is extreme.
-pub(crate) fn jerk_zeros(linkage: &Linkage, grid: &[(f64, MotionDerivatives)]) -> Vec<f64> {
+pub(crate) fn jerk_zeros(linkage: &Linkage, grid: &[GridPoint]) -> Vec<f64> {
     roots(linkage, grid, |m| m[3], |m| m[4])
 }
 
 /// Places where x' x'' is extreme: x''² + x' x''' = 0.
-pub(crate) fn power_extremes(linkage: &Linkage, grid: &[(f64, MotionDerivatives)]) -> Vec<f64> {
+pub(crate) fn power_extremes(linkage: &Linkage, grid: &[GridPoint]) -> Vec<f64> {
     roots(linkage, grid, |m| m[2] * m[2] + m[1] * m[3], |m| 3.0 * m[2] * m[3] + m[1] * m[4])
 }
 
@@ -133,15 +139,15 @@ fn largest(places: &[f64], value: impl Fn(f64) -> f64) -> Extremum {
 
 /// Zeros of x'': between neighbouring extremes it is monotone, so there is one wherever it changes sign, and no other.
 fn acceleration_zeros(linkage: &Linkage, extremes: &[f64]) -> Vec<f64> {
-    let acceleration = |theta: f64| linkage.position(theta)[2];
-    let behind = extremes.iter().skip(1).copied().chain(extremes.first().map(|first| first + TAU));
-    let mut zeros: Vec<f64> = extremes
-        .iter()
-        .zip(behind)
-        .filter(|(low, high)| (acceleration(**low) < 0.0) != (acceleration(*high) < 0.0))
-        .filter_map(|(low, high)| root::bracketed(acceleration, *low, high, 0.0).ok())
-        .map(turned)
-        .collect();
+    let next = extremes.iter().skip(1).copied().chain(extremes.first().map(|first| first + TAU));
+    let mut zeros = Vec::new();
+    for (low, high) in extremes.iter().zip(next) {
+        if (linkage.position(*low)[2] < 0.0) != (linkage.position(high)[2] < 0.0)
+            && let Ok(zero) = root::bracketed(|theta| linkage.position(theta)[2], *low, high, 0.0)
+        {
+            zeros.push(turned(zero));
+        }
+    }
     zeros.sort_by(f64::total_cmp);
     zeros
 }

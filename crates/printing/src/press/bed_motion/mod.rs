@@ -167,8 +167,9 @@ impl Slider {
     #[must_use]
     pub fn stroke(&self) -> f64 {
         let Self { rod_ratio, offset_ratio } = *self;
-        let reach = |length: f64| ((length - offset_ratio) * (length + offset_ratio)).sqrt();
-        4.0 * rod_ratio / (reach(rod_ratio + 1.0) + reach(rod_ratio - 1.0))
+        let [outer, inner] = [rod_ratio + 1.0, rod_ratio - 1.0]
+            .map(|length| ((length - offset_ratio) * (length + offset_ratio)).sqrt());
+        4.0 * rod_ratio / (outer + inner)
     }
 
     /// Crank angles β, rad, of the outer and the inner dead point: sin β = λ6/(λ5 + 1) and β = π + asin(λ6/(λ5 − 1)).
@@ -190,8 +191,10 @@ impl Slider {
 }
 
 fn finite(name: &str, value: f64) -> Result<(), Refusal> {
-    let refusal = || Refusal::new(format!("the {name} is {value}")).remedy("it must be a finite number");
-    value.is_finite().then_some(()).ok_or_else(refusal)
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(Refusal::new(format!("the {name} is {value}")).remedy("it must be a finite number"))
 }
 
 /// λ1, λ2, λ3 and cos δ, sin δ as numbers of one kind.
@@ -277,18 +280,23 @@ impl DragLink {
     /// λ1, λ2 and λ3 that turn, each with the other two as they are.
     #[must_use]
     pub fn remedies(&self) -> DragLinkRemedies {
-        let Self { base, coupler, follower, .. } = *self;
-        let beside = |other: f64| Passing {
-            above: (other - (1.0 - base)).max(1.0 + base - other),
-            below: if base < 1.0 { other + (1.0 - base) } else { 0.0 },
-        };
+        let Self { coupler, follower, .. } = *self;
         DragLinkRemedies {
             base: Passing {
                 above: 0.0,
                 below: 1.0_f64.min(1.0 - (coupler - follower).abs()).min(coupler + follower - 1.0),
             },
-            coupler: beside(follower),
-            follower: beside(coupler),
+            coupler: self.passing_beside(follower),
+            follower: self.passing_beside(coupler),
+        }
+    }
+
+    /// What turns for one of coupler and follower, with the base and the other one as they are.
+    fn passing_beside(&self, other: f64) -> Passing {
+        let base = self.base;
+        Passing {
+            above: (other - (1.0 - base)).max(1.0 + base - other),
+            below: if base < 1.0 { other + (1.0 - base) } else { 0.0 },
         }
     }
 
@@ -316,12 +324,12 @@ impl DragLink {
         let open = libm::acos((1.0 + reach * reach - coupler * coupler) / (2.0 * reach));
         let toward = libm::atan2(driven[1], driven[0]);
         // cross(A − O2, B − O2) has the sign of the branch.
-        let cross = |theta: f64| {
+        let (before, behind) = (toward - open, toward + open);
+        let [cross_before, cross_behind] = [before, behind].map(|theta| {
             let along = libm::cos(theta) - base;
             self.branch.sign() * (along * driven[1] - libm::sin(theta) * (driven[0] - base))
-        };
-        let (before, behind) = (toward - open, toward + open);
-        let theta = if cross(before) > cross(behind) { before } else { behind };
+        });
+        let theta = if cross_before > cross_behind { before } else { behind };
         let crank = self.crank(theta);
         let miss = turned(crank.angle - psi + PI) - PI;
         turned(theta - miss / crank.first)
@@ -497,7 +505,6 @@ impl Linkage {
     /// Places of the joints at θ for a drawing, in units of O2C.
     #[must_use]
     pub fn joints(&self, theta: f64, pose: Pose) -> Joints {
-        let along = |angle: f64, length: f64| [length * libm::cos(angle), length * libm::sin(angle)];
         let crank = along(self.slider_crank_angle(theta), 1.0);
         let [x] = self.motion(theta);
         let drag_link = self.drag_link().map(|drag_link| {
@@ -512,6 +519,11 @@ impl Linkage {
         });
         Joints { drag_link, crank, slider: [x, self.slider().map_or(0.0, |slider| slider.offset_ratio)] }
     }
+}
+
+/// The vector of a link of this length at an angle, rad.
+fn along(angle: f64, length: f64) -> [f64; 2] {
+    [length * libm::cos(angle), length * libm::sin(angle)]
 }
 
 #[cfg(test)]

@@ -231,26 +231,19 @@ impl StrokeEnd {
             x[0] -= self.place;
             return Overrun { x, excess: [-x[2] / ratio - x[0], -x[3] / ratio - x[1]] };
         }
-        let of_excess = |order: usize| {
-            let [own, above] = [order, order + 2].map(|index| self.series.get(index).copied().unwrap_or(0.0));
+        let (mut second, mut excess) = ([0.0; TERMS], [0.0; TERMS]);
+        let terms = self.series.iter().zip(self.series.iter().skip(2)).zip(&mut second).zip(&mut excess);
+        for (order, (((own, above), second), excess)) in terms.enumerate() {
             #[expect(clippy::cast_precision_loss, reason = "a dozen")]
             let twice = (order + 1) as f64 * (order + 2) as f64;
-            if order < 2 || order + 2 >= TERMS { 0.0 } else { -twice * above / ratio - own }
-        };
-        // Horner's scheme of value and slope.
-        let sum = |coefficient: &dyn Fn(usize) -> f64| {
-            (0..TERMS)
-                .rev()
-                .fold([0.0, 0.0], |[value, slope], order| [value * angle + coefficient(order), slope * angle + value])
-        };
-        let second = |order: usize| {
-            #[expect(clippy::cast_precision_loss, reason = "a dozen")]
-            let twice = (order + 1) as f64 * (order + 2) as f64;
-            self.series.get(order + 2).map_or(0.0, |above| twice * above)
-        };
-        x[0] = sum(&|order| self.series.get(order).copied().unwrap_or(0.0))[0];
-        x[2] = sum(&second)[0];
-        Overrun { x, excess: sum(&of_excess) }
+            *second = twice * above;
+            if order >= 2 {
+                *excess = -twice * above / ratio - own;
+            }
+        }
+        x[0] = sum(&self.series, angle)[0];
+        x[2] = sum(&second, angle)[0];
+        Overrun { x, excess: sum(&excess, angle) }
     }
 
     /// The crank angles before and after the reversal at which the bed is still, or again, this far (m) from the start of its overrun;
@@ -263,13 +256,23 @@ impl StrokeEnd {
             End::Inner => outer,
         };
         let after = turned(other - self.start);
-        let short = |angle: f64| self.at(angle).x[0] + travel;
-        let before = root::bracketed(short, after - TAU, 0.0, 0.0).ok()?;
+        let before = root::bracketed(|angle| self.at(angle).x[0] + travel, after - TAU, 0.0, 0.0).ok()?;
         if self.symmetric {
             return Some([before, self.angle - before]);
         }
-        Some([before, root::bracketed(short, self.dead, after, 0.0).ok()?])
+        let behind = root::bracketed(|angle| self.at(angle).x[0] + travel, self.dead, after, 0.0).ok()?;
+        Some([before, behind])
     }
+}
+
+/// A series and its slope at an angle, by Horner's scheme.
+fn sum(series: &[f64; TERMS], angle: f64) -> [f64; 2] {
+    let mut sum = [0.0, 0.0];
+    for coefficient in series.iter().rev() {
+        let [value, slope] = sum;
+        sum = [value * angle + coefficient, slope * angle + value];
+    }
+    sum
 }
 
 /// Crank angle up to which the last terms of a series are roundings of its first, rad.

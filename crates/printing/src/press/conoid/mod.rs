@@ -458,7 +458,7 @@ impl Conoid {
     #[must_use]
     pub fn path_force(&self, section: &Reversal, rpm: f64, piece: usize, angle: f64) -> f64 {
         let (lever, follower) = (self.lever, &self.machine.follower);
-        let air = self.cylinder.force(section.air(piece, angle, 0.0).map_or(1.0, |[_, ratio]| ratio)) / lever;
+        let air = self.cylinder.force(section.air(piece, angle, 0.0).map_or(1.0, |air| air.pressure_ratio)) / lever;
         let inertia = follower.mass.map_or(0.0, |mass| {
             let speed = self.press.bed.crank_speed(rpm) / f64::from(self.lobes);
             mass * speed * speed * lever * section.bottom(piece, angle).dds

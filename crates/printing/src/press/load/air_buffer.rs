@@ -5,7 +5,7 @@ use super::RunUp;
 use crate::press::buffer::Cylinder;
 use crate::press::buffer::crank_law::CrankLaw;
 use crate::press::columns::{self, BalanceRow, ColumnValues};
-use crate::press::motion::{Reversal, ReversalState, Transition};
+use crate::press::motion::{AirState, Reversal, ReversalState, Transition};
 use crate::press::report::{AirLaw, CylinderMeasures};
 use camgen_cams::load::Load;
 use camgen_cams::report::Section;
@@ -62,19 +62,14 @@ impl AirBuffer {
     }
 }
 
-/// Inertia less air of a bed that decelerates by so much (m) against air at a pressure ratio, N.
-fn residual_of(cylinder: &Cylinder, law: &CrankLaw, air: [f64; 2]) -> f64 {
-    residual_off(cylinder, law, air, [1.0, 1.0])
+/// Inertia less air, N.
+fn residual_of(cylinder: &Cylinder, law: &CrankLaw, air: AirState) -> f64 {
+    residual_off(cylinder, law, air, 1.0, 1.0)
 }
 
 /// The same with the inertia times `square`, the squared ratio of the speeds, and the air times `pressure`, the ratio of the pressures.
-fn residual_off(
-    cylinder: &Cylinder,
-    law: &CrankLaw,
-    [deceleration, ratio]: [f64; 2],
-    [square, pressure]: [f64; 2],
-) -> f64 {
-    let left = law.loading() * deceleration * square - (ratio - 1.0) * pressure;
+fn residual_off(cylinder: &Cylinder, law: &CrankLaw, air: AirState, square: f64, pressure: f64) -> f64 {
+    let left = law.loading() * air.deceleration * square - (air.pressure_ratio - 1.0) * pressure;
     // A bottom that is beyond the piston leaves no air.
     if left.is_nan() { f64::NEG_INFINITY } else { cylinder.unit_force() * left }
 }
@@ -99,7 +94,8 @@ impl LoadState for PressState {
             return 0.0;
         }
         let bottom = displacement + moved / self.lever;
-        residual_of(&self.cylinder, &self.law, [deceleration, self.law.pressure_ratio(crank, bottom)]).abs()
+        let air = AirState { deceleration, pressure_ratio: self.law.pressure_ratio(crank, bottom) };
+        residual_of(&self.cylinder, &self.law, air).abs()
     }
 
     fn columns(&self, at: &TurnAngles) -> ColumnValues {
@@ -109,9 +105,9 @@ impl LoadState for PressState {
     }
 }
 
-/// The figures of the cylinders under a law; slope and jump at its start.
+/// The figures of the cylinders under a law that takes the bottom furthest, by `dx_max`, at the overrun `dx_max_at_x`, both m.
 #[must_use]
-pub(crate) fn air_law(cylinder: &Cylinder, law: &CrankLaw, (dx_max_at_x, dx_max): (f64, f64)) -> AirLaw {
+pub(crate) fn air_law(cylinder: &Cylinder, law: &CrankLaw, dx_max_at_x: f64, dx_max: f64) -> AirLaw {
     AirLaw {
         dx_max_mm: MILLIMETRES * dx_max,
         dx_max_at_x_mm: MILLIMETRES * dx_max_at_x,
@@ -128,18 +124,18 @@ pub(crate) fn air_law(cylinder: &Cylinder, law: &CrankLaw, (dx_max_at_x, dx_max)
 /// The force balance of the cylinders under a law in a state; none outside the reversal.
 #[must_use]
 pub(crate) fn balance_row(cylinder: &Cylinder, law: &CrankLaw, state: &ReversalState) -> BalanceRow {
-    let forces = if state.reversing {
+    let (inertia, fixed) = if state.reversing {
         let inertia = cylinder.unit_force() * law.loading() * state.deceleration;
         (inertia, law.air_of_fixed_bottom(state.crank))
     } else {
         (0.0, 0.0)
     };
-    balance_of(cylinder, state.reversing, forces, state.pressure_ratio)
+    balance_of(cylinder, state.reversing, inertia, fixed, state.pressure_ratio)
 }
 
-/// The forces from the inertia, N, and the air of a plain buffer over 2 p0 F.
+/// The forces from the inertia, N, the air of a plain buffer over 2 p0 F and the pressure ratio.
 #[must_use]
-pub(crate) fn balance_of(cylinder: &Cylinder, reversing: bool, (inertia, fixed): (f64, f64), ratio: f64) -> BalanceRow {
+pub(crate) fn balance_of(cylinder: &Cylinder, reversing: bool, inertia: f64, fixed: f64, ratio: f64) -> BalanceRow {
     let air = cylinder.force(ratio);
     let residual = Some(if reversing { inertia - air } else { 0.0 });
     BalanceRow { inertia, air, air_fixed_bottom: cylinder.unit_force() * fixed, residual }
@@ -162,7 +158,7 @@ impl Load for AirBuffer {
 
     fn pressing_when(&self, piece: usize, at: f64, moved: f64) -> f64 {
         let lever = self.reversal.law().lever;
-        let ratio = self.reversal.air(piece, at, moved / lever).map_or(1.0, |[_, ratio]| ratio);
+        let ratio = self.reversal.air(piece, at, moved / lever).map_or(1.0, |air| air.pressure_ratio);
         self.cylinder.force(ratio) / lever
     }
 
@@ -184,8 +180,9 @@ impl Load for AirBuffer {
 
     fn residual_as_made(&self, piece: usize, at: f64, moved: f64, square_and_load: [f64; 2]) -> f64 {
         let off = moved / self.reversal.law().lever;
+        let [square, pressure] = square_and_load;
         let air = self.reversal.air(piece, at, off);
-        air.map_or(0.0, |air| residual_off(&self.cylinder, self.bottom_law(), air, square_and_load))
+        air.map_or(0.0, |air| residual_off(&self.cylinder, self.bottom_law(), air, square, pressure))
     }
 
     fn largest(&self) -> f64 {
@@ -220,25 +217,29 @@ impl AirBuffer {
     /// speed.
     #[must_use]
     pub fn least_air(&self) -> Option<Worst> {
-        let law = self.bottom_law();
-        let air = |piece: usize, at: f64| {
-            // The piston is farther off while the bottom rests; nearest where the dwell begins and ends.
-            let dwell = self.reversal.pieces().get(piece).filter(|piece| piece.dwell);
-            let state = self.state(piece, dwell.map_or(at, |dwell| dwell.start));
-            if state.reversing {
-                let balanced = law.air_left(state.deceleration);
-                return balanced - (state.displacement - law.displacement(state.crank));
-            }
-            let before = match law {
-                CrankLaw::Linkage(_) => state.overrun,
-                CrankLaw::Yoke(law) => {
-                    law.stroke * if state.crank > 1.5 * PI { state.crank - TAU } else { PI - state.crank }
-                }
-            };
-            law.column() - law.lead() - before - state.displacement
-        };
-        let least = extremes::largest_of_motion(&*self.reversal, (&self.acting(), 0.0), |piece, at| -air(piece, at));
+        let acting = self.acting();
+        let least =
+            extremes::largest_of_motion(&*self.reversal, (&acting, 0.0), |piece, at| -self.air_left(piece, at));
         Some(Worst { value: -least.value, at: least.at, z: 0.0 })
+    }
+
+    /// Air between piston and bottom at a place of the motion, m.
+    fn air_left(&self, piece: usize, at: f64) -> f64 {
+        let law = self.bottom_law();
+        // The piston is farther off while the bottom rests; nearest where the dwell begins and ends.
+        let dwell = self.reversal.pieces().get(piece).filter(|piece| piece.dwell);
+        let state = self.state(piece, dwell.map_or(at, |dwell| dwell.start));
+        if state.reversing {
+            let balanced = law.air_left(state.deceleration);
+            return balanced - (state.displacement - law.displacement(state.crank));
+        }
+        let before = match law {
+            CrankLaw::Linkage(_) => state.overrun,
+            CrankLaw::Yoke(law) => {
+                law.stroke * if state.crank > 1.5 * PI { state.crank - TAU } else { PI - state.crank }
+            }
+        };
+        law.column() - law.lead() - before - state.displacement
     }
 
     /// The lift that a run-up before the load begins adds; `None` without one.
@@ -247,7 +248,7 @@ impl AirBuffer {
         let law = self.bottom_law();
         let Transition::RunUp { width } = self.reversal.law().transition else { return None };
         let ends = self.reversal.ends_of_run_ups();
-        let run_ups = ends.into_iter().map(|end| RunUp::new(law.stroke(), width, end));
+        let run_ups = ends.into_iter().map(|[slope, curvature]| RunUp::new(law.stroke(), width, slope, curvature));
         run_ups.reduce(|best, next| if next.travel > best.travel { next } else { best })
     }
 
@@ -256,11 +257,12 @@ impl AirBuffer {
     pub fn section(&self) -> Section {
         let law = self.bottom_law();
         let (jump, jumps_at_end) = self.reversal.velocity_jump();
+        let (dx_max_at_x, dx_max) = law.largest_displacement();
         AirLaw {
             velocity_jump_mm_per_rad: MILLIMETRES * jump,
             jumps_at_end,
             column_closed_at_crank_deg: closed_at(self.reversal.law().transition),
-            ..air_law(&self.cylinder, law, law.largest_displacement())
+            ..air_law(&self.cylinder, law, dx_max_at_x, dx_max)
         }
         .section()
     }

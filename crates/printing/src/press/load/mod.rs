@@ -24,14 +24,14 @@ pub struct RunUp {
 impl RunUp {
     /// A run-up of a width before a law that starts with this slope and curvature by the crank angle, m: the travel of the quintic is
     /// |0.4 v w − a w²/20| (see `motion`).
-    pub(crate) fn new(stroke: f64, width: f64, [slope, curvature]: [f64; 2]) -> Self {
+    pub(crate) fn new(stroke: f64, width: f64, slope: f64, curvature: f64) -> Self {
         Self::along(stroke, width, |width| (0.4 * slope * width - curvature * width * width / 20.0).abs())
     }
 
     /// A run-up of a width, with the travel of the bottom by the width, m.
     pub(crate) fn along(stroke: f64, width: f64, travel: impl Fn(f64) -> f64) -> Self {
-        let beyond = |width: f64| travel(width) - stroke;
-        Self { travel: travel(width), stroke, width: root::bracketed(beyond, 0.0, width, 0.0).unwrap_or(width) }
+        let widest = root::bracketed(|width| travel(width) - stroke, 0.0, width, 0.0).unwrap_or(width);
+        Self { travel: travel(width), stroke, width: widest }
     }
 }
 

@@ -73,12 +73,12 @@ impl ShaftWork {
         let rests: Vec<bool> =
             divided.iter().zip(&shown).map(|(piece, (_, compressed))| piece.dwell || (idle && !compressed)).collect();
         let all = merged(&divided, &rests);
-        let pieces = all.iter().map(|(piece, ..)| *piece).collect();
-        let origin = |(_, index, shift): &(Piece, usize, f64)| {
-            let (piece, compressed) = shown.get(*index).copied().unwrap_or((0, false));
-            Origin { piece, shift: *shift, compressed }
-        };
-        let origins = all.iter().map(origin).collect();
+        let (mut pieces, mut origins) = (Vec::with_capacity(all.len()), Vec::with_capacity(all.len()));
+        for &(piece, index, shift) in &all {
+            let (shown, compressed) = shown.get(index).copied().unwrap_or((0, false));
+            pieces.push(piece);
+            origins.push(Origin { piece: shown, shift, compressed });
+        }
         let mut work = Self { reversal, law, cylinder, preload, inertia, pieces, origins, blended: 0.0 };
         if let Some(from) = work.reversal.law_begins().filter(|from| *from > 0.0) {
             let closed = camshaft::work_of(&work.law, &work.cylinder, from).value;
@@ -90,12 +90,15 @@ impl ShaftWork {
     /// Work of the air from the start of the reversal to a crank angle of the blend after it, J.
     fn by_quadrature(&self, crank: f64) -> f64 {
         let count = f64::from(self.reversal.law().lobes.max(1));
-        let torque = |crank: f64| {
-            let (piece, angle) = self.reversal.locate(crank / count);
-            let air = self.cylinder.force(self.reversal.air(piece, angle, 0.0).map_or(1.0, |[_, ratio]| ratio));
-            air * self.reversal.bottom(piece, angle).ds / count
-        };
-        quadrature::integrate(torque, (0.0, crank), PANELS)
+        quadrature::integrate(
+            |crank| {
+                let (piece, angle) = self.reversal.locate(crank / count);
+                let ratio = self.reversal.air(piece, angle, 0.0).map_or(1.0, |air| air.pressure_ratio);
+                self.cylinder.force(ratio) * self.reversal.bottom(piece, angle).ds / count
+            },
+            (0.0, crank),
+            PANELS,
+        )
     }
 
     /// Work of the air at an angle of a piece of the motion.

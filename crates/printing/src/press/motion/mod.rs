@@ -7,7 +7,7 @@ mod transition;
 
 pub use equation_18::WedgeMotion;
 pub use raised::RaiseSeries;
-pub use reversal::{Reversal, ReversalLaw, ReversalState};
+pub use reversal::{AirState, Reversal, ReversalLaw, ReversalState};
 pub use transition::Transition;
 
 use camgen_kernel::motion::{Jet, Motion, NamedStretch, Piece, own_pieces};

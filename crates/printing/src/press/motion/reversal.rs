@@ -76,6 +76,20 @@ pub struct ReversalState {
     pub pressure_ratio: f64,
 }
 
+/// Bed and air at one place of the reversal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AirState {
+    /// Deceleration of the bed over the square of the crank speed, m.
+    pub deceleration: f64,
+    /// p/p0 in the cylinders.
+    pub pressure_ratio: f64,
+}
+
+impl AirState {
+    /// Outside the reversal: the cylinders are open.
+    const OPEN: Self = Self { deceleration: 0.0, pressure_ratio: 1.0 };
+}
+
 /// The motion over one turn.
 #[derive(Debug, Clone)]
 pub struct Reversal {
@@ -136,16 +150,22 @@ impl Reversal {
         let count = self.count();
         let first = self.parts.first().map_or(0.0, |part| part.start);
         let last = self.parts.len().saturating_sub(1);
-        let piece = |(index, part): (usize, &LobePart)| {
-            let place = |lobe: u32, crank: f64| self.origin(lobe) + crank / count;
+        let mut pieces = Vec::with_capacity(self.parts.len());
+        for (index, part) in self.parts.iter().enumerate() {
             let end = match index == last {
-                true if lobe + 1 < self.law.lobes => place(lobe + 1, first),
+                true if lobe + 1 < self.law.lobes => self.cam_angle(lobe + 1, first),
                 true => TAU + first / count,
-                false => place(lobe, part.end),
+                false => self.cam_angle(lobe, part.end),
             };
-            Piece { start: place(lobe, part.start), end, dwell: matches!(part.shape, LobeShape::Dwell(_)) }
-        };
-        self.parts.iter().enumerate().map(piece).collect()
+            let start = self.cam_angle(lobe, part.start);
+            pieces.push(Piece { start, end, dwell: matches!(part.shape, LobeShape::Dwell(_)) });
+        }
+        pieces
+    }
+
+    /// Cam angle at a crank angle of a lobe, rad.
+    fn cam_angle(&self, lobe: u32, crank: f64) -> f64 {
+        self.origin(lobe) + crank / self.count()
     }
 
     /// The part of a lobe that a piece shows, and the crank angle in it at a cam angle, rad.
@@ -169,14 +189,17 @@ impl Reversal {
 
     fn find_lowest(&self) -> f64 {
         let lowest = own_pieces(self).map(|(index, piece)| {
-            let both = |angle| {
-                let bottom = self.bottom(index, angle);
-                (-bottom.s, -bottom.ds)
-            };
-            let found = extremum::largest_with_slope(both, (piece.start, piece.end), CELLS);
-            -found.value.max(both(0.5 * (piece.start + piece.end)).0)
+            let found =
+                extremum::largest_with_slope(|angle| self.depth(index, angle), (piece.start, piece.end), CELLS);
+            -found.value.max(self.depth(index, 0.5 * (piece.start + piece.end)).0)
         });
         lowest.fold(f64::INFINITY, f64::min)
+    }
+
+    /// How far the bottom is drawn back, −Δx in m, and its slope by the cam angle.
+    fn depth(&self, piece: usize, angle: f64) -> (f64, f64) {
+        let bottom = self.bottom(piece, angle);
+        (-bottom.s, -bottom.ds)
     }
 
     /// Δx and its derivatives by the cam angle; m.
@@ -246,10 +269,10 @@ impl Reversal {
             (crank, displacement, self.air_of(part, crank, 0.0, || displacement))
         });
         let law = &self.law.bottom_law;
-        let (overrun, [deceleration, pressure_ratio]) = match air {
+        let (overrun, AirState { deceleration, pressure_ratio }) = match air {
             Some((overrun, air)) => (overrun, air),
-            None if matches!(law, CrankLaw::Yoke(_)) => (0.0, [0.0, 1.0]),
-            None => (law.place(crank) * law.stroke(), [0.0, 1.0]),
+            None if matches!(law, CrankLaw::Yoke(_)) => (0.0, AirState::OPEN),
+            None => (law.place(crank) * law.stroke(), AirState::OPEN),
         };
         let turn = if crank < 0.0 { crank + TAU } else { crank };
         let crank = if turn < TAU { turn } else { turn % TAU };
@@ -263,13 +286,13 @@ impl Reversal {
         Jet { s: bottom.s - self.lowest, ..bottom }.scaled(self.law.lever)
     }
 
-    /// Deceleration of the bed over the square of the crank speed, m, and pressure ratio with the bottom off by so much (m, towards the
-    /// piston) from its place; `None` outside the reversal.
+    /// Bed and air with the bottom off by so much (m, towards the piston) from its place; `None` outside the reversal.
     #[must_use]
-    pub fn air(&self, piece: usize, angle: f64, off: f64) -> Option<[f64; 2]> {
+    pub fn air(&self, piece: usize, angle: f64, off: f64) -> Option<AirState> {
         let (part, crank) = self.part_at(piece, angle)?;
-        let displacement = || self.bottom_of(part, crank).s - self.raise_of(part, crank);
-        self.air_of(part, crank, off, displacement).map(|(_, air)| air)
+        let (_, air) =
+            self.air_of(part, crank, off, || self.bottom_of(part, crank).s - self.raise_of(part, crank))?;
+        Some(air)
     }
 
     /// Overrun of the bed, m, and [`Reversal::air`] of a part whose bottom may be known. Over the law itself the bottom is off by no more than that.
@@ -279,14 +302,15 @@ impl Reversal {
         crank: f64,
         off: f64,
         displacement: impl FnOnce() -> f64,
-    ) -> Option<(f64, [f64; 2])> {
+    ) -> Option<(f64, AirState)> {
         let law = &self.law.bottom_law;
         if !(0.0..=law.angle()).contains(&crank) {
             return None;
         }
         let own = if part.shape == LobeShape::Reversal { 0.0 } else { displacement() - law.displacement(crank) };
         let [overrun, deceleration] = law.bed(crank);
-        Some((overrun, [deceleration, law.pressure_ratio_off(crank, deceleration, own + off)]))
+        let pressure_ratio = law.pressure_ratio_off(crank, deceleration, own + off);
+        Some((overrun, AirState { deceleration, pressure_ratio }))
     }
 
     /// The crank angle of the braking or returning half at an angle of a piece, rad; below 0 before the reversal.
@@ -445,22 +469,24 @@ impl Motion for Reversal {
     }
 
     fn named_stretches(&self) -> Vec<NamedStretch> {
-        let stretch = |(index, piece): (usize, &Piece)| {
+        let mut stretches = Vec::with_capacity(self.pieces.len());
+        for (index, piece) in self.pieces.iter().enumerate() {
             let part = self.parts.get(index % self.parts.len().max(1));
             let name = part.map_or("", |part| part.shape.name());
-            NamedStretch { from: piece.start, to: piece.end, name: name.into() }
-        };
-        self.pieces.iter().enumerate().map(stretch).collect()
+            stretches.push(NamedStretch { from: piece.start, to: piece.end, name: name.into() });
+        }
+        stretches
     }
 
     /// The part after the reversal of a symmetric motion mirrors the part before it.
     fn repeats(&self, piece: usize) -> (usize, bool) {
         let Some(own) = piece.checked_rem(self.parts.len()) else { return (piece, false) };
-        let in_mirror = |part: &LobePart| {
-            let twin = |before: &&LobePart| before.shape == part.shape && !before.mirrored;
-            self.parts.iter().take(own).position(|before| part.mirrored && twin(&before))
+        let before = match self.parts.get(own) {
+            Some(part) if part.mirrored => {
+                self.parts.iter().take(own).position(|before| before.shape == part.shape && !before.mirrored)
+            }
+            _ => None,
         };
-        let before = self.parts.get(own).and_then(in_mirror);
         before.map_or((own, false), |before| (before, true))
     }
 

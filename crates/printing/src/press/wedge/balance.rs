@@ -50,7 +50,7 @@ impl Wedge {
         let (stroke, [_, slope, second, _]) = (self.stroke(), self.motion.motion().at(0.0, false));
         let bed = &self.mechanism().bottom_law;
         if bed.in_line().is_none() {
-            return Some(RunUp::new(stroke, width, [slope * stroke, second * stroke * stroke]));
+            return Some(RunUp::new(stroke, width, slope * stroke, second * stroke * stroke));
         }
         // The quintic runs along the travel of the bed.
         Some(RunUp::along(stroke, width, |width| {

@@ -95,12 +95,13 @@ impl Wedge {
 
     fn law(&self) -> AirLaw {
         let mechanism = self.mechanism();
+        let (dx_max_at_x, dx_max) = self.largest_displacement();
         AirLaw {
             start_slope: self.motion.motion().at(0.0, false)[1],
             velocity_jump_mm_per_rad: MILLIMETRES * self.stroke() * self.motion.slope_jump(),
             column_closed_at_crank_deg: closed_at(self.machine.transition()),
             equation_18: Some(self.solved()),
-            ..air_law(&self.cylinder, mechanism.bottom_law.by_crank(), self.largest_displacement())
+            ..air_law(&self.cylinder, mechanism.bottom_law.by_crank(), dx_max_at_x, dx_max)
         }
     }
 
@@ -211,7 +212,7 @@ impl Wedge {
         let ratio = if x < 0.0 { 1.0 } else { 1.0 + self.mechanism().air(x, bottom) };
         let over = x.max(0.0);
         let inertia = self.cylinder.unit_force() * law.loading() * law.deceleration(over);
-        let balance = balance_of(&self.cylinder, x >= 0.0, (inertia, law.air_of_fixed_bottom(over)), ratio);
+        let balance = balance_of(&self.cylinder, x >= 0.0, inertia, law.air_of_fixed_bottom(over), ratio);
         BalanceRow { residual: None, ..balance }
     }
 

@@ -134,14 +134,10 @@ impl Mechanism {
     pub(super) fn lever(&self, bottom: f64) -> Lever {
         let sin_psi = bottom / self.bottom_arm;
         let cos_psi = ((1.0 - sin_psi) * (1.0 + sin_psi)).sqrt();
-        let turned = |angle: f64| libm::sin(angle) * cos_psi + libm::cos(angle) * sin_psi;
-        Lever {
-            ratio: self.arm_ratio * cos_psi,
-            sine: turned(self.delta),
-            cosine: turned(self.delta + FRAC_PI_2),
-            plus: turned(self.delta + self.friction_angle),
-            minus: turned(self.delta - self.friction_angle),
-        }
+        let (delta, rho) = (self.delta, self.friction_angle);
+        let [sine, cosine, plus, minus] = [delta, delta + FRAC_PI_2, delta + rho, delta - rho]
+            .map(|angle| libm::sin(angle) * cos_psi + libm::cos(angle) * sin_psi);
+        Lever { ratio: self.arm_ratio * cos_psi, sine, cosine, plus, minus }
     }
 
     /// P = (L/(L−x−Δx))^k − 1: the air force over 2 p0 F; NaN when the column is used up.
@@ -206,13 +202,13 @@ impl Mechanism {
     pub fn residual_on(&self, side: Trend, x: f64, bottom: f64, slope: f64, way: BedDirection) -> f64 {
         let (lever, air, load) = (self.lever(bottom), self.air(x, bottom), self.load(x));
         let (fraction, efficiency) = self.fraction(&lever, slope, side, way);
-        let with = |efficiency: f64| load - air * (1.0 + lever.ratio * fraction / efficiency);
         let balanced = matches!(
             (self.exact_on, way),
             (ExactOn::Braking, BedDirection::Braking) | (ExactOn::Return, BedDirection::Return)
         );
         if side == Trend::Stuck && balanced && self.two_sided() {
-            let (a, b) = (with(self.efficiency), with(1.0 / self.efficiency));
+            let [a, b] = [self.efficiency, 1.0 / self.efficiency]
+                .map(|efficiency| load - air * (1.0 + lever.ratio * fraction / efficiency));
             if a.min(b) <= 0.0 && a.max(b) >= 0.0 {
                 0.0
             } else if a.abs() < b.abs() {
@@ -221,7 +217,7 @@ impl Mechanism {
                 b
             }
         } else {
-            with(efficiency)
+            load - air * (1.0 + lever.ratio * fraction / efficiency)
         }
     }
 
@@ -283,21 +279,26 @@ impl Mechanism {
         let sin_psi = y * (self.bottom_law.stroke() / self.bottom_arm);
         let cos_psi = (sin_psi * sin_psi * -1.0 + 1.0).apply(ElementaryFunction::Root);
         let c = cos_psi * self.arm_ratio;
-        let turned = |angle: f64| cos_psi * libm::sin(angle) + sin_psi * libm::cos(angle);
-        let (plus, minus) = (turned(self.delta + self.friction_angle), turned(self.delta - self.friction_angle));
+        let [plus, minus] = [self.delta + self.friction_angle, self.delta - self.friction_angle]
+            .map(|angle| cos_psi * libm::sin(angle) + sin_psi * libm::cos(angle));
         let q = libm::sin(self.friction_angle);
         match self.exact_on {
-            ExactOn::Braking => one_way((surplus, c), (plus, minus), braking, q),
-            ExactOn::Return => one_way((surplus, c), (minus, plus), returning, -q),
-            ExactOn::Mean => both_ways((surplus, c), (plus, minus), (1.0 / braking, 1.0 / returning), q),
+            ExactOn::Braking => one_way(surplus, c, plus, minus, braking, q),
+            ExactOn::Return => one_way(surplus, c, minus, plus, returning, -q),
+            ExactOn::Mean => both_ways(surplus, c, plus, minus, 1.0 / braking, 1.0 / returning, q),
         }
     }
 }
 
-type Pair<'t> = (TapeNumber<'t>, TapeNumber<'t>);
-
 /// C (η B s₋ − C q)/(C s₊ + η B q).
-fn one_way<'t>((b, c): Pair<'t>, (plus, minus): Pair<'t>, efficiency: f64, q: f64) -> TapeNumber<'t> {
+fn one_way<'t>(
+    b: TapeNumber<'t>,
+    c: TapeNumber<'t>,
+    plus: TapeNumber<'t>,
+    minus: TapeNumber<'t>,
+    efficiency: f64,
+    q: f64,
+) -> TapeNumber<'t> {
     let driven = b * efficiency;
     c * ((driven * minus - c * q) / (c * plus + driven * q))
 }
@@ -307,7 +308,15 @@ fn one_way<'t>((b, c): Pair<'t>, (plus, minus): Pair<'t>, efficiency: f64, q: f6
 /// ```text
 /// σ² [C q (a s₊ − b s₋) + 2 B q²] + σ [C (a s₊² + b s₋² + (a+b) q²) + 2 B q (s₊ − s₋)] + C q (a s₊ − b s₋) − 2 B s₊ s₋
 /// ```
-fn both_ways<'t>((b, c): Pair<'t>, (plus, minus): Pair<'t>, (first, second): (f64, f64), q: f64) -> TapeNumber<'t> {
+fn both_ways<'t>(
+    b: TapeNumber<'t>,
+    c: TapeNumber<'t>,
+    plus: TapeNumber<'t>,
+    minus: TapeNumber<'t>,
+    first: f64,
+    second: f64,
+    q: f64,
+) -> TapeNumber<'t> {
     let twice = b * 2.0;
     let lean = c * (plus * (first * q) - minus * (second * q));
     let quadratic = lean + twice * (q * q);

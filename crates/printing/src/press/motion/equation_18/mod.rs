@@ -168,17 +168,15 @@ impl WedgeMotion {
 
     /// A lever that sticks leaves a flat on the plate.
     fn rests(&self, start: f64, end: f64, shape: PieceShape) -> bool {
-        let slope = |x: f64| self.motion.at(x, false)[1];
         shape == PieceShape::BottomMotion
             && matches!(self.motion, BottomMotion::Ode(_))
-            && slope(start) == 0.0
-            && slope(0.5 * (start + end)) == 0.0
+            && [start, 0.5 * (start + end)].into_iter().all(|x| self.motion.at(x, false)[1] == 0.0)
     }
 
     fn find_lowest(&self) -> f64 {
         let lowest = self.pieces.iter().enumerate().map(|(index, piece)| {
-            let of = |x: f64| self.bottom(index, x);
-            -extremum::largest(|x| -of(x).s, |x| -of(x).ds, (piece.start, piece.end), CELLS).value
+            let piece = (piece.start, piece.end);
+            -extremum::largest(|x| -self.bottom(index, x).s, |x| -self.bottom(index, x).ds, piece, CELLS).value
         });
         lowest.fold(f64::INFINITY, f64::min)
     }

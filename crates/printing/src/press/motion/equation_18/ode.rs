@@ -5,7 +5,7 @@
 //! slope has three laws: rising, falling, and between them a lever that sticks. The changes are found on the series and kept as
 //! breaks, so that every stretch is smooth.
 
-use super::mechanism::{ARM_SHARE, ExactOn, Mechanism, Trend};
+use super::mechanism::{ARM_SHARE, ExactOn, Lever, Mechanism, Trend};
 use super::wall;
 use camgen_kernel::numeric::root;
 use camgen_kernel::numeric::series::tape::Tape;
@@ -116,8 +116,10 @@ impl Solution {
 
     fn stretch(&self, x: f64, before: bool) -> Option<&SolutionStretch> {
         let scaled = x / self.stroke;
-        let later = |s: &SolutionStretch| s.series.centre < scaled || (!before && s.series.centre <= scaled);
-        self.stretches.get(self.stretches.partition_point(later).saturating_sub(1))
+        let begun = self.stretches.partition_point(|stretch| {
+            stretch.series.centre < scaled || (!before && stretch.series.centre <= scaled)
+        });
+        self.stretches.get(begun.saturating_sub(1))
     }
 
     /// Δx alone, m.
@@ -159,25 +161,14 @@ impl Run<'_> {
 
     /// The series from x = 0.
     fn start(&mut self) -> Result<(), Refusal> {
-        let mechanism = self.mechanism;
-        let none = || wall::no_start(mechanism.delta, mechanism.friction_angle);
-        let from = |side: Trend| -> Result<TaylorExpansion, Refusal> {
-            let slope = starting_slope(mechanism, side).ok_or_else(none)?;
-            Ok(mechanism.starting_tape(side).expand_from_origin(slope, self.order))
-        };
-        // A slope of exactly 0 is decided by the next coefficient.
-        let goes = |series: &TaylorExpansion, sign: f64| {
-            let first = series.coefficients.iter().skip(1).find(|coefficient| **coefficient != 0.0);
-            first.is_some_and(|coefficient| sign * coefficient > 0.0)
-        };
-        let rising = from(Trend::Rising)?;
-        let (side, series) = if goes(&rising, 1.0) {
+        let rising = self.series_from_origin(Trend::Rising)?;
+        let (side, series) = if starts_towards(&rising, 1.0) {
             (Trend::Rising, rising)
-        } else if !mechanism.two_sided() {
+        } else if !self.mechanism.two_sided() {
             (Trend::Falling, rising)
         } else {
-            let falling = from(Trend::Falling)?;
-            if !goes(&falling, -1.0) {
+            let falling = self.series_from_origin(Trend::Falling)?;
+            if !starts_towards(&falling, -1.0) {
                 self.turn(Trend::Stuck);
                 self.wait(Trend::Stuck);
                 return Ok(());
@@ -186,6 +177,14 @@ impl Run<'_> {
         };
         self.side = side;
         self.accept(series)
+    }
+
+    /// The series about x = 0 with the slope of a side.
+    fn series_from_origin(&self, side: Trend) -> Result<TaylorExpansion, Refusal> {
+        let mechanism = self.mechanism;
+        let slope = starting_slope(mechanism, side)
+            .ok_or_else(|| wall::no_start(mechanism.delta, mechanism.friction_angle))?;
+        Ok(mechanism.starting_tape(side).expand_from_origin(slope, self.order))
     }
 
     /// One step of a moving bottom.
@@ -225,15 +224,10 @@ impl Run<'_> {
     /// came from is 0 here, give or take a rounding, and frees it only later.
     fn wait(&mut self, came: Trend) {
         let (x, y) = (self.x, self.y);
-        let from = x.max(LEAST_OVERRUN);
         // A bottom that rests lets the column be used up at L − Δx.
         let limit = (self.mechanism.bottom_law.column() / self.solution.stroke - y).min(1.0);
-        let up = |at: f64| -self.rising.value(at, y);
-        let down = |at: f64| self.falling.value(at, y);
-        let free = |law: &dyn Fn(f64) -> f64, side: Trend| {
-            if side != came && law(from) < 0.0 { Some(from) } else { first_fall(law, from, limit, STUCK_CELLS) }
-        };
-        let (end, then) = match (free(&up, Trend::Rising), free(&down, Trend::Falling)) {
+        let [rises, falls] = [Trend::Rising, Trend::Falling].map(|side| self.comes_free(side, came, limit));
+        let (end, then) = match (rises, falls) {
             (Some(up), Some(down)) if up < down => (up, Trend::Rising),
             (_, Some(down)) => (down, Trend::Falling),
             (Some(up), None) => (up, Trend::Rising),
@@ -248,6 +242,20 @@ impl Run<'_> {
         if then != Trend::Stuck && end < 1.0 {
             self.turn(then);
         }
+    }
+
+    /// Where the law of a side first moves a lever that sticks from here on, before `limit`.
+    fn comes_free(&self, side: Trend, came: Trend, limit: f64) -> Option<f64> {
+        let from = self.x.max(LEAST_OVERRUN);
+        if side != came && self.slope_back(side, from) < 0.0 {
+            return Some(from);
+        }
+        first_fall(|x| self.slope_back(side, x), from, limit, STUCK_CELLS)
+    }
+
+    /// The slope that the law of a side gives the bottom where it is, at the overrun x; below 0 where it moves to that side.
+    fn slope_back(&self, side: Trend, x: f64) -> f64 {
+        if side == Trend::Rising { -self.rising.value(x, self.y) } else { self.falling.value(x, self.y) }
     }
 
     /// Share of the bottom's arm that is in use.
@@ -287,14 +295,20 @@ impl Run<'_> {
         if self.x + self.y < STIFF * self.x {
             return wall::stiff(x);
         }
-        let slope = |side: Trend| {
+        let [rising, falling] = [Trend::Rising, Trend::Falling].map(|side| {
             let slope =
                 if self.x > 0.0 { Some(self.tape(side).value(self.x, self.y)) } else { starting_slope(m, side) };
             slope.map_or(f64::NAN, f64::abs)
-        };
-        let steep = slope(Trend::Rising).max(slope(Trend::Falling));
+        });
+        let steep = rising.max(falling);
         if steep.is_nan() || steep > STEEP { wall::slope(x) } else { wall::unnamed(x) }
     }
+}
+
+/// Whether a series about x = 0 leaves it towards a sign. A slope of exactly 0 is decided by the next coefficient.
+fn starts_towards(series: &TaylorExpansion, sign: f64) -> bool {
+    let first = series.coefficients.iter().skip(1).find(|coefficient| **coefficient != 0.0);
+    first.is_some_and(|coefficient| sign * coefficient > 0.0)
 }
 
 /// Where a function that starts at 0 or above first falls below 0 in (low, high], by cells.
@@ -312,43 +326,45 @@ fn first_fall(f: impl Fn(f64) -> f64, low: f64, high: f64, cells: u32) -> Option
 
 /// The slope w = dΔx/dx at x = 0: the root nearest 0 of w = f(c/(1+w) − 1), where f is the slope of (18).
 ///
-/// In one direction it is a quadratic: with C = λ, θ = Δ and η (c − 1 − w)/(1 + w) for η B,
+/// The mean of both directions has its root between theirs, since each is a falling function of w.
+fn starting_slope(mechanism: &Mechanism, side: Trend) -> Option<f64> {
+    let (braking, returning) = mechanism.efficiencies(side);
+    let q = libm::sin(mechanism.friction_angle);
+    let Lever { ratio, plus, minus, .. } = mechanism.lever(0.0);
+    let surplus = mechanism.bottom_law.start_slope();
+    match mechanism.exact_on {
+        ExactOn::Braking => slope_one_way(ratio, plus, minus, q, braking, surplus),
+        ExactOn::Return => slope_one_way(ratio, minus, plus, -q, returning, surplus),
+        ExactOn::Mean => {
+            let first = slope_one_way(ratio, plus, minus, q, braking, surplus)?;
+            let second = slope_one_way(ratio, minus, plus, -q, returning, surplus)?;
+            let tape = mechanism.starting_tape(side);
+            // Without friction the two agree to a rounding, and there is nothing to bracket.
+            root::bracketed(|w| tape.value(0.0, w) - w, first, second, 0.0).ok().or(Some(0.5 * (first + second)))
+        }
+    }
+}
+
+/// The slope at x = 0 in one direction, with `c` for C and `surplus` for c − 1: the root of a quadratic, which with C = λ, θ = Δ and
+/// η (c − 1 − w)/(1 + w) for η B is
 ///
 /// ```text
 /// w² (η q − C s₊) − w [C (η s₋ + C q + s₊) + η (c−1) q] + C [η (c−1) s₋ − C q] = 0
 /// ```
 ///
 /// Its left side is positive at w = −1, so one root lies above −1 on the branch where C s₊ + η B q > 0, and the other is
-/// past the wall. The mean of both directions has its root between theirs, since each is a falling function of w.
-fn starting_slope(mechanism: &Mechanism, side: Trend) -> Option<f64> {
-    let (braking, returning) = mechanism.efficiencies(side);
-    let q = libm::sin(mechanism.friction_angle);
-    let lever = mechanism.lever(0.0);
-    let (plus, minus) = (lever.plus, lever.minus);
-    let surplus = mechanism.bottom_law.start_slope();
-    let one = |eta: f64, plus: f64, minus: f64, q: f64| {
-        if !(plus > 0.0 && minus > 0.0) {
-            return None;
-        }
-        let c = lever.ratio;
-        let a2 = eta * q - c * plus;
-        let a1 = c * (eta * minus + c * q + plus) + eta * surplus * q;
-        let a0 = c * (eta * surplus * minus - c * q);
-        let discriminant = a1 * a1 - 4.0 * a2 * a0;
-        let below = a1 + discriminant.sqrt();
-        let slope = 2.0 * a0 / below;
-        // The branch: NaN and a slope past −1 cannot start a solution.
-        let denominator = c * plus * (1.0 + slope) + eta * (surplus - slope) * q;
-        (slope > -1.0 && denominator > 0.0 && below > 0.0).then_some(slope)
-    };
-    match mechanism.exact_on {
-        ExactOn::Braking => one(braking, plus, minus, q),
-        ExactOn::Return => one(returning, minus, plus, -q),
-        ExactOn::Mean => {
-            let (first, second) = (one(braking, plus, minus, q)?, one(returning, minus, plus, -q)?);
-            let tape = mechanism.starting_tape(side);
-            // Without friction the two agree to a rounding, and there is nothing to bracket.
-            root::bracketed(|w| tape.value(0.0, w) - w, first, second, 0.0).ok().or(Some(0.5 * (first + second)))
-        }
+/// past the wall.
+fn slope_one_way(c: f64, plus: f64, minus: f64, q: f64, eta: f64, surplus: f64) -> Option<f64> {
+    if !(plus > 0.0 && minus > 0.0) {
+        return None;
     }
+    let a2 = eta * q - c * plus;
+    let a1 = c * (eta * minus + c * q + plus) + eta * surplus * q;
+    let a0 = c * (eta * surplus * minus - c * q);
+    let discriminant = a1 * a1 - 4.0 * a2 * a0;
+    let below = a1 + discriminant.sqrt();
+    let slope = 2.0 * a0 / below;
+    // The branch: NaN and a slope past −1 cannot start a solution.
+    let denominator = c * plus * (1.0 + slope) + eta * (surplus - slope) * q;
+    (slope > -1.0 && denominator > 0.0 && below > 0.0).then_some(slope)
 }

@@ -88,10 +88,58 @@ fn side_of_yoke(
     whole: Option<f64>,
 ) -> ReversalSide {
     let retreat = bottom_law.retreat() / bottom_law.stroke;
-    let at = |angle: f64| with_raise(bottom_law_at(bottom_law, angle), raise, angle, whole);
-    let end = if retreat > 0.0 { [0.0, -bottom_law.stroke, 0.0, 0.0] } else { at(0.0) };
+    let end = if retreat > 0.0 {
+        [0.0, -bottom_law.stroke, 0.0, 0.0]
+    } else {
+        with_raise(bottom_law_at(bottom_law, 0.0), raise, 0.0, whole)
+    };
     let level = if retreat > 0.0 || raise.is_none() { 0.0 } else { end[0] };
-    ReversalSide::new(law.transition, retreat, level, end, at)
+    ReversalSide::new(law.transition, retreat, level, end, |angle| {
+        with_raise(bottom_law_at(bottom_law, angle), raise, angle, whole)
+    })
+}
+
+/// The law of a linkage as one side of the reversal sees it.
+struct LinkageView<'a> {
+    law: &'a LinkageLaw,
+    raise: Option<&'a RaiseSeries>,
+    /// Behind the reversal, seen in its mirror.
+    mirrored: bool,
+}
+
+impl LinkageView<'_> {
+    /// The crank angle of an angle of this side.
+    fn crank(&self, angle: f64) -> f64 {
+        if self.mirrored { self.law.end.angle() - angle } else { angle }
+    }
+
+    /// A motion by the crank angle, by the angle of this side.
+    fn turned(&self, motion: Derivatives) -> Derivatives {
+        let [value, first, second, third] = motion;
+        if self.mirrored { [value, -first, second, -third] } else { motion }
+    }
+
+    /// Δx by the law, with what the cam is raised by.
+    fn bottom(&self, angle: f64) -> Derivatives {
+        let crank = self.crank(angle);
+        let [value, first, second, third, _] = self.law.at(crank);
+        self.turned(with_raise([value, first, second, third], self.raise, crank, None))
+    }
+
+    /// Δx while the bottom retreats with the piston.
+    fn retreating(&self, angle: f64) -> Derivatives {
+        self.turned(self.law.retreat(self.crank(angle)))
+    }
+
+    /// The side with a retreat of this angle; `level` is where the bottom then rests.
+    fn side(&self, transition: Transition, retreat: f64, level: f64) -> ReversalSide {
+        // The bottom retreats from where its column is closed, unless the piston is out of it at the end of the reversal already.
+        let retreats = retreat > 0.0;
+        let mut end = if retreats { self.retreating(-retreat) } else { self.bottom(0.0) };
+        let level = if retreats || self.raise.is_none() { level } else { end[0] };
+        end[0] = level;
+        ReversalSide::new(transition, retreat.max(0.0), level, end, |angle| self.bottom(angle))
+    }
 }
 
 /// The sides of the reversal of a linkage, the second one mirrored; of a symmetric motion they are one.
@@ -112,31 +160,16 @@ pub(super) fn sides_of_linkage(
     } else {
         [0.0, whole]
     };
-    let in_mirror = |[value, first, second, third]: Derivatives| [value, -first, second, -third];
-    let first_three = |angle: f64| {
-        let [value, first, second, third, _] = of.at(angle);
-        with_raise([value, first, second, third], raise, angle, None)
-    };
-    let retreating = |angle: f64| of.retreat(angle);
-    let side = |retreat: f64, level: f64, mirrored: bool| {
-        let seen = move |angle: f64, of: &dyn Fn(f64) -> Derivatives| {
-            if mirrored { in_mirror(of(whole - angle)) } else { of(angle) }
-        };
-        // The bottom retreats from where its column is closed, unless the piston is out of it at the end of the reversal already.
-        let retreats = retreat > 0.0;
-        let mut end = if retreats { seen(-retreat, &retreating) } else { seen(0.0, &first_three) };
-        let level = if retreats || raise.is_none() { level } else { end[0] };
-        end[0] = level;
-        ReversalSide::new(law.transition, retreat.max(0.0), level, end, |angle| seen(angle, &first_three))
-    };
+    let seen_before = LinkageView { law: of, raise, mirrored: false };
+    let seen_after = LinkageView { law: of, raise, mirrored: true };
     let left = -(of.lead + of.end.overrun_at_end());
-    let first = side(-before, 0.0, false);
+    let first = seen_before.side(law.transition, -before, 0.0);
     let second = match of.end.symmetric() {
-        true if raise.is_none() => side(-before, 0.0, false),
-        true if of.lead > 0.0 => side(-before, 0.0, true),
-        true => side(0.0, 0.0, true),
-        false if of.lead > 0.0 && left < 0.0 => side(after - whole, 0.0, true),
-        false => side(0.0, left, true),
+        true if raise.is_none() => seen_before.side(law.transition, -before, 0.0),
+        true if of.lead > 0.0 => seen_after.side(law.transition, -before, 0.0),
+        true => seen_after.side(law.transition, 0.0, 0.0),
+        false if of.lead > 0.0 && left < 0.0 => seen_after.side(law.transition, after - whole, 0.0),
+        false => seen_after.side(law.transition, 0.0, left),
     };
     Ok([first, second])
 }
@@ -173,21 +206,22 @@ pub(super) fn parts(law: &ReversalLaw, raise: Option<&RaiseSeries>) -> Result<Ve
     let reversal =
         LobePart { start: first.law_start, end: whole - second.law_start, shape: LobeShape::Reversal, mirrored: false };
     let of_yoke = matches!(law.bottom_law, CrankLaw::Yoke(_));
-    let mirror = |part: LobePart| {
+    let fall = second.rise().into_iter().rev().map(|part| LobePart {
+        start: whole - part.end,
+        end: whole - part.start,
         // The retreat of a linkage is a function of the crank angle itself.
-        let mirrored = of_yoke || part.shape != LobeShape::Retreat;
-        LobePart { start: whole - part.end, end: whole - part.start, mirrored, ..part }
-    };
-    let fall = second.rise().into_iter().rev().map(mirror);
+        mirrored: of_yoke || part.shape != LobeShape::Retreat,
+        ..part
+    });
     let (start, end) = (whole - second.first(), TAU + first.first());
-    let back = LobePart { start, end, shape: rest((start, end), second.level, first.level)?, mirrored: false };
+    let back = LobePart { start, end, shape: rest(start, end, second.level, first.level)?, mirrored: false };
     let mut parts: Vec<LobePart> = first.rise().into_iter().chain([reversal]).chain(fall).chain([back]).collect();
     parts.retain(|part| part.end - part.start > SAME_ANGLE);
     Ok(parts)
 }
 
 /// The rest of the turn: a dwell, or a ramp from one level to another.
-fn rest((start, end): (f64, f64), from: f64, to: f64) -> Result<LobeShape, Refusal> {
+fn rest(start: f64, end: f64, from: f64, to: f64) -> Result<LobeShape, Refusal> {
     if (from - to).abs() <= SAME_LEVEL {
         return Ok(LobeShape::Dwell(from));
     }
