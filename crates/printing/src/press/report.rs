@@ -87,7 +87,7 @@ impl CylinderMeasures {
 
     /// Count, bore, and piston areas of one and of all.
     #[must_use]
-    pub fn words(&self) -> String {
+    pub fn describe(&self) -> String {
         format!(
             "{}, piston area {} mm² each, {} mm² in all",
             self.bore_words(),
@@ -144,11 +144,11 @@ impl ReversalOfBed {
     /// The section `reversal`.
     #[must_use]
     pub fn section(&self) -> Section {
-        let words = self.words();
+        let words = self.describe();
         Section::new("reversal", self).with_figures(vec![words.clone()]).with_words(vec![words])
     }
 
-    fn words(&self) -> String {
+    fn describe(&self) -> String {
         let left = if self.overrun_left_mm.abs() < 1e-9 {
             String::new()
         } else {
@@ -204,7 +204,7 @@ impl AirLaw {
                 shown(self.dx_max_at_x_mm),
                 shown(self.column_length_mm)
             ),
-            self.cylinders.words(),
+            self.cylinders.describe(),
         ];
         if self.velocity_jump_mm_per_rad != 0.0 {
             words.push(format!(
@@ -220,7 +220,7 @@ impl AirLaw {
             ));
         }
         if let Some(solved) = &self.equation_18 {
-            words.push(solved.words(self.start_slope));
+            words.push(solved.describe(self.start_slope));
             words.extend(solved.omitted_friction());
             if !solved.breaks.is_empty() {
                 let breaks: Vec<String> =
@@ -249,7 +249,7 @@ impl Equation18 {
         (!omitted.is_empty()).then(|| format!("friction is omitted {}", omitted.join(" and ")))
     }
 
-    fn words(&self, start_slope: f64) -> String {
+    fn describe(&self, start_slope: f64) -> String {
         let how = match (self.stations, self.tolerance_mm) {
             (Some(stations), _) => format!("{stations} stations"),
             (None, tolerance) => {

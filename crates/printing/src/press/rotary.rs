@@ -4,7 +4,7 @@ use super::balance::{allowed_error, fitting_speed, reversal_of_bed};
 use super::buffer::crank_law::CrankLaw;
 use super::checks::balanced::of_balance;
 use super::checks::{contact_life, losses};
-use super::load::{AirBuffer, AsCut, Balance, ForceBalanced, RunUp};
+use super::load::{AirBuffer, AsCut, Balance, ColumnAtSpeed, ForceBalanced, RunUp};
 use super::machine::{Press, PressCams};
 use super::motion::{RaiseSeries, Reversal, ReversalLaw, Transition};
 use super::picture::{BufferPicture, PressPicture, not_modelled_of, press_poses};
@@ -148,8 +148,8 @@ impl ForceBalanced for BalancedDisc<'_> {
         self.duty.buffer.least_air()
     }
 
-    fn columns(&self) -> Vec<(f64, f64)> {
-        vec![(self.duty.law().column(), self.duty.rpm)]
+    fn columns(&self) -> Vec<ColumnAtSpeed> {
+        vec![ColumnAtSpeed { length: self.duty.law().column(), rpm: self.duty.rpm }]
     }
 
     fn run_up(&self) -> Option<RunUp> {

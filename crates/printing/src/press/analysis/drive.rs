@@ -387,7 +387,7 @@ fn describe(drive_figures: &DriveFigures) -> Vec<String> {
     let mut lines = vec![
         format!(
             "{}; stroke {} mm, force of all at its end {} N, work over the bed's energy {}",
-            drive_figures.cylinders.words(),
+            drive_figures.cylinders.describe(),
             shown(drive_figures.stroke_mm),
             shown(drive_figures.end_force_n),
             shown(drive_figures.work_over_energy)

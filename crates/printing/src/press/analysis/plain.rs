@@ -9,6 +9,7 @@ use crate::press::buffer::bottom_law::{BottomLaw, ColumnRule};
 use crate::press::buffer::regime::Reset;
 use crate::press::buffer::{Cylinder, PlainBuffer};
 use crate::press::checks::column;
+use crate::press::load::ColumnAtSpeed;
 use crate::press::machine::{Press, only_under_a_yoke};
 use crate::press::report::CylinderMeasures;
 use crate::press::scatter::fault::FrozenBuffer;
@@ -164,7 +165,8 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
     };
     let own = column_by(&frozen_at(press, &cylinder, press.design_rpm), reset);
     let resets: Vec<ColumnReset> = rows.iter().map(PlainRow::reset).collect();
-    let columns: Vec<(f64, f64)> = rows.iter().map(|row| (row.column_length_mm / MILLIMETRES, row.rpm)).collect();
+    let columns: Vec<ColumnAtSpeed> =
+        rows.iter().map(|row| ColumnAtSpeed { length: row.column_length_mm / MILLIMETRES, rpm: row.rpm }).collect();
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs(KIND.keys));
     inputs.extend([
@@ -318,7 +320,7 @@ fn family_curve(press: &Press, end: f64) -> Vec<FamilyPlace> {
 }
 
 fn describe(found: &PlainBuffers<'_>) -> Vec<String> {
-    let mut lines = vec![format!("fixed bottoms without a cam; reset: {}; {}", found.reset, found.cylinders.words())];
+    let mut lines = vec![format!("fixed bottoms without a cam; reset: {}; {}", found.reset, found.cylinders.describe())];
     lines.push(format!(
         "{:>8} {:>11} {:>13} {:>13} {:>11} {:>8} {:>9} {:>10} {:>9}",
         "rpm", "column/mm", "V each/cm³", "V all/cm³", "left/N", "left/%", "at x/mm", "end/N", "p_end/at"

@@ -11,6 +11,7 @@ use crate::press::buffer::regime::{self, Regime, Reset};
 use crate::press::cams;
 use crate::press::checks::column;
 use crate::press::checks::fixed_bottom::{self, Rivals};
+use crate::press::load::ColumnAtSpeed;
 use crate::press::machine::Press;
 use crate::press::machine::PressCams;
 use crate::press::motion::Transition;
@@ -128,7 +129,8 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
         .collect();
     let curves: Vec<ForcePlace> = all.iter().flat_map(|(rpm, regime)| curve(&design, *rpm, regime)).collect();
     let along = CurveAxis::for_bed(&design);
-    let columns: Vec<(f64, f64)> = rows.iter().map(|row| (row.column_length_mm / MILLIMETRES, row.rpm)).collect();
+    let columns: Vec<ColumnAtSpeed> =
+        rows.iter().map(|row| ColumnAtSpeed { length: row.column_length_mm / MILLIMETRES, rpm: row.rpm }).collect();
     let resets: Vec<ColumnReset> = rows.iter().map(SpeedRow::reset).collect();
     let rivals: Vec<Rivals> = rows.iter().map(SpeedRow::rivals).collect();
     let regimes = Regimes {
@@ -253,7 +255,7 @@ fn describe(regimes: &Regimes<'_>) -> Vec<String> {
         regimes.cam_rpm,
         regimes.column_length_mm,
         regimes.reset,
-        regimes.cylinders.words()
+        regimes.cylinders.describe()
     )];
     lines.push(format!(
         "{:>8} {:>11} {:>8} {:>12} {:>12} {:>11} {:>10} {:>8} {:>9} {:>10} {:>9} {:>11} {:>11}",

@@ -6,6 +6,7 @@ use crate::press::buffer::spring::{self, BrakedBed, SpringBuffer};
 use crate::press::buffer::spring_body::SpringBody;
 use crate::press::cams;
 use crate::press::checks::{buckling, column, spring_coils, spring_stress, surge};
+use crate::press::load::ColumnAtSpeed;
 use crate::press::machine::{Press, PressCams};
 use crate::press::report::CylinderMeasures;
 use camgen_cams::analysis::{Analysis, PLACES, Picture, places};
@@ -182,7 +183,8 @@ pub fn analysis(
 
 /// What checks judge: the columns, and the springs where the file describes them.
 fn measures(machine: &Machine, sets: &[SpringAtSpeed], bodies: Option<&SpringBodies>) -> Vec<Measure> {
-    let columns: Vec<(f64, f64)> = sets.iter().map(|set| (set.spring.column, set.rpm)).collect();
+    let columns: Vec<ColumnAtSpeed> =
+        sets.iter().map(|set| ColumnAtSpeed { length: set.spring.column, rpm: set.rpm }).collect();
     let of_bodies = bodies.map_or_else(Vec::new, SpringBodies::measures);
     column::measure_of_analysis(&columns, machine).into_iter().chain(of_bodies).collect()
 }
@@ -378,7 +380,7 @@ fn describe(springs: &Springs<'_>, press: &Press) -> Vec<String> {
     let faster = spring::least_stiffness(&braked_by(press), fastest) / MILLIMETRES;
     let faster = (fastest > design).then(|| format!(", at {} rpm more than {faster:.4}", shown(fastest)));
     let mut lines = vec![
-        format!("{}; a spring under the bottom of each", springs.cylinders.words()),
+        format!("{}; a spring under the bottom of each", springs.cylinders.describe()),
         format!(
             "at the design speed of {} rpm more than {:.4} N/mm each are needed{}; a fixed bottom leaves {:.2} N there",
             shown(design),

@@ -215,8 +215,13 @@ impl BottomLaw {
     /// the reversal, in which the bottom rests. `None` where there is no loop. The column `Matched` starts it with slope 0, `Return` brings the
     /// bottom back at the dead point.
     #[must_use]
-    pub fn level(loading: f64, stroke: f64, column: ColumnRule, exponents: [f64; 2]) -> Option<Self> {
-        let [compression, expansion] = exponents;
+    pub fn level(
+        loading: f64,
+        stroke: f64,
+        column: ColumnRule,
+        compression: f64,
+        expansion: f64,
+    ) -> Option<Self> {
         let air = LevelAir::new(compression, expansion, loading * stroke)?;
         let [start, first, ..] = air.derivatives(0.0);
         let matched = -1.0 / (loading * first);
@@ -352,21 +357,24 @@ impl BottomLaw {
     #[must_use]
     pub fn largest_displacement(&self) -> (f64, f64) {
         if self.level.is_some() {
-            let slope = |x: f64| self.bottom(x, self.stroke - x).slope;
-            let top = root::bracketed(slope, 0.0, self.stroke, 0.0).unwrap_or(0.0);
-            return self.largest_of([0.0, top, self.stroke]);
+            let top = root::bracketed(|x| self.bottom(x, self.stroke - x).slope, 0.0, self.stroke, 0.0);
+            return self.largest_of(&[0.0, top.unwrap_or(0.0), self.stroke]);
         }
         let p = 1.0 / self.exponent;
         let top = libm::expm1(libm::log1p(self.start_slope) / (p + 1.0)) / self.loading;
-        self.largest_of([0.0, top.clamp(0.0, self.stroke), self.stroke])
+        self.largest_of(&[0.0, top.clamp(0.0, self.stroke), self.stroke])
     }
 
     /// The Δx of largest size at some overruns.
-    fn largest_of(&self, places: [f64; 3]) -> (f64, f64) {
-        places
-            .map(|x| (x, self.displacement(x)))
-            .into_iter()
-            .fold((0.0, 0.0), |best, next| if next.1.abs() > best.1.abs() { next } else { best })
+    fn largest_of(&self, places: &[f64]) -> (f64, f64) {
+        let (mut at, mut largest) = (0.0, 0.0_f64);
+        for &x in places {
+            let displacement = self.displacement(x);
+            if displacement.abs() > largest.abs() {
+                (at, largest) = (x, displacement);
+            }
+        }
+        (at, largest)
     }
 
     /// Pressure ratio p/p0 with the piston at x and the bottom at Δx, equation (8) with lead.
@@ -447,7 +455,7 @@ mod tests {
     #[test]
     fn derivatives_of_a_law_that_levels() {
         for column in [ColumnRule::Matched, ColumnRule::Return, ColumnRule::Length(0.3)] {
-            let law = BottomLaw::level(1.0 / 0.18, 0.18, column, [1.35, 1.40]).expect("a loop");
+            let law = BottomLaw::level(1.0 / 0.18, 0.18, column, 1.35, 1.40).expect("a loop");
             let at = |x: f64| {
                 let Bottom { value, slope, second, third, fourth } = law.bottom(x, 0.18 - x);
                 [value, slope, second, third, fourth]

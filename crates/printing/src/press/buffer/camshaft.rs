@@ -116,11 +116,14 @@ fn work_of_linkage(law: &LinkageLaw, cylinder: &Cylinder, crank: f64) -> WorkDer
     // The return mirrors the outward motion, or its end is not near the start.
     let from_start = if law.end.symmetric() { crank.min(law.end.angle() - crank) } else { crank };
     let excess = if from_start < NEAR {
-        let of = |crank: f64| {
-            let bed = law.end.at(crank);
-            bed.deceleration()[0] * bed.excess[1]
-        };
-        quadrature::integrate(of, (0.0, from_start.max(0.0)), PANELS)
+        quadrature::integrate(
+            |crank| {
+                let bed = law.end.at(crank);
+                bed.deceleration()[0] * bed.excess[1]
+            },
+            (0.0, from_start.max(0.0)),
+            PANELS,
+        )
     } else {
         0.5 * a * a / ratio - slowed
     };
@@ -204,17 +207,20 @@ impl TorqueShape {
     fn extremes(&self) -> TorqueExtremes {
         let top = top(self.start_slope, self.p, self.end);
         let turn = if top < 1.0 { libm::asin(top.max(0.0)) } else { FRAC_PI_2 };
-        let hump = |low: f64, high: f64, none: f64| {
-            if !(low < high) {
-                return Extremum { at: none, value: 0.0 };
-            }
-            let at = root::bracketed(|crank| self.rise(crank), low, high, 0.0).unwrap_or(none);
-            Extremum { at, value: self.torque(at) }
-        };
+        let from = if turn < FRAC_PI_2 { turn.max(FRAC_PI_4) } else { FRAC_PI_2 };
         TorqueExtremes {
-            greatest: hump(0.0, turn.min(FRAC_PI_4), 0.0),
-            least: hump(if turn < FRAC_PI_2 { turn.max(FRAC_PI_4) } else { FRAC_PI_2 }, FRAC_PI_2, FRAC_PI_2),
+            greatest: self.hump(0.0, turn.min(FRAC_PI_4), 0.0),
+            least: self.hump(from, FRAC_PI_2, FRAC_PI_2),
         }
+    }
+
+    /// The extreme between two crank angles; 0 at `none` where there is nothing between them.
+    fn hump(&self, low: f64, high: f64, none: f64) -> Extremum {
+        if !(low < high) {
+            return Extremum { at: none, value: 0.0 };
+        }
+        let at = root::bracketed(|crank| self.rise(crank), low, high, 0.0).unwrap_or(none);
+        Extremum { at, value: self.torque(at) }
     }
 }
 
@@ -224,8 +230,8 @@ pub fn torque_extremes(law: &BottomLaw, cylinder: &Cylinder) -> TorqueExtremes {
     let shape = TorqueShape { end: law.loading * law.stroke, p: 1.0 / law.exponent, start_slope: law.start_slope };
     let TorqueExtremes { greatest, least } = shape.extremes();
     let unit = cylinder.unit_force() * law.stroke;
-    let scaled = |e: Extremum| Extremum { at: e.at, value: e.value * unit };
-    TorqueExtremes { greatest: scaled(greatest), least: scaled(least) }
+    let [greatest, least] = [greatest, least].map(|e| Extremum { at: e.at, value: e.value * unit });
+    TorqueExtremes { greatest, least }
 }
 
 /// The column L, m, with the least largest size of torque over the reversal, for a loading A (1/m), exponent k and stroke r (m).
@@ -236,14 +242,19 @@ pub fn torque_extremes(law: &BottomLaw, cylinder: &Cylinder) -> TorqueExtremes {
 #[must_use]
 pub fn least_torque_column(loading: f64, exponent: f64, stroke: f64) -> f64 {
     let (end, p) = (loading * stroke, 1.0 / exponent);
-    let imbalance = |start_slope: f64| {
-        let extremes = TorqueShape { end, p, start_slope }.extremes();
-        extremes.greatest.value + extremes.least.value
-    };
     let matched = exponent / loading;
     let most = libm::expm1((p + 1.0) * libm::log1p(end));
+    let balanced = root::bracketed(
+        |start_slope| {
+            let extremes = TorqueShape { end, p, start_slope }.extremes();
+            extremes.greatest.value + extremes.least.value
+        },
+        0.0,
+        most,
+        0.0,
+    );
     // There is a change of sign for every finite machine.
-    root::bracketed(imbalance, 0.0, most, 0.0).map_or(matched, |start_slope| matched + matched * start_slope)
+    balanced.map_or(matched, |start_slope| matched + matched * start_slope)
 }
 
 #[cfg(test)]

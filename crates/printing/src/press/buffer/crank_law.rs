@@ -222,11 +222,15 @@ impl CrankLaw {
     pub fn half_loop(&self) -> Option<Extremum> {
         let law = self.of_yoke()?;
         let air = law.level.as_ref()?;
-        let half = |x: f64| {
-            let [on_way_in, back] = air.pressures(air.length(law.loading * x));
-            0.5 * (on_way_in - back)
-        };
-        Some(extremum::largest_without_slope(half, (0.0, law.stroke), CELLS, extremum::TO_ROUNDING))
+        Some(extremum::largest_without_slope(
+            |x| {
+                let [on_way_in, back] = air.pressures(air.length(law.loading * x));
+                0.5 * (on_way_in - back)
+            },
+            (0.0, law.stroke),
+            CELLS,
+            extremum::TO_ROUNDING,
+        ))
     }
 
     /// Crank angle that the reversal takes, rad.
@@ -333,12 +337,16 @@ impl CrankLaw {
             Self::Yoke(law) => libm::asin((deceleration / law.stroke).min(1.0)),
             Self::Linkage(law) => {
                 let largest = law.end.largest_deceleration();
-                let above = |angle: f64| law.end.at(angle).deceleration()[0] - deceleration;
                 if deceleration >= largest.value {
-                    largest.at
-                } else {
-                    root::bracketed(above, 0.0, largest.at, 0.0).unwrap_or(0.0)
+                    return largest.at;
                 }
+                root::bracketed(
+                    |angle| law.end.at(angle).deceleration()[0] - deceleration,
+                    0.0,
+                    largest.at,
+                    0.0,
+                )
+                .unwrap_or(0.0)
             }
         }
     }
@@ -412,15 +420,14 @@ impl CrankLaw {
             }
             Self::Linkage(law) => {
                 let range = (0.0, law.end.angle());
-                let of = |sign: f64| {
+                let [up, down] = [1.0, -1.0].map(|sign| {
                     extremum::largest(
                         |at| sign * law.fixed_bottom(at).0,
                         |at| sign * law.fixed_bottom(at).1,
                         range,
                         CELLS,
                     )
-                };
-                let (up, down) = (of(1.0), of(-1.0));
+                });
                 if up.value > down.value { up } else { down }
             }
         }
@@ -447,10 +454,10 @@ impl LinkageLaw {
     /// Its largest size over the reversal, m.
     fn largest_torque(&self) -> f64 {
         let range = (0.0, self.end.angle());
-        let of = |sign: f64| {
+        let [up, down] = [1.0, -1.0].map(|sign| {
             extremum::largest(|at| sign * self.torque(at).0, |at| sign * self.torque(at).1, range, CELLS).value
-        };
-        extremum::larger(of(1.0), of(-1.0))
+        });
+        extremum::larger(up, down)
     }
 
     /// Inertia less air of a plain buffer with a fixed bottom over 2 p0 F, and its slope by the crank angle.

@@ -57,11 +57,16 @@ impl LevelAir {
     #[must_use]
     pub fn left_by_fixed_bottom(&self, end_load: f64) -> f64 {
         let end = libm::exp(-libm::log1p(end_load) / self.compression);
-        let left = |share: f64| {
-            let [_, back] = self.pressures(1.0 - share * (1.0 - end));
-            (share * end_load - (back - 1.0)).abs()
-        };
-        extremum::largest_of_hills(left, (0.0, 1.0), (CELLS, HILLS), extremum::TO_ROUNDING).value
+        let worst = extremum::largest_of_hills(
+            |share| {
+                let [_, back] = self.pressures(1.0 - share * (1.0 - end));
+                (share * end_load - (back - 1.0)).abs()
+            },
+            (0.0, 1.0),
+            (CELLS, HILLS),
+            extremum::TO_ROUNDING,
+        );
+        worst.value
     }
 
     /// y = −ln w where the mean of the pressures balances a load u.
@@ -105,8 +110,8 @@ impl LevelAir {
     pub fn derivatives(&self, load: f64) -> LengthDerivatives {
         let y = self.logarithm(load);
         let (one, other) = (libm::exp(self.compression * y), libm::exp(self.link + self.expansion * y));
-        let powers = |of: f64| [of, of * of, of * of * of, of * of * (of * of)];
-        let (of_one, of_other) = (powers(self.compression), powers(self.expansion));
+        let [of_one, of_other] =
+            [self.compression, self.expansion].map(|k| [k, k * k, k * k * k, k * k * (k * k)]);
         let [s1, s2, s3, s4] = [0, 1, 2, 3].map(|order: usize| one * of_one[order] + other * of_other[order]);
         let y1 = 2.0 / s1;
         let square = y1 * y1;

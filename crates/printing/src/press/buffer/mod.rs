@@ -91,7 +91,7 @@ impl Cylinder {
     /// equations (3), (4) and (13): A = (q − 1)/r.
     #[must_use]
     pub fn sized(bed: &Bed, design_rpm: f64, exponent: f64, ambient_pressure: f64, end_pressure: f64) -> Self {
-        Self::sized_for(bed, bed.crank_radius, (design_rpm, exponent), (ambient_pressure, end_pressure))
+        Self::sized_for(bed, bed.crank_radius, design_rpm, exponent, ambient_pressure, end_pressure)
     }
 
     /// Sizes the cylinders for a = largest deceleration / (crank speed)², m: A = (q − 1)/a.
@@ -99,8 +99,10 @@ impl Cylinder {
     pub fn sized_for(
         bed: &Bed,
         deceleration: f64,
-        (design_rpm, exponent): (f64, f64),
-        (ambient_pressure, end_pressure): (f64, f64),
+        design_rpm: f64,
+        exponent: f64,
+        ambient_pressure: f64,
+        end_pressure: f64,
     ) -> Self {
         let piston_area =
             bed.inertia(design_rpm, deceleration) / (f64::from(CYLINDERS) * (end_pressure - ambient_pressure));

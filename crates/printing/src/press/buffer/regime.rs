@@ -123,14 +123,14 @@ impl ResidualCurve {
         let from_own = (self.excess * u, (1.0 + u) * libm::expm1(self.k * libm::log1p(-self.longer * lost / left)));
         let below = (1.0 + self.end_rise) * libm::expm1(-self.k * libm::log1p(beyond / self.end_left));
         let from_end = (self.give - self.square * rest, below);
-        let size = |(a, b): (f64, f64)| a.abs() + b.abs();
-        let mut best = whole;
-        for other in [from_own, from_end] {
-            if size(other) < size(best) {
-                best = other;
+        let (mut best, mut smallest) = (whole.0 - whole.1, whole.0.abs() + whole.1.abs());
+        for (inertia, air) in [from_own, from_end] {
+            let size = inertia.abs() + air.abs();
+            if size < smallest {
+                (best, smallest) = (inertia - air, size);
             }
         }
-        best.0 - best.1
+        best
     }
 
     /// d(p/p0)/du.
@@ -255,12 +255,12 @@ impl Regime {
     #[must_use]
     pub fn crank_torque_max(&self) -> f64 {
         let (loading, curve) = (self.design.loading(), &self.curve);
-        let torque = |crank: f64| {
+        let largest = self.largest_size(|crank| {
             let ([_, first, second], [_, slope], _, (u, rest)) = self.travels(crank);
             let residual = curve.residual(u, rest);
             (residual * first, curve.residual_slope(u, rest) * loading * slope * first + residual * second)
-        };
-        self.unit_force * self.largest_size(torque)
+        });
+        self.unit_force * largest
     }
 
     /// Largest size of air force · dΔx/dφ over the reversal at this speed with the unchanged cam, N·m per radian of crank
@@ -268,12 +268,12 @@ impl Regime {
     #[must_use]
     pub fn camshaft_torque_max(&self) -> f64 {
         let (loading, curve) = (self.design.loading(), &self.curve);
-        let torque = |crank: f64| {
+        let largest = self.largest_size(|crank| {
             let (_, [_, slope], [_, first, second], (u, rest)) = self.travels(crank);
             let air = curve.air(u, rest);
             (air * first, curve.air_slope(u, rest) * loading * slope * first + air * second)
-        };
-        self.unit_force * self.largest_size(torque)
+        });
+        self.unit_force * largest
     }
 
     /// Travels at a crank angle, with u and U − u; under a yoke the latter by the half angle, without loss near 90°.

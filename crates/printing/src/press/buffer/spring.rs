@@ -135,23 +135,38 @@ pub fn plain_residual(braked: &BrakedBed, cylinder: &Cylinder, rpm: f64) -> Extr
 /// [`Refusal`] unless the residual is above 0 and below a fixed bottom's.
 pub fn stiffness_for(residual: f64, braked: &BrakedBed, cylinder: &Cylinder, rpm: f64) -> Result<f64, Refusal> {
     let (plain, least) = (plain_residual(braked, cylinder, rpm).value, least_stiffness(braked, rpm));
-    let refused = |range: String| {
-        Refusal::new(format!("no spring leaves a residual of {} N", shown(residual)))
-            .remedy(format!("ask for one {range} and below the {} N of a fixed bottom", rounded_down(plain)))
-    };
     if !(residual > 0.0 && residual < plain) {
-        return Err(refused("above 0".into()));
+        return Err(no_spring_leaves(residual, "above 0", plain));
     }
     if braked.linkage.is_none() {
         return Ok(least * plain / (plain - residual));
     }
     // The softer the spring, the less is left, down to where it takes nearly the whole stroke.
-    let left = |share: f64| set_for(braked, cylinder, least / share, rpm).map_or(plain, |spring| spring.residual);
-    let best = extremum::largest_without_slope(|share| -left(share), (0.0, 1.0), SHARES, extremum::TO_ROUNDING);
-    let share = root::bracketed(|share| left(share) - residual, 0.0, best.at, 0.0);
-    share
-        .map(|share| least / share)
-        .map_err(|_| refused(format!("above the {} N of the best spring", rounded_up(-best.value))))
+    let best = extremum::largest_without_slope(
+        |share| -residual_of(braked, cylinder, least / share, rpm, plain),
+        (0.0, 1.0),
+        SHARES,
+        extremum::TO_ROUNDING,
+    );
+    let share = root::bracketed(
+        |share| residual_of(braked, cylinder, least / share, rpm, plain) - residual,
+        0.0,
+        best.at,
+        0.0,
+    );
+    share.map(|share| least / share).map_err(|_| {
+        no_spring_leaves(residual, &format!("above the {} N of the best spring", rounded_up(-best.value)), plain)
+    })
+}
+
+/// What springs of a stiffness leave, N: as much as a fixed bottom where they are too soft.
+fn residual_of(braked: &BrakedBed, cylinder: &Cylinder, stiffness: f64, rpm: f64, plain: f64) -> f64 {
+    set_for(braked, cylinder, stiffness, rpm).map_or(plain, |spring| spring.residual)
+}
+
+fn no_spring_leaves(residual: f64, range: &str, plain: f64) -> Refusal {
+    Refusal::new(format!("no spring leaves a residual of {} N", shown(residual)))
+        .remedy(format!("ask for one {range} and below the {} N of a fixed bottom", rounded_down(plain)))
 }
 
 /// To four decimals, so that the value that is printed is enough.
@@ -179,14 +194,12 @@ pub fn set_for(braked: &BrakedBed, cylinder: &Cylinder, stiffness: f64, rpm: f64
         return Err(Refusal::new(what).remedy(remedy));
     }
     let (k, r) = (cylinder.exponent, braked.stroke());
-    let end_rise_at = |rpm: f64| cylinder.loading(rpm) * braked.deceleration();
-    let column_at = |rpm: f64| {
-        let left = (stiffness - least_stiffness(braked, rpm)) / stiffness;
-        (left > 0.0).then(|| column_for(r * left, end_rise_at(rpm), k))
-    };
-    let (share, end_rise) = (least / stiffness, end_rise_at(rpm));
+    let (share, end_rise) = (least / stiffness, cylinder.loading(rpm) * braked.deceleration());
     let left = (stiffness - least) / stiffness;
     let column = column_for(r * left, end_rise, k);
+    let design_rpm = cylinder.design_rpm;
+    let design_left = (stiffness - least_stiffness(braked, design_rpm)) / stiffness;
+    let design_rise = cylinder.loading(design_rpm) * braked.deceleration();
     let inertia = braked.inertia(rpm);
     let spring = SpringBuffer {
         stiffness,
@@ -195,7 +208,7 @@ pub fn set_for(braked: &BrakedBed, cylinder: &Cylinder, stiffness: f64, rpm: f64
         compressed_length: column * libm::exp(-libm::log1p(end_rise) / k),
         residual: 0.0,
         residual_at: 0.0,
-        screw: column_at(cylinder.design_rpm).map(|design| column - design),
+        screw: (design_left > 0.0).then(|| column - column_for(r * design_left, design_rise, k)),
         spring_force_max: inertia / f64::from(CYLINDERS),
         braked: *braked,
         exponent: k,
@@ -205,8 +218,12 @@ pub fn set_for(braked: &BrakedBed, cylinder: &Cylinder, stiffness: f64, rpm: f64
         share,
     };
     let worst = if let Some(end) = &braked.linkage {
-        let largest = |crank: f64| spring.residual_at_crank(crank).abs();
-        let found = extremum::largest_without_slope(largest, (0.0, end.angle()), CELLS, extremum::TO_ROUNDING);
+        let found = extremum::largest_without_slope(
+            |crank| spring.residual_at_crank(crank).abs(),
+            (0.0, end.angle()),
+            CELLS,
+            extremum::TO_ROUNDING,
+        );
         Extremum { at: end.at(found.at).x[0], ..found }
     } else {
         let plain = plain_residual(braked, cylinder, rpm);

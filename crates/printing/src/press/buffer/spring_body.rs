@@ -73,8 +73,19 @@ fn standard(wire: f64) -> Option<f64> {
 
 /// The thinnest standard wire in coils of a mean diameter (m) that keeps something, m; the thickest that they have room for where none does.
 fn standard_for(coil: f64, keeps: impl Fn(f64) -> bool) -> f64 {
-    let all = || STANDARD_WIRES.into_iter().map(|mm| mm / 1e3).filter(|wire| coil >= 2.0 * wire);
-    all().find(|wire| keeps(*wire)).or(all().next_back()).unwrap_or(0.5 * coil)
+    let mut thickest = None;
+    for wire in STANDARD_WIRES.into_iter().map(|mm| mm / 1e3).filter(|wire| coil >= 2.0 * wire) {
+        if keeps(wire) {
+            return wire;
+        }
+        thickest = Some(wire);
+    }
+    thickest.unwrap_or(0.5 * coil)
+}
+
+/// The wire of an index, m, that a force, N, brings to its allowable stress, Pa.
+fn thinnest(index: f64, force: f64, allowable: f64) -> f64 {
+    libm::sqrt(8.0 * force * index * wahl(index) / (PI * allowable))
 }
 
 /// Shear stress of a wire in coils of a mean diameter, m, under a force, N.
@@ -104,10 +115,12 @@ impl SpringBody {
     /// The spring of a rate (N/m) under a largest force (N), with an allowable stress (Pa).
     #[must_use]
     pub fn new(shape: SpringShape, force: f64, rate: f64, allowable: f64) -> Self {
-        let thinnest = |index: f64| libm::sqrt(8.0 * force * index * wahl(index) / (PI * allowable));
         let (wire, index) = match shape {
-            SpringShape::Index(index) => (thinnest(index), index),
-            SpringShape::Standard(index) => (standard(thinnest(index)).unwrap_or(thinnest(index)), index),
+            SpringShape::Index(index) => (thinnest(index, force, allowable), index),
+            SpringShape::Standard(index) => {
+                let thinnest = thinnest(index, force, allowable);
+                (standard(thinnest).unwrap_or(thinnest), index)
+            }
             SpringShape::StandardFor(coil) => {
                 let wire = standard_for(coil, |wire| stress_of(force, coil, wire) <= allowable);
                 (wire, coil / wire)

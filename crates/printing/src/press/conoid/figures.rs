@@ -1,7 +1,7 @@
 //! The figures of a conoid that checks judge.
 
 use super::{Conoid, bottom_law_at};
-use crate::press::load::{Balance, ForceBalanced, RunUp};
+use crate::press::load::{Balance, ColumnAtSpeed, ForceBalanced, RunUp};
 use crate::press::smoother::smoother;
 use camgen_cams::body::{Figures, STRAIGHT, broken_limit, no_radius, passing, radius_of, stress};
 use camgen_cams::check::contact_stress::ContactKind;
@@ -117,8 +117,10 @@ impl ForceBalanced for Conoid {
         Some(self.air())
     }
 
-    fn columns(&self) -> Vec<(f64, f64)> {
-        self.all_sections().map(|cut| (cut.section.law().bottom_law.column(), cut.rpm)).collect()
+    fn columns(&self) -> Vec<ColumnAtSpeed> {
+        self.all_sections()
+            .map(|cut| ColumnAtSpeed { length: cut.section.law().bottom_law.column(), rpm: cut.rpm })
+            .collect()
     }
 
     fn run_up(&self) -> Option<RunUp> {

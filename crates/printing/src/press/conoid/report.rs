@@ -121,7 +121,7 @@ pub(super) fn sections(conoid: &Conoid, found: &DrawingEvidence<'_>) -> Vec<Sect
     let mut sections = vec![ConoidMeasures::new(conoid, found).section()];
     sections.extend(reversal_of_bed(&conoid.machine));
     let cylinders = CylinderMeasures::new(conoid.cylinder.piston_area);
-    sections.push(Section::new("cylinders", &cylinders).with_words(vec![cylinders.words()]));
+    sections.push(Section::new("cylinders", &cylinders).with_words(vec![cylinders.describe()]));
     sections.extend([
         Section::new("sections", &all).with_words(words),
         SurfaceMeasures::new(conoid, found, &errors).section(),

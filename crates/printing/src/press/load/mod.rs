@@ -55,6 +55,15 @@ pub struct AsCut {
     pub tolerance: f64,
 }
 
+/// The air column of a speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ColumnAtSpeed {
+    /// Its length where the reversal begins, m.
+    pub length: f64,
+    /// Speed of the main shaft, rpm.
+    pub rpm: f64,
+}
+
 /// Share of what a fixed bottom leaves that a useful cam stays below.
 pub const USEFUL: f64 = 0.5;
 
@@ -89,8 +98,8 @@ pub trait ForceBalanced {
     /// Least air between piston and bottom while the bottom moves, m; `None` without air.
     fn least_air(&self) -> Option<Worst>;
 
-    /// Length of the air column where the reversal begins, m, and the speed of the main shaft that it is for, rpm.
-    fn columns(&self) -> Vec<(f64, f64)>;
+    /// The air columns that it is made with.
+    fn columns(&self) -> Vec<ColumnAtSpeed>;
 
     /// The lift that the run-up adds; `None` without one.
     fn run_up(&self) -> Option<RunUp>;

@@ -88,7 +88,7 @@ impl Press {
     #[must_use]
     pub fn cylinder(&self) -> Cylinder {
         let (k, p0, end) = (self.polytropic_exponent, self.ambient_pressure, self.end_pressure);
-        Cylinder::sized_for(&self.bed, self.largest_deceleration(), (self.design_rpm, k), (p0, end))
+        Cylinder::sized_for(&self.bed, self.largest_deceleration(), self.design_rpm, k, p0, end)
     }
 
     /// Largest deceleration of the bed over the square of the crank speed, m: r under a yoke.
@@ -141,7 +141,7 @@ impl Press {
         if expansion < compression {
             return Err(ScatterError::ExpansionBelowCompression { expansion, compression }.into());
         }
-        let law = BottomLaw::level(loading, self.bed.crank_radius, self.column_rule(rpm), [compression, expansion]);
+        let law = BottomLaw::level(loading, self.bed.crank_radius, self.column_rule(rpm), compression, expansion);
         Ok(law.ok_or(ScatterError::NoLead { compression, expansion })?.into())
     }
 

@@ -114,11 +114,10 @@ pub(super) fn read_body(reader: &Reader<'_>) -> Option<SpringBodyData> {
         }
         (wire, _) => {
             let help = Some("give both, or neither: then the index finds the wire".into());
-            let without = |given: &str, lacks: &str| format!("`spring_buffer.body.{given}` is given without `{lacks}`");
             if wire.is_some() {
-                table.fail(&WIRE, without("wire", "coil"), help);
+                table.fail(&WIRE, "`spring_buffer.body.wire` is given without `coil`".to_owned(), help);
             } else {
-                table.fail(&COIL, without("coil", "wire"), help);
+                table.fail(&COIL, "`spring_buffer.body.coil` is given without `wire`".to_owned(), help);
             }
             return None;
         }

@@ -15,6 +15,7 @@ use crate::press::MachineOfPress;
 use crate::press::buffer::Cylinder;
 use crate::press::cams;
 use crate::press::checks::{column, half_loop, losses, scatter, setting};
+use crate::press::load::ColumnAtSpeed;
 use crate::press::machine::PressCams;
 use crate::press::report::CylinderMeasures;
 use camgen_cams::analysis::{Analysis, Picture};
@@ -171,7 +172,7 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
         useful: UsefulRange::new(useful, rpm, sampling.rule),
         settings: &settings,
     };
-    let column = column::measure_of_analysis(&[(cam.column, rpm)], machine);
+    let column = column::measure_of_analysis(&[ColumnAtSpeed { length: cam.column, rpm }], machine);
     let measures =
         column.into_iter().chain(measures_of(&report, typed.fault.variable(), useful, sampling.rule)).collect();
     Ok(Analysis {

@@ -36,7 +36,7 @@ pub(super) fn settings_card(press: &Press, machine: &str, report: &ScatterReport
                 shown(press.bed.mass),
                 shown(1e-3 * press.ambient_pressure)
             ),
-            format!("{}. Set the screws of all alike; forces are those of all together.", report.cylinders.words()),
+            format!("{}. Set the screws of all alike; forces are those of all together.", report.cylinders.describe()),
             format!("Rule of the setting: {}.", rule_words(report.reset)),
             "Find v, and set the screw as in its row: + makes the air column longer. Between rows take the value in proportion: there somewhat more is left. Speed: at the mass and pressure \
              above; mass: at the speed and pressure above. Left: largest force on the crank; fixed: the same of a fixed bottom set by the same rule."

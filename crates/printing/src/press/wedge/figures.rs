@@ -1,7 +1,7 @@
 //! The figures of a plate that checks judge, and its load as an outline shows it.
 
 use super::Wedge;
-use crate::press::load::{Balance, ForceBalanced, RunUp};
+use crate::press::load::{Balance, ColumnAtSpeed, ForceBalanced, RunUp};
 use crate::press::motion::equation_18::ExactOn;
 use camgen_cams::body::{Figures, LoadAsCut, stress};
 use camgen_kernel::profile::Worst;
@@ -73,8 +73,8 @@ impl ForceBalanced for Wedge {
         Some(self.air())
     }
 
-    fn columns(&self) -> Vec<(f64, f64)> {
-        vec![(self.mechanism().bottom_law.column(), self.rpm)]
+    fn columns(&self) -> Vec<ColumnAtSpeed> {
+        vec![ColumnAtSpeed { length: self.mechanism().bottom_law.column(), rpm: self.rpm }]
     }
 
     fn run_up(&self) -> Option<RunUp> {

@@ -29,7 +29,7 @@ fn crank_slider(rod_ratio: f64) -> Linkage {
 fn law(linkage: Linkage, end: End, column: ColumnRule) -> (Cylinder, LinkageLaw) {
     let end = StrokeEnd::new(linkage, RADIUS, end).expect("two reversals");
     let cylinder =
-        Cylinder::sized_for(&bed(), end.largest_deceleration().value, (35.0, 1.35), (AMBIENT, 2.0 * AMBIENT));
+        Cylinder::sized_for(&bed(), end.largest_deceleration().value, 35.0, 1.35, AMBIENT, 2.0 * AMBIENT);
     (cylinder, LinkageLaw::new(cylinder.loading(35.0), 1.35, end, column, 0.0))
 }
 
@@ -199,7 +199,7 @@ fn the_work_of_the_air_is_the_energy_of_the_bed() {
         count += 1;
         let rpm = random.of_size(5.0, 80.0);
         let (k, q) = (random.between(1.0, 1.67), random.of_size(1.2, 12.0));
-        let cylinder = Cylinder::sized_for(&bed(), end.largest_deceleration().value, (rpm, k), (AMBIENT, q * AMBIENT));
+        let cylinder = Cylinder::sized_for(&bed(), end.largest_deceleration().value, rpm, k, AMBIENT, q * AMBIENT);
         let lead = if count % 3 == 0 { 0.01 } else { 0.0 };
         let column = match count % 4 {
             0 => ColumnRule::Return,

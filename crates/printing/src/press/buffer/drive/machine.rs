@@ -84,13 +84,18 @@ impl BufferedBed {
     pub fn closing_column(&self, piston_area: f64) -> Option<f64> {
         let (k, stroke) = (self.exponent, self.stroke());
         let wanted = self.energy() / (self.ambient_pressure * total_area(piston_area) * stroke);
-        let excess = |log: f64| {
-            let z = -libm::expm1(-log);
-            let gas = if z < SERIES_LIMIT { compression(z, k) } else { compression_of_log(log, k) };
-            gas / z - wanted
-        };
         // e^−36 is the last change of 1 − z that L/(L − x_e) can show; 1e-12 a column of a million million strokes.
-        let log = root::bracketed(excess, 1e-12, 36.0, 0.0).ok()?;
+        let log = root::bracketed(
+            |log| {
+                let z = -libm::expm1(-log);
+                let gas = if z < SERIES_LIMIT { compression(z, k) } else { compression_of_log(log, k) };
+                gas / z - wanted
+            },
+            1e-12,
+            36.0,
+            0.0,
+        )
+        .ok()?;
         Some(stroke / -libm::expm1(-log))
     }
 

@@ -51,12 +51,12 @@ pub struct SectionEnd {
 }
 
 /// ω1² of (12) for a section of phase 1.
-fn lead_section(square: f64, (w0, w1): (f64, f64), step: f64, crank_radius: f64) -> f64 {
+fn lead_section(square: f64, w0: f64, w1: f64, step: f64, crank_radius: f64) -> f64 {
     square - 2.0 * step / crank_radius * (w0 + 0.5 * (w1 - w0))
 }
 
 /// ω1² cos² φ1 of (14), (15) for a section of phase 2 from ω0² cos² φ0.
-fn crank_section(square: f64, (w0, w1): (f64, f64), (from, to): (f64, f64), crank_radius: f64) -> f64 {
+fn crank_section(square: f64, w0: f64, w1: f64, from: f64, to: f64, crank_radius: f64) -> f64 {
     let (step, first) = (to - from, 2.0 * w0 / crank_radius);
     let second = 2.0 * (w1 - w0) / (crank_radius * step);
     let constant = square + first * libm::sin(from) + second * libm::cos(from);
@@ -69,7 +69,6 @@ fn crank_section(square: f64, (w0, w1): (f64, f64), (from, to): (f64, f64), cran
 pub fn sections(drive: &Drive, step: f64) -> Vec<SectionEnd> {
     let machine = &drive.machine;
     let (r, lead) = (machine.crank_radius, machine.lead_angle);
-    let deceleration = |x: f64| drive.force(x) / machine.bed_mass;
     let mut square = drive.omega_before() * drive.omega_before();
     let start = SectionEnd {
         phase: Phase::Lead,
@@ -82,8 +81,8 @@ pub fn sections(drive: &Drive, step: f64) -> Vec<SectionEnd> {
     let mut last = start;
     for angle in ends(lead, step) {
         let x = r * angle;
-        let w = deceleration(x);
-        square = lead_section(square, (last.deceleration, w), angle - last.angle, r);
+        let w = drive.force(x) / machine.bed_mass;
+        square = lead_section(square, last.deceleration, w, angle - last.angle, r);
         let speed =
             if square > 0.0 { NodeSpeed::Omega(square.sqrt()) } else { NodeSpeed::Negative { radicand: square } };
         last = SectionEnd { phase: Phase::Lead, angle, x, deceleration: w, speed };
@@ -95,8 +94,8 @@ pub fn sections(drive: &Drive, step: f64) -> Vec<SectionEnd> {
     last.angle = 0.0;
     for angle in ends(FRAC_PI_2, step) {
         let x = r * lead + r * libm::sin(angle);
-        let w = deceleration(x);
-        square = crank_section(square, (last.deceleration, w), (last.angle, angle), r);
+        let w = drive.force(x) / machine.bed_mass;
+        square = crank_section(square, last.deceleration, w, last.angle, angle, r);
         let speed = if square < 0.0 {
             NodeSpeed::Negative { radicand: square }
         } else if angle == FRAC_PI_2 {
@@ -192,7 +191,7 @@ mod tests {
         let chain = [8.8761, 8.8356, 8.7624, 8.6485, 8.4824, 8.2489];
         let mut square = (160.0_f64 / 18.0) * (160.0 / 18.0);
         for (pair, omega) in printed.windows(2).zip(chain) {
-            square = lead_section(square, (pair[0], pair[1]), 10.0_f64.to_radians(), 18.0);
+            square = lead_section(square, pair[0], pair[1], 10.0_f64.to_radians(), 18.0);
             assert!((square.sqrt() - omega).abs() < 5.1e-5, "{} is not {omega}", square.sqrt());
         }
         assert!((2.0 * 10.0_f64.to_radians() / 18.0 - 0.0194).abs() < 5.1e-5);
