@@ -338,10 +338,7 @@ fn trade_names_what_limits_and_knows_every_kind() {
     let level = self::report(&camgen(&level));
     let law = level["chain"][0].clone();
     assert!(law["part"] == "law" && (law["residual_n"].as_f64().expect("a force") - 3389.722).abs() < 1.0, "{law}");
-    for wrong in [
-        ["trade", "shaft", "--residual", "2N"],
-        ["trade", "shaft", "--rpm", "3"],
-    ] {
+    for wrong in [["trade", "shaft", "--residual", "2N"], ["trade", "shaft", "--rpm", "3"]] {
         assert_eq!(camgen(&wrong).code, 2, "{wrong:?}");
     }
 }

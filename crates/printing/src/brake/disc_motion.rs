@@ -125,7 +125,8 @@ impl BrakeDisc {
         let least = extreme_energy(&holding, series.as_ref(), -1.0);
         let law = CounterTorque::new(rate, preload, most)?;
         let pieces = [Piece { start: 0.0, end: total, dwell: false }, Piece { start: total, end: TAU, dwell: false }];
-        let mut disc = Self { holding, series, law, closing: Quintic([0.0; 6]), lowest: 0.0, stored: most - least, pieces };
+        let mut disc =
+            Self { holding, series, law, closing: Quintic([0.0; 6]), lowest: 0.0, stored: most - least, pieces };
         let length = TAU - total;
         disc.closing = quintic(disc.working(total), disc.working(0.0), length);
         let deepest = extremum::largest(

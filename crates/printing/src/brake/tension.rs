@@ -62,12 +62,7 @@ impl FollowedDisc<'_> {
 ///
 /// Along a segment of the outline the tension is smooth: it is evaluated at a few angles and refined about each extreme.
 #[must_use]
-pub(super) fn as_cut(
-    disc: &BrakeDisc,
-    curves: Curves<'_>,
-    mirrored: bool,
-    outline: &Contour,
-) -> Option<TensionAsCut> {
+pub(super) fn as_cut(disc: &BrakeDisc, curves: Curves<'_>, mirrored: bool, outline: &Contour) -> Option<TensionAsCut> {
     let cut = FollowedDisc { disc, followed: FollowerOnChain::on(curves, outline, &[mirrored]) };
     let end = disc.holding().total_angle();
     let mut points = vec![cut.tension_at(0.0)?, cut.tension_at(end)?];
@@ -81,9 +76,8 @@ pub(super) fn as_cut(
             continue;
         }
         let inset = INSET * (to - from);
-        let angles: Vec<f64> = (0..=PLACES)
-            .map(|i| from + inset + (to - from - 2.0 * inset) * f64::from(i) / f64::from(PLACES))
-            .collect();
+        let angles: Vec<f64> =
+            (0..=PLACES).map(|i| from + inset + (to - from - 2.0 * inset) * f64::from(i) / f64::from(PLACES)).collect();
         let found: Vec<RollTension> = angles.iter().map(|angle| cut.tension_at(*angle)).collect::<Option<_>>()?;
         peaks.extend(angles.windows(3).zip(found.windows(3)).filter_map(|(angles, three)| peak(angles, three)));
         points.extend(found);

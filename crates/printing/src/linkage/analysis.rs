@@ -379,7 +379,9 @@ fn curves(machine: &str, data: &LinkageData, bed: &Bed, outer: f64, rows: &[Link
         _ => None,
     };
     let mut panels = Vec::new();
-    for (order, name) in ["Position of the bed, mm", "Velocity, mm/rad", "Acceleration, mm/rad²"].into_iter().enumerate() {
+    for (order, name) in
+        ["Position of the bed, mm", "Velocity, mm/rad", "Acceleration, mm/rad²"].into_iter().enumerate()
+    {
         let points = by_crank(rows, &own, order);
         let mut curves = vec![PlotCurve { name: "bed".into(), colour: 0, bold: true, points }];
         curves.extend(alone.as_ref().map(|alone| {

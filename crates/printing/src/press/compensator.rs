@@ -195,8 +195,8 @@ impl RotaryCam {
 
     /// The torque of both discs on the camshaft at a cam angle, N·m.
     fn torque_left(&self, second: &Disc, angle: f64) -> f64 {
-        let [one, other] = [&self.disc, second]
-            .map(|disc| torque::force_and_torque(disc, angle).map_or(0.0, |[_, torque]| torque));
+        let [one, other] =
+            [&self.disc, second].map(|disc| torque::force_and_torque(disc, angle).map_or(0.0, |[_, torque]| torque));
         one + other
     }
 

@@ -2,7 +2,7 @@
 
 use super::buffer::Cylinder;
 use super::buffer::crank_law::CrankLaw;
-use super::checks::losses;
+use super::checks::fixed_bottom;
 use super::machine::PressCams;
 use super::scatter::analysis::lost_in;
 use super::scatter::fault::{Fault, FrozenBuffer};
@@ -35,7 +35,7 @@ struct LoopOfAir {
 /// The check of both directions; `None` where the machine file gives no losses.
 pub(super) fn measure(machine: &Machine, cylinder: &Cylinder, law: &CrankLaw) -> Option<Measure> {
     let lost = lost_in(&reversal(machine, cylinder, law)?);
-    Some(losses::measure(lost.residual_n(), lost.residual_fixed_bottom_n()?))
+    Some(fixed_bottom::with_losses(lost.residual_n(), lost.residual_fixed_bottom_n()?))
 }
 
 /// The reversal with the losses of the machine file; `None` where it gives none.

@@ -2,8 +2,7 @@
 
 use super::balance::{allowed_error, fitting_speed, reversal_of_bed};
 use super::buffer::crank_law::CrankLaw;
-use super::checks::balanced::of_balance;
-use super::checks::{contact_life, losses};
+use super::checks::{contact_life, fixed_bottom, of_balance};
 use super::load::{AirBuffer, AsCut, Balance, ColumnAtSpeed, ForceBalanced, RunUp};
 use super::machine::{Press, PressCams};
 use super::motion::{RaiseSeries, Reversal, ReversalLaw, Transition};
@@ -204,7 +203,7 @@ impl Duty for BedBalanceDuty {
         of_balance(&BalancedDisc { disc, duty: self }, of, subject);
         of.add(&LIFE, |_| roller_life::measure(disc));
         of.add(&contact_life::CHECK, |_| contact_life::measure(disc.contact_stress(), disc.touching(), subject));
-        of.add(&losses::CHECK, |_| loop_of_air::measure(disc.machine(), self.buffer.cylinder(), self.law()));
+        of.add(&fixed_bottom::LOSSES, |_| loop_of_air::measure(disc.machine(), self.buffer.cylinder(), self.law()));
     }
 
     fn smoother(&self, machine: &Machine) -> Option<String> {

@@ -88,7 +88,8 @@ fn over_roll(braking: &LoadedBrake<'_>, held: Option<&TensionDisc<'_>>) -> PlotP
     if let Some(held) = held {
         curves.push(curve("with the disc", 0, true, by_radius(&poses, |pose| braking.tension(pose))));
         if let Some(cut) = held.as_cut {
-            let mut points: Vec<[f64; 2]> = cut.points.iter().map(|point| [MILLIMETRES * point.radius, point.tension]).collect();
+            let mut points: Vec<[f64; 2]> =
+                cut.points.iter().map(|point| [MILLIMETRES * point.radius, point.tension]).collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             curves.push(curve("as cut", 2, false, points));
         }

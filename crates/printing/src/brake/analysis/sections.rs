@@ -116,7 +116,10 @@ pub(super) fn brake(braking: &LoadedBrake<'_>, tensions: &TensionRange) -> Secti
         tension_largest_n: largest.value,
         tension_largest_roll_radius_mm: MILLIMETRES * largest.at,
         tension_spread: super::spread(least.value, largest.value),
-        other_friction: vec![other_friction(braking, 1.0 - FRICTION_CHANGE), other_friction(braking, 1.0 + FRICTION_CHANGE)],
+        other_friction: vec![
+            other_friction(braking, 1.0 - FRICTION_CHANGE),
+            other_friction(braking, 1.0 + FRICTION_CHANGE),
+        ],
     };
     Section::new("brake", &figures).with_words(describe_brake(&figures))
 }

@@ -57,12 +57,7 @@ fn along(a: SeriesPoint, b: SeriesPoint) -> PowerSeries<3> {
 }
 
 /// β and O·N of the span at a pulley, with R' = `inner`; `hand` is 1 for the right pulley, −1 for the left.
-fn span(
-    pulley: SeriesPoint,
-    pivot: SeriesPoint,
-    inner: PowerSeries<3>,
-    hand: f64,
-) -> (PowerSeries<3>, PowerSeries<3>) {
+fn span(pulley: SeriesPoint, pivot: SeriesPoint, inner: PowerSeries<3>, hand: f64) -> (PowerSeries<3>, PowerSeries<3>) {
     let [x, y] = pulley;
     let square = along(pulley, pulley);
     let length = (square - inner * inner).sqrt();
@@ -234,8 +229,11 @@ impl TensionHolding {
     /// The formulas of `belt` on series.
     fn series(&self, radius: PowerSeries<3>, turn: f64) -> MomentSeries {
         let belt = &self.brake.belt;
-        let (left, right, pivot) =
-            (self.part(belt.left, turn), self.part(belt.right, turn), [belt.pivot.x, belt.pivot.y].map(PowerSeries::constant));
+        let (left, right, pivot) = (
+            self.part(belt.left, turn),
+            self.part(belt.right, turn),
+            [belt.pivot.x, belt.pivot.y].map(PowerSeries::constant),
+        );
         let ([lx, ly], [rx, ry], [ox, oy]) = (left, right, pivot);
         let (left, right) = ([ox + lx, oy + ly], [ox + rx, oy + ry]);
         let inner = radius + belt.pulley_radius;

@@ -8,8 +8,8 @@
 //! compensate friction. The least sensitive frames have the pivot beyond the slack span, where friction lifts the belt; they too leave
 //! more than half of the effect. No frame removes the effect of friction: the tension must still be measured.
 
-use super::error::{millimetres, positive, shrinking};
 use super::belt::distance;
+use super::error::{millimetres, positive, shrinking};
 use super::{Brake, BrakeFrame, PaperRoll, RollRotation};
 use camgen_kernel::refusal::Refusal;
 use nalgebra::Vector2;

@@ -228,10 +228,7 @@ struct SymmetryMiss {
 impl SymmetryMiss {
     fn new(link: &DragLink, slider: &Slider) -> Self {
         let local = local(link, slider);
-        Self {
-            accelerations: top(&local.outward) - top(&local.inward),
-            times: local.forward - Dual::constant(PI),
-        }
+        Self { accelerations: top(&local.outward) - top(&local.inward), times: local.forward - Dual::constant(PI) }
     }
 
     fn size(&self) -> f64 {

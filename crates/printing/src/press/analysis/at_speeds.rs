@@ -3,7 +3,7 @@
 use crate::press::buffer::bottom_law::column_for;
 use crate::press::buffer::crank_law::CrankLaw;
 use crate::press::buffer::regime::Reset;
-use crate::press::checks::added_volume;
+use crate::press::checks::air::ADDED_VOLUME;
 use crate::press::scatter::fault::FrozenBuffer;
 use crate::press::scatter::reset::ScrewRule;
 use crate::press::scatter::settings::FixedBottom;
@@ -119,7 +119,7 @@ pub(super) fn volume(resets: &[ColumnReset], own: f64) -> Measure {
     let note =
         format!("air would have to be taken away; shorten the column by its screw instead, {}", below.join(", "));
     let least = if least.abs() <= rounding { 0.0 } else { least };
-    added_volume::CHECK.measure(least, Some(0.0)).noted((!below.is_empty()).then_some(note))
+    ADDED_VOLUME.measure(least, Some(0.0)).noted((!below.is_empty()).then_some(note))
 }
 
 /// A number with so many decimals; what is 0 with them has no sign.
@@ -142,12 +142,7 @@ pub(super) fn force_panels(all: &[ForcePlace], along: &CurveAxis) -> Vec<PlotPan
 }
 
 /// A curve of a force for each speed; bold ones have a name.
-fn force_curves(
-    all: &[ForcePlace],
-    along: &CurveAxis,
-    bold: bool,
-    value: fn(&ForcePlace) -> f64,
-) -> Vec<PlotCurve> {
+fn force_curves(all: &[ForcePlace], along: &CurveAxis, bold: bool, value: fn(&ForcePlace) -> f64) -> Vec<PlotCurve> {
     let mut curves = Vec::new();
     for (colour, places) in all.chunks(PLACES as usize + 1).enumerate() {
         let named = places.first().filter(|_| bold);

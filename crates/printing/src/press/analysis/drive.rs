@@ -2,7 +2,7 @@
 
 use crate::press::buffer::drive::{self, CLOSING, Drive, DriveError, DriveState, NodeSpeed, Phase, SectionEnd};
 use crate::press::cams;
-use crate::press::checks::closing;
+use crate::press::checks::air;
 use crate::press::machine::{DriveData, DriveMachine};
 use crate::press::report::CylinderMeasures;
 use camgen_cams::analysis::{Analysis, Picture};
@@ -153,7 +153,10 @@ pub fn analysis(machine: &DriveMachine, solver: DriveSolver, step: f64) -> Resul
     let closes = open.is_none();
     let rows: Vec<DriveRow> = match solver {
         DriveSolver::Energy => {
-            let rows = ends(data.lead_angle, step).into_iter().filter_map(|crank| exact_row(&drive, &data, closes, crank)).collect();
+            let rows = ends(data.lead_angle, step)
+                .into_iter()
+                .filter_map(|crank| exact_row(&drive, &data, closes, crank))
+                .collect();
             if closes { timed(&drive, rows) } else { rows }
         }
         DriveSolver::Paper => by_sections(machine, &drive, &nodes),
@@ -172,8 +175,8 @@ pub fn analysis(machine: &DriveMachine, solver: DriveSolver, step: f64) -> Resul
         inputs,
         sections: vec![Section::new(KIND.command, &drive_figures).with_words(describe(&drive_figures))],
         measures: vec![
-            closing::CHECK
-                .measure(arrival(machine, drive_figures.work_over_energy), Some(closing::ARRIVAL))
+            air::CLOSING
+                .measure(arrival(machine, drive_figures.work_over_energy), Some(air::ARRIVAL))
                 .noted(open.map(|why| why.to_string())),
         ],
         notes: Vec::new(),

@@ -320,7 +320,8 @@ fn family_curve(press: &Press, end: f64) -> Vec<FamilyPlace> {
 }
 
 fn describe(found: &PlainBuffers<'_>) -> Vec<String> {
-    let mut lines = vec![format!("fixed bottoms without a cam; reset: {}; {}", found.reset, found.cylinders.describe())];
+    let mut lines =
+        vec![format!("fixed bottoms without a cam; reset: {}; {}", found.reset, found.cylinders.describe())];
     lines.push(format!(
         "{:>8} {:>11} {:>13} {:>13} {:>11} {:>8} {:>9} {:>10} {:>9}",
         "rpm", "column/mm", "V each/cm³", "V all/cm³", "left/N", "left/%", "at x/mm", "end/N", "p_end/at"

@@ -10,7 +10,7 @@ use crate::press::buffer::crank_law::CrankLaw;
 use crate::press::buffer::regime::{self, Regime, Reset};
 use crate::press::cams;
 use crate::press::checks::column;
-use crate::press::checks::fixed_bottom::{self, Rivals};
+use crate::press::checks::fixed_bottom::{Rivals, over_speeds};
 use crate::press::load::ColumnAtSpeed;
 use crate::press::machine::Press;
 use crate::press::machine::PressCams;
@@ -156,7 +156,7 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
             .chain(reversal_of_bed(machine))
             .collect(),
         measures: std::iter::once(volume(&resets, CUBIC * cylinder.volume(design.column())))
-            .chain([fixed_bottom::measure(&rivals)])
+            .chain([over_speeds(&rivals)])
             .chain(column::measure(&columns, machine, |press, rpm| Some(press.bottom_law(rpm).column())))
             .collect(),
         notes: notes(machine),
@@ -194,14 +194,7 @@ const NOT_MODELLED: &[&str] = &[
     "Elasticity and play between cam and bottom.",
 ];
 
-fn at_speed(
-    press: &Press,
-    design: &CrankLaw,
-    rpm: f64,
-    regime: &Regime,
-    fixed: FixedSetting,
-    lobes: f64,
-) -> SpeedRow {
+fn at_speed(press: &Press, design: &CrankLaw, rpm: f64, regime: &Regime, fixed: FixedSetting, lobes: f64) -> SpeedRow {
     let residual_at = match design {
         CrankLaw::Yoke(_) => regime.residual_at,
         CrankLaw::Linkage(_) => design.bed(design.where_decelerated(regime.residual_at))[0],

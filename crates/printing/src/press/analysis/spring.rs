@@ -5,7 +5,7 @@ use crate::press::MachineOfPress;
 use crate::press::buffer::spring::{self, BrakedBed, SpringBuffer};
 use crate::press::buffer::spring_body::SpringBody;
 use crate::press::cams;
-use crate::press::checks::{buckling, column, spring_coils, spring_stress, surge};
+use crate::press::checks::{column, springs};
 use crate::press::load::ColumnAtSpeed;
 use crate::press::machine::{Press, PressCams};
 use crate::press::report::CylinderMeasures;
@@ -289,10 +289,10 @@ impl SpringBodies {
         let fewest_coils = rows.iter().map(|row| row.coils).fold(f64::INFINITY, f64::min);
         let least_index = rows.iter().map(|row| row.coil_mm / row.wire_mm).fold(f64::INFINITY, f64::min);
         let thickest = rows.iter().map(|row| row.wire_mm).fold(0.0, f64::max);
-        let stress = spring_stress::CHECK.measure(largest, Some(limit)).kept(largest <= limit * (1.0 + ROUNDING));
+        let stress = springs::STRESS.measure(largest, Some(limit)).kept(largest <= limit * (1.0 + ROUNDING));
         std::iter::once(stress)
-            .chain(spring_coils::measures(fewest_coils, thickest, least_index))
-            .chain([surge::CHECK.measure(slowest, Some(surge::LEAST)), buckling::measure(bent)])
+            .chain(springs::of_coils(fewest_coils, thickest, least_index))
+            .chain([springs::SURGE.measure(slowest, Some(springs::LEAST_SURGE)), springs::of_buckling(bent)])
             .collect()
     }
 }

@@ -167,8 +167,8 @@ impl Slider {
     #[must_use]
     pub fn stroke(&self) -> f64 {
         let Self { rod_ratio, offset_ratio } = *self;
-        let [outer, inner] = [rod_ratio + 1.0, rod_ratio - 1.0]
-            .map(|length| ((length - offset_ratio) * (length + offset_ratio)).sqrt());
+        let [outer, inner] =
+            [rod_ratio + 1.0, rod_ratio - 1.0].map(|length| ((length - offset_ratio) * (length + offset_ratio)).sqrt());
         4.0 * rod_ratio / (outer + inner)
     }
 

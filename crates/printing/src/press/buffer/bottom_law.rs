@@ -215,13 +215,7 @@ impl BottomLaw {
     /// the reversal, in which the bottom rests. `None` where there is no loop. The column `Matched` starts it with slope 0, `Return` brings the
     /// bottom back at the dead point.
     #[must_use]
-    pub fn level(
-        loading: f64,
-        stroke: f64,
-        column: ColumnRule,
-        compression: f64,
-        expansion: f64,
-    ) -> Option<Self> {
+    pub fn level(loading: f64, stroke: f64, column: ColumnRule, compression: f64, expansion: f64) -> Option<Self> {
         let air = LevelAir::new(compression, expansion, loading * stroke)?;
         let [start, first, ..] = air.derivatives(0.0);
         let matched = -1.0 / (loading * first);

@@ -340,13 +340,8 @@ impl CrankLaw {
                 if deceleration >= largest.value {
                     return largest.at;
                 }
-                root::bracketed(
-                    |angle| law.end.at(angle).deceleration()[0] - deceleration,
-                    0.0,
-                    largest.at,
-                    0.0,
-                )
-                .unwrap_or(0.0)
+                root::bracketed(|angle| law.end.at(angle).deceleration()[0] - deceleration, 0.0, largest.at, 0.0)
+                    .unwrap_or(0.0)
             }
         }
     }

@@ -110,8 +110,7 @@ impl LevelAir {
     pub fn derivatives(&self, load: f64) -> LengthDerivatives {
         let y = self.logarithm(load);
         let (one, other) = (libm::exp(self.compression * y), libm::exp(self.link + self.expansion * y));
-        let [of_one, of_other] =
-            [self.compression, self.expansion].map(|k| [k, k * k, k * k * k, k * k * (k * k)]);
+        let [of_one, of_other] = [self.compression, self.expansion].map(|k| [k, k * k, k * k * k, k * k * (k * k)]);
         let [s1, s2, s3, s4] = [0, 1, 2, 3].map(|order: usize| one * of_one[order] + other * of_other[order]);
         let y1 = 2.0 / s1;
         let square = y1 * y1;

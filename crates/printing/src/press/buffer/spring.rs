@@ -148,12 +148,8 @@ pub fn stiffness_for(residual: f64, braked: &BrakedBed, cylinder: &Cylinder, rpm
         SHARES,
         extremum::TO_ROUNDING,
     );
-    let share = root::bracketed(
-        |share| residual_of(braked, cylinder, least / share, rpm, plain) - residual,
-        0.0,
-        best.at,
-        0.0,
-    );
+    let share =
+        root::bracketed(|share| residual_of(braked, cylinder, least / share, rpm, plain) - residual, 0.0, best.at, 0.0);
     share.map(|share| least / share).map_err(|_| {
         no_spring_leaves(residual, &format!("above the {} N of the best spring", rounded_up(-best.value)), plain)
     })

@@ -62,8 +62,7 @@ impl Conoid {
         let mut machine = (*self.machine).clone();
         if let Some(roller) = &mut machine.follower.roller {
             roller.radius = radius;
-            machine.follower.shape =
-                Arc::new(TranslatingRoller::new(1.0 + roller.offset.abs(), roller.offset, radius));
+            machine.follower.shape = Arc::new(TranslatingRoller::new(1.0 + roller.offset.abs(), roller.offset, radius));
         }
         Conoid::solve(&machine, &speeds).ok()?.contact_stress()
     }

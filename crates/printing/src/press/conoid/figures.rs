@@ -90,9 +90,7 @@ impl Figures for Conoid {
     }
 
     fn smoother(&self) -> Option<String> {
-        smoother(&self.machine, |press| {
-            self.speeds.iter().map(|rpm| bottom_law_at(press, &self.data, *rpm)).collect()
-        })
+        smoother(&self.machine, |press| self.speeds.iter().map(|rpm| bottom_law_at(press, &self.data, *rpm)).collect())
     }
 
     fn remedy(&self) -> Option<String> {

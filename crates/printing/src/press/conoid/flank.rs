@@ -87,11 +87,8 @@ impl ExactFlank<'_> {
     /// Points and slopes at the stations of an angle.
     fn column(&self, piece: usize, u: f64, stations: &[f64]) -> StationColumn {
         let lifts = self.lifts(piece, u);
-        let (points, slopes) = stations
-            .iter()
-            .map(|z| self.point(&lifts, u, *z))
-            .map(|found| (found.point, found.slope))
-            .unzip();
+        let (points, slopes) =
+            stations.iter().map(|z| self.point(&lifts, u, *z)).map(|found| (found.point, found.slope)).unzip();
         StationColumn { points, slopes }
     }
 
@@ -165,9 +162,8 @@ pub fn flank(conoid: &Conoid, tolerance: f64) -> Result<Flank, Refusal> {
 
 /// One patch: `spans` spans over the angle, a station for each of `places` along the axis.
 fn patch(exact: &ExactFlank<'_>, stretch: AngleStretch, spans: u32, places: &[f64]) -> SplineSurface {
-    let mut angles: Vec<f64> = (0..spans)
-        .map(|i| stretch.start + (stretch.end - stretch.start) * f64::from(i) / f64::from(spans))
-        .collect();
+    let mut angles: Vec<f64> =
+        (0..spans).map(|i| stretch.start + (stretch.end - stretch.start) * f64::from(i) / f64::from(spans)).collect();
     angles.push(stretch.end);
     let columns: Vec<StationColumn> = angles.iter().map(|u| exact.column(stretch.piece, *u, places)).collect();
     let heights = Spline::not_a_knot(places, places).controls();
@@ -228,7 +224,7 @@ fn distance(exact: &ExactFlank<'_>, piece: usize, patch: &SplineSurface, angles:
         let lifts = exact.lifts(piece, *u);
         for v in places {
             let FlankPoint { point, normal, .. } = exact.point(&lifts, *u, *v);
-            let [found, ..] = patch.at(*u, *v);
+            let [found, ..] = patch.point_and_slopes(*u, *v);
             largest = larger(largest, (found.xy() - point).dot(&normal).abs());
         }
     }

@@ -1,8 +1,10 @@
 //! The conoid as a [`Body`], for checks, drawings, tables and reports.
 
-use super::{AllStrips, Conoid, KIND, SectionCut, between_sections, cylinder_contact, flank, mechanism, report, sheet, shift};
-use crate::press::checks::balanced::of_balance;
+use super::{
+    AllStrips, Conoid, KIND, SectionCut, between_sections, cylinder_contact, flank, mechanism, report, sheet, shift,
+};
 use crate::press::checks::contact_life;
+use crate::press::checks::of_balance;
 use crate::press::columns::{self, BalanceRow};
 use crate::press::motion::{Reversal, ReversalState};
 use crate::press::picture::not_modelled_of;
@@ -117,12 +119,7 @@ impl Conoid {
         let mut stretches: Vec<BoundaryStretch> = Vec::new();
         for (index, piece) in self.pieces().iter().enumerate() {
             let round = self.is_round(index, piece, z);
-            stretches.extend(boundary::cut(
-                index,
-                &Piece { dwell: round, ..*piece },
-                (piece.start, piece.end),
-                false,
-            ));
+            stretches.extend(boundary::cut(index, &Piece { dwell: round, ..*piece }, (piece.start, piece.end), false));
         }
         if turned {
             stretches = mirrored(&stretches);

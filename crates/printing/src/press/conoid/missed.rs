@@ -23,12 +23,7 @@ const PLACES: u32 = 5;
 impl Conoid {
     /// Errors of a heading against the exact cut at z (m) of a clockwise cam; the law is looked at so
     /// far from their cam angle, rad.
-    pub(super) fn rate_errors_at(
-        &self,
-        z: f64,
-        heading: Heading,
-        inwards: f64,
-    ) -> Option<RateErrors> {
+    pub(super) fn rate_errors_at(&self, z: f64, heading: Heading, inwards: f64) -> Option<RateErrors> {
         let (point, tangent, curvature) = heading;
         let (frame, at) = self.foot(z, point, inwards)?;
         let path = Vector2::new(libm::cos(at), libm::sin(at));

@@ -85,7 +85,8 @@ impl Conoid {
         if !best.value.is_finite() {
             return best;
         }
-        let could_be_largest = peaks.iter().filter(|peak| peak.drop > 0.0 && peak.found.value + peak.drop >= best.value);
+        let could_be_largest =
+            peaks.iter().filter(|peak| peak.drop > 0.0 && peak.found.value + peak.drop >= best.value);
         let candidates: Vec<&Peak> = could_be_largest.collect();
         let refined = parallel::map(&candidates, |peak| self.refined(peak, slices, &value));
         refined.into_iter().fold(best, Worst::or_larger)
@@ -95,10 +96,8 @@ impl Conoid {
     fn refined<F: Fn(&Self, &SurfacePlace<'_>) -> f64 + Sync>(&self, peak: &Peak, slices: &[f64], value: &F) -> Worst {
         let Peak { piece, slice, found: from, .. } = *peak;
         let Some(span) = self.pieces().get(piece) else { return from };
-        let axis = Stretch {
-            low: slices.first().copied().unwrap_or(from.z),
-            high: slices.last().copied().unwrap_or(from.z),
-        };
+        let axis =
+            Stretch { low: slices.first().copied().unwrap_or(from.z), high: slices.last().copied().unwrap_or(from.z) };
         let turn = Stretch { low: span.start, high: if span.dwell { span.start } else { span.end } };
         let below = slices.get(slice.saturating_sub(1)).copied().unwrap_or(from.z);
         let above = slices.get(slice + 1).copied().unwrap_or(from.z);

@@ -89,7 +89,8 @@ impl Conoid {
         let mut worst = Worst::NONE;
         for cut in self.all_sections() {
             let slice = self.slice(cut.z);
-            let found = extremes::largest_of_motion(&slice, (&self.acting(), 0.0), |piece, angle| value(cut, piece, angle));
+            let found =
+                extremes::largest_of_motion(&slice, (&self.acting(), 0.0), |piece, angle| value(cut, piece, angle));
             worst = worst.or_larger(Worst { value: found.value, at: found.at, z: cut.z });
         }
         worst

@@ -218,8 +218,7 @@ impl AirBuffer {
     #[must_use]
     pub fn least_air(&self) -> Option<Worst> {
         let acting = self.acting();
-        let least =
-            extremes::largest_of_motion(&*self.reversal, (&acting, 0.0), |piece, at| -self.air_left(piece, at));
+        let least = extremes::largest_of_motion(&*self.reversal, (&acting, 0.0), |piece, at| -self.air_left(piece, at));
         Some(Worst { value: -least.value, at: least.at, z: 0.0 })
     }
 

@@ -189,8 +189,7 @@ impl Reversal {
 
     fn find_lowest(&self) -> f64 {
         let lowest = own_pieces(self).map(|(index, piece)| {
-            let found =
-                extremum::largest_with_slope(|angle| self.depth(index, angle), (piece.start, piece.end), CELLS);
+            let found = extremum::largest_with_slope(|angle| self.depth(index, angle), (piece.start, piece.end), CELLS);
             -found.value.max(self.depth(index, 0.5 * (piece.start + piece.end)).0)
         });
         lowest.fold(f64::INFINITY, f64::min)
@@ -290,8 +289,7 @@ impl Reversal {
     #[must_use]
     pub fn air(&self, piece: usize, angle: f64, off: f64) -> Option<AirState> {
         let (part, crank) = self.part_at(piece, angle)?;
-        let (_, air) =
-            self.air_of(part, crank, off, || self.bottom_of(part, crank).s - self.raise_of(part, crank))?;
+        let (_, air) = self.air_of(part, crank, off, || self.bottom_of(part, crank).s - self.raise_of(part, crank))?;
         Some(air)
     }
 

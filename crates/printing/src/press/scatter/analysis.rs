@@ -14,7 +14,7 @@ use super::typed::TypedFault;
 use crate::press::MachineOfPress;
 use crate::press::buffer::Cylinder;
 use crate::press::cams;
-use crate::press::checks::{column, half_loop, losses, scatter, setting};
+use crate::press::checks::{column, fixed_bottom};
 use crate::press::load::ColumnAtSpeed;
 use crate::press::machine::PressCams;
 use crate::press::report::CylinderMeasures;
@@ -203,19 +203,14 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
 }
 
 /// What checks judge, in their order.
-fn measures_of(
-    report: &ScatterReport<'_>,
-    variable: f64,
-    useful: VariableRange,
-    rule: ScrewRule,
-) -> Vec<Measure> {
+fn measures_of(report: &ScatterReport<'_>, variable: f64, useful: VariableRange, rule: ScrewRule) -> Vec<Measure> {
     let lost = report.losses.as_ref().map(|lost| {
         let fixed = lost.residual_fixed_bottom_n().unwrap_or(report.residual_fixed_bottom_max_n);
-        [half_loop::measure(lost.half_loop_n, fixed), losses::measure(lost.residual_n(), fixed)]
+        [fixed_bottom::half_of_loop(lost.half_loop_n, fixed), fixed_bottom::with_losses(lost.residual_n(), fixed)]
     });
-    std::iter::once(scatter::measure(report.percentiles))
+    std::iter::once(fixed_bottom::over_draws(report.percentiles))
         .chain(lost.into_iter().flatten())
-        .chain([setting::measure(variable, useful, rule)])
+        .chain([fixed_bottom::at_setting(variable, useful, rule)])
         .collect()
 }
 

@@ -372,8 +372,7 @@ impl LossyReversal {
     /// −(P̂ − 1) dw/dφ.
     fn power_in(&self, stroke: &AirStroke, angle: f64) -> f64 {
         let cam = &self.cam;
-        let fall =
-            if self.fixed { 1.0 / (cam.path.loading() * cam.column) } else { cam.fall(cam.path.load_at(angle)) };
+        let fall = if self.fixed { 1.0 / (cam.path.loading() * cam.column) } else { cam.fall(cam.path.load_at(angle)) };
         (self.pressure_of(stroke, angle, self.air_in(stroke, angle)) - 1.0) * fall * cam.path.load_slope(angle)
     }
 }

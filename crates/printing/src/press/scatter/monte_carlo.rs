@@ -267,7 +267,9 @@ pub fn left_in_practice(
     }
     let [built, reset, fixed] = bounds;
     Ok(Some(LeftInPractice {
-        as_built: ranked(&built, |sample| rivals.presses(*sample).and_then(|[(body, fault), ..]| body.largest(&fault)))?,
+        as_built: ranked(&built, |sample| {
+            rivals.presses(*sample).and_then(|[(body, fault), ..]| body.largest(&fault))
+        })?,
         reset: ranked(&reset, |sample| rivals.presses(*sample).and_then(|[_, (body, fault), _]| body.largest(&fault)))?,
         fixed: ranked(&fixed, |sample| rivals.presses(*sample).and_then(|[.., (body, fault)]| body.largest(&fault)))?,
     }))
@@ -331,8 +333,8 @@ pub fn percentile(sorted: &[f64], q: f64) -> Option<[f64; 3]> {
     let count = sorted.len() as f64;
     let spread = 1.96 * libm::sqrt(count * q * (1.0 - q));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the ranks")]
-    let [low, high] = [(q * count - spread).floor(), (q * count + spread).ceil()]
-        .map(|rank| rank.clamp(1.0, count) as usize);
+    let [low, high] =
+        [(q * count - spread).floor(), (q * count + spread).ceil()].map(|rank| rank.clamp(1.0, count) as usize);
     let [middle, low, high] = [rank(sorted.len(), q), low, high].map(|rank| sorted.get(rank.checked_sub(1)?).copied());
     Some([middle?, low?, high?])
 }

@@ -170,8 +170,12 @@ pub fn bands(
         let found = match parameter {
             Parameter::Phase => PressResiduals::of_phase(cam, ahead, half_width, rules),
             Parameter::AirLost => with_deviation(cam, parameter, half_width, rules)?,
-            _ => with_deviation(cam, parameter, half_width, rules)?
-                .or_worse(with_deviation(cam, parameter, -half_width, rules)?),
+            _ => with_deviation(cam, parameter, half_width, rules)?.or_worse(with_deviation(
+                cam,
+                parameter,
+                -half_width,
+                rules,
+            )?),
         };
         // A screw that is not touched has no error.
         let none = Extremum { at: 0.0, value: 0.0 };

@@ -3,7 +3,7 @@
 use super::{KIND, Wedge, mechanism, mirrored_about_axis, roller_clearance, sheet};
 use crate::press::MachineOfPress;
 use crate::press::balance::reversal_of_bed;
-use crate::press::checks::balanced::of_balance;
+use crate::press::checks::of_balance;
 use crate::press::columns::{self, BalanceRow, WedgeRow};
 use crate::press::load::{air_law, balance_of, closed_at};
 use crate::press::motion::equation_18::{BedDirection, BottomMotion, EfficiencyModel, ExactOn, Solver, Trend};
@@ -68,9 +68,9 @@ impl Wedge {
         let flank_edges: Vec<Edge> = Contour { vertices: lower }.edges().collect();
         let own = flank_edges.len().saturating_sub(1);
         let first = flank_edges.first().map(Edge::start);
-        let mut vertices = Contour::of(flank_edges.iter().take(own).copied()).vertices;
+        let mut vertices = Contour::from_edges(flank_edges.iter().take(own).copied()).vertices;
         vertices.extend(last.map(|point| Vertex::new(point, 0.0)));
-        vertices.extend(Contour::of(flank_edges.iter().take(own).rev().map(Edge::mirrored_about_x)).vertices);
+        vertices.extend(Contour::from_edges(flank_edges.iter().take(own).rev().map(Edge::mirrored_about_x)).vertices);
         vertices.extend(first.map(|point| Vertex::new(mirrored_about_axis(point), 0.0)));
         Ok(Outline {
             contour: Contour { vertices },

@@ -16,12 +16,7 @@ fn curve(name: String, colour: usize, points: Vec<[f64; 2]>) -> PlotCurve {
 }
 
 /// A length of the loaded follower, mm, over the cam angle, degrees.
-fn over_cam_angle(
-    name: String,
-    colour: usize,
-    rows: &[LiftErrorRow],
-    value: fn(&LoadedFollower) -> f64,
-) -> PlotCurve {
+fn over_cam_angle(name: String, colour: usize, rows: &[LiftErrorRow], value: fn(&LoadedFollower) -> f64) -> PlotCurve {
     let points = rows.iter().map(|(_, cam_deg, follower)| [*cam_deg, MILLIMETRES * value(follower)]).collect();
     curve(name, colour, points)
 }

@@ -56,6 +56,7 @@ pub(super) fn rigid(found: &ShaftResults<'_>) -> Option<f64> {
 /// The table of a sweep.
 pub(super) fn table(rows: &[SweepRow], modes: usize) -> Table {
     let count = rows.first().map_or(0, |row| row.speeds.len()).min(modes);
-    let values = rows.iter().map(|row| std::iter::once(row.stiffness).chain(row.speeds.iter().copied().map(rpm)).collect());
+    let values =
+        rows.iter().map(|row| std::iter::once(row.stiffness).chain(row.speeds.iter().copied().map(rpm)).collect());
     named(vec!["stiffness_n_per_m"], SPEEDS.get(..count).unwrap_or_default(), values.collect())
 }

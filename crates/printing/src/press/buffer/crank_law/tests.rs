@@ -28,8 +28,7 @@ fn crank_slider(rod_ratio: f64) -> Linkage {
 /// The law of the embedded press with this linkage, end and column, at 2 at.
 fn law(linkage: Linkage, end: End, column: ColumnRule) -> (Cylinder, LinkageLaw) {
     let end = StrokeEnd::new(linkage, RADIUS, end).expect("two reversals");
-    let cylinder =
-        Cylinder::sized_for(&bed(), end.largest_deceleration().value, 35.0, 1.35, AMBIENT, 2.0 * AMBIENT);
+    let cylinder = Cylinder::sized_for(&bed(), end.largest_deceleration().value, 35.0, 1.35, AMBIENT, 2.0 * AMBIENT);
     (cylinder, LinkageLaw::new(cylinder.loading(35.0), 1.35, end, column, 0.0))
 }
 

@@ -116,9 +116,9 @@ impl Solution {
 
     fn stretch(&self, x: f64, before: bool) -> Option<&SolutionStretch> {
         let scaled = x / self.stroke;
-        let begun = self.stretches.partition_point(|stretch| {
-            stretch.series.centre < scaled || (!before && stretch.series.centre <= scaled)
-        });
+        let begun = self
+            .stretches
+            .partition_point(|stretch| stretch.series.centre < scaled || (!before && stretch.series.centre <= scaled));
         self.stretches.get(begun.saturating_sub(1))
     }
 
@@ -182,8 +182,8 @@ impl Run<'_> {
     /// The series about x = 0 with the slope of a side.
     fn series_from_origin(&self, side: Trend) -> Result<TaylorExpansion, Refusal> {
         let mechanism = self.mechanism;
-        let slope = starting_slope(mechanism, side)
-            .ok_or_else(|| wall::no_start(mechanism.delta, mechanism.friction_angle))?;
+        let slope =
+            starting_slope(mechanism, side).ok_or_else(|| wall::no_start(mechanism.delta, mechanism.friction_angle))?;
         Ok(mechanism.starting_tape(side).expand_from_origin(slope, self.order))
     }
 
