@@ -5,7 +5,7 @@
 
 use super::milling::{Milling, MillingError, MillingProgram, TurnedPath, TurnedRound, depths, smoothing};
 use super::polar::{LEAST_SHARE, MOST_ROWS, without_time};
-use super::swept::{TurnedCam, TurnedFlank};
+use super::swept::{FlankSide, TurnedCam};
 use super::{Body, Request};
 use crate::machine::{Controller, MillingDirection};
 use crate::report::shown;
@@ -23,7 +23,7 @@ const MOST_HALVED: u32 = 16;
 ///
 /// # Errors
 /// [`Refusal`] when the tool does not fit into the groove.
-pub fn rounds(cam: &dyn TurnedCam, tool: f64) -> Result<&'static [Option<TurnedFlank>], Refusal> {
+pub fn rounds(cam: &dyn TurnedCam, tool: f64) -> Result<&'static [Option<FlankSide>], Refusal> {
     let widest = cam.widest_tool();
     if tool > widest * (1.0 + ROUNDING) {
         let [tool, widest] = [tool, widest].map(|radius| shown(2.0 * MILLIMETRES * radius));
@@ -31,7 +31,7 @@ pub fn rounds(cam: &dyn TurnedCam, tool: f64) -> Result<&'static [Option<TurnedF
         return Err(Refusal::new(what).remedy("give a smaller --cutter-diameter, or leave it out"));
     }
     let fills = tool >= widest * (1.0 - ROUNDING);
-    Ok(if fills { &[None] } else { &[Some(TurnedFlank::Upper), Some(TurnedFlank::Lower)] })
+    Ok(if fills { &[None] } else { &[Some(FlankSide::Upper), Some(FlankSide::Lower)] })
 }
 
 /// The program for a barrel.
@@ -67,7 +67,7 @@ pub(super) fn program(
     let depths = depths(body, &cutting, grid)?;
     let climbs = cutting.direction == MillingDirection::Climb;
     let flanks = rounds(cam, tool)?;
-    let of = |flank: &Option<TurnedFlank>| round(cam, (*flank, tool), (tolerance, grid, angles), climbs);
+    let of = |flank: &Option<FlankSide>| round(cam, (*flank, tool), (tolerance, grid, angles), climbs);
     let rounds: Vec<TurnedRound> = flanks.iter().map(of).collect();
     let rows = depths.len() * rounds.iter().map(|round| round.rows.len()).sum::<usize>();
     if rows > MOST_ROWS {
@@ -92,7 +92,7 @@ pub(super) fn program(
 /// Once round along a flank, or in the middle of the groove.
 fn round(
     cam: &dyn TurnedCam,
-    (flank, tool): (Option<TurnedFlank>, f64),
+    (flank, tool): (Option<FlankSide>, f64),
     (tolerance, grid, angles): (f64, Grid, Grid),
     climbs: bool,
 ) -> TurnedRound {
@@ -109,7 +109,7 @@ fn round(
     }
     // Seen from outside, X upwards, a tool that climbs has the metal on its right: it goes against A under the upper flank.
     let rises = rows.first().zip(rows.last()).is_some_and(|(first, last)| last[0] > first[0]);
-    let wanted = flank.is_none_or(|flank| (flank == TurnedFlank::Lower) == climbs);
+    let wanted = flank.is_none_or(|flank| (flank == FlankSide::Lower) == climbs);
     if rises != wanted {
         rows.reverse();
     }
@@ -126,8 +126,8 @@ fn round(
     };
     let words = match flank {
         None => "both flanks of the groove",
-        Some(TurnedFlank::Upper) => "upper flank",
-        Some(TurnedFlank::Lower) => "lower flank",
+        Some(FlankSide::Upper) => "upper flank",
+        Some(FlankSide::Lower) => "lower flank",
     };
     TurnedRound { words: words.into(), rows, lengths, away }
 }
@@ -135,7 +135,7 @@ fn round(
 /// The path of a tool.
 struct ToolPath<'a> {
     cam: &'a dyn TurnedCam,
-    flank: Option<TurnedFlank>,
+    flank: Option<FlankSide>,
     tool: f64,
     /// mm.
     tolerance: f64,

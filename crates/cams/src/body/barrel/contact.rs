@@ -4,7 +4,7 @@
 //! of the cam. Its points move by V = (−y, v + y', z') by the cam angle, and the flank touches the roller where the normal is n = a × V/|a × V| with
 //! the direction a = (1, 0, 0) of the roller's axis: n = (0, −sin χ, cos χ) with tan χ = z'/(v + y'). The flanks are X = C ± r n.
 
-use crate::body::swept::smallest_root;
+use crate::body::swept::{LinePoint, RollerLine};
 use camgen_kernel::motion::Jet;
 
 /// Steps to the place of a flank on a cylinder, and the step over its radius at which they end.
@@ -34,23 +34,9 @@ pub(super) enum RollerPath {
 
 /// The roller's centre line at a cam angle: place against the rotation and along the axis with two derivatives by the cam angle, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct AxisLine {
+pub(crate) struct AxisLine {
     pub(super) across: [f64; 3],
     pub(super) along: [f64; 3],
-}
-
-/// A point of the roller's centre line with the contact there.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct LinePoint {
-    /// Along the radius, m.
-    pub(super) v: f64,
-    /// Sine and cosine of χ.
-    pub(super) slope: (f64, f64),
-    /// Size of V across the roller's axis, m.
-    pub(super) speed: f64,
-    /// Derivatives of χ by the cam angle and by v (1/m).
-    pub(super) turn: f64,
-    pub(super) turn_outwards: f64,
 }
 
 /// A point of a flank, m, with its derivatives by the cam angle and by the radius of the cylinder on which it lies.
@@ -103,9 +89,8 @@ impl RollerPath {
         }
     }
 
-    /// Pressure angle at a point of the centre line, rad, signed: positive where the lift grows.
-    pub(super) fn pressure_angle(&self, lift: &Jet, v: f64) -> f64 {
-        let (sin, cos) = self.at(lift).point(v).slope;
+    /// Pressure angle at a point of the centre line with this slope, rad, signed: positive where the lift grows.
+    pub(super) fn pressure_angle(&self, lift: &Jet, (sin, cos): (f64, f64)) -> f64 {
         let (across, along) = self.drive(lift);
         let (normal, tangent) = (-sin * across + cos * along, cos * across + sin * along);
         libm::atan2(tangent, normal)
@@ -117,20 +102,6 @@ impl AxisLine {
     pub(super) fn at_distance(&self, from_axis: f64) -> f64 {
         let beside = self.across[0];
         ((from_axis - beside) * (from_axis + beside)).sqrt()
-    }
-
-    /// The contact at a place along the roller's axis, m.
-    pub(super) fn point(&self, v: f64) -> LinePoint {
-        let (run, rise) = (v + self.across[1], self.along[1]);
-        let square = run * run + rise * rise;
-        let speed = square.sqrt();
-        LinePoint {
-            v,
-            slope: (rise / speed, run / speed),
-            speed,
-            turn: (self.along[2] * run - rise * self.across[2]) / square,
-            turn_outwards: -rise / square,
-        }
     }
 
     /// Where the flank at a signed distance from the centre line (m, positive above) meets the cylinder of a radius, m; `None` where it does not.
@@ -159,7 +130,7 @@ impl AxisLine {
         let along_turn = self.along[1] - distance * sin * line.turn;
         let moved = -across * across_turn / rate;
         let by_across = across_turn + outwards * moved;
-        let by_height = along_turn - distance * sin * line.turn_outwards * moved;
+        let by_height = along_turn - distance * sin * line.turn_along * moved;
         Some(FlankPoint {
             ahead: libm::atan2(across, v),
             height: self.along[0] + distance * cos,
@@ -171,46 +142,36 @@ impl AxisLine {
     /// Place of the flank across, m, and its derivative along the roller.
     fn across_at(&self, distance: f64, line: &LinePoint) -> (f64, f64) {
         let (sin, cos) = line.slope;
-        (self.across[0] - distance * sin, -distance * cos * line.turn_outwards)
+        (self.across[0] - distance * sin, -distance * cos * line.turn_along)
     }
 }
 
-impl LinePoint {
-    /// Radius of curvature of the roller's path across its axis, m, positive where the flank above is convex towards it.
-    pub(super) fn path_radius(&self) -> f64 {
-        self.speed / self.turn
+impl RollerLine for AxisLine {
+    fn point(&self, v: f64) -> LinePoint {
+        let (run, rise) = (v + self.across[1], self.along[1]);
+        let square = run * run + rise * rise;
+        let speed = square.sqrt();
+        LinePoint {
+            v,
+            slope: (rise / speed, run / speed),
+            speed,
+            slide: -self.across[0],
+            turn: (self.along[2] * run - rise * self.across[2]) / square,
+            turn_along: -rise / square,
+            tip: -(rise / speed),
+        }
     }
 
-    /// Derivative of [`Self::speed`] by the cam angle, m.
-    pub(super) fn speed_slope(&self, axis: &AxisLine) -> f64 {
-        let (sin, cos) = self.slope;
-        cos * axis.across[2] + sin * axis.along[2]
+    fn speed_slope(&self, point: &LinePoint) -> f64 {
+        let (sin, cos) = point.slope;
+        cos * self.across[2] + sin * self.along[2]
     }
 
-    /// The smallest distance from the centre line, m, above it (sign 1) or below it (−1), at which the flank folds over itself; infinite where it never does.
-    ///
-    /// The area of the flank by the cam angle and by v is S − d (χ' + y χ_v) + d² χ_v sin χ: 0 where it folds.
-    pub(super) fn folds_at(&self, axis: &AxisLine, sign: f64) -> f64 {
-        let (sin, _) = self.slope;
-        let linear = -sign * (self.turn + axis.across[0] * self.turn_outwards);
-        smallest_root(self.speed, linear, self.turn_outwards * sin)
-    }
-
-    /// The reduced curvature of the line of contact on the flank at a signed distance, 1/m: 1/r and both principal curvatures of the flank, convex
-    /// positive.
-    ///
-    /// Along a = e_r and the direction t of the path the derivatives of the normal give the shape of the flank: its derivative by v is −χ_v t for a step
-    /// a − d χ_v t, and by the angle −χ' t + sin χ a for a step (−y + d sin χ) a + (|V| − d χ') t.
-    pub(super) fn reduced_curvature(&self, axis: &AxisLine, distance: f64) -> f64 {
-        let (sin, _) = self.slope;
-        let outwards = self.turn_outwards;
-        let along = -axis.across[0] + distance * sin;
-        let across = self.speed - distance * self.turn;
-        let second = (along * outwards - self.turn) / (across + distance * outwards * along);
-        let mixed = -outwards + distance * outwards * second;
-        let first = distance * outwards * mixed;
-        let side = distance.signum();
-        1.0 / distance.abs() - side * (first + second)
+    fn reduced_curvature(&self, point: &LinePoint, distance: f64) -> f64 {
+        // With χ_v |V| = −sin χ the bend along the roller follows from that across it.
+        let across = point.bend_across(&point.steps(distance));
+        let by_v = distance * point.turn_along;
+        1.0 / distance.abs() - distance.signum() * (by_v * (by_v * across - point.turn_along) + across)
     }
 }
 
@@ -249,7 +210,7 @@ mod tests {
             assert!((1.0 + found.ahead - angle).abs() < 1e-13, "{found:?}");
             assert!((1e3 * found.height - height).abs() < 1e-11, "{found:?}");
         }
-        let curvature = axis.point(0.050).reduced_curvature(&axis, 0.010);
+        let curvature = axis.reduced_curvature(&axis.point(0.050), 0.010);
         assert!((1e-3 * curvature - 0.103_580_372_325_9).abs() < 1e-11, "{curvature}");
     }
 
@@ -272,7 +233,7 @@ mod tests {
         for i in 0..24 {
             let (angle, v, h) = (0.26 * f64::from(i) + 0.05, 0.05, 1e-6);
             for sign in [1.0, -1.0] {
-                let fold = at(angle).point(v).folds_at(&at(angle), sign);
+                let fold = at(angle).point(v).folds_at(sign);
                 assert!(fold > 0.0);
                 let distance = sign * fold.min(10.0);
                 let by_angle = (place(angle + h, v, distance) - place(angle - h, v, distance)) / (2.0 * h);

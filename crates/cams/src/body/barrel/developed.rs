@@ -1,7 +1,8 @@
 //! The developed view of the outside: both flanks and the centre line of the roller as arcs, and what the customary drawings of it would miss.
 
-use super::{Barrel, BarrelCurve, FlankSide};
+use super::{Barrel, BarrelCurve};
 use crate::body::Layer;
+use crate::body::swept::FlankSide;
 use camgen_kernel::geometry::biarcs::biarcs;
 use camgen_kernel::geometry::contour::Segment;
 use camgen_kernel::geometry::{Entity, MILLIMETRES};
@@ -25,7 +26,7 @@ impl Barrel {
     pub(super) fn developed_view(&self, tolerance: f64) -> Result<Vec<(Layer, Entity)>, Refusal> {
         let mut entities = Vec::new();
         for curve in BarrelCurve::ALL {
-            for (index, piece) in self.motion.pieces().iter().enumerate() {
+            for (index, piece) in self.groove.motion.pieces().iter().enumerate() {
                 let place = |angle: f64| self.developed_at(curve, (index, angle));
                 let range = (piece.start, piece.end.min(piece.start + LONGEST));
                 let arcs = biarcs(&place, range, SHARE * tolerance).ok_or_else(|| {
@@ -41,8 +42,8 @@ impl Barrel {
 
     /// The edge of the developed blank.
     fn rectangle(&self) -> [Segment; 4] {
-        let start = self.motion.range().0;
-        let x = |angle: f64| MILLIMETRES * self.sense() * self.outer * angle;
+        let start = self.groove.motion.range().0;
+        let x = |angle: f64| MILLIMETRES * self.groove.sense() * self.outer * angle;
         let (left, right) = (x(start).min(x(start + TAU)), x(start).max(x(start + TAU)));
         let (low, high) = (MILLIMETRES * self.ends.0, MILLIMETRES * self.ends.1);
         let corners = [(left, low), (right, low), (right, high), (left, high)].map(|(x, y)| Vector2::new(x, y));
@@ -68,10 +69,11 @@ impl Barrel {
     /// The largest distance of places (angle and height) of both flanks from the offset of the unrolled centre line on the cylinder of a radius, m.
     fn farthest(&self, place: impl Fn(FlankSide, (usize, f64)) -> Option<(f64, f64)>, radius: f64) -> Worst {
         let mut worst = Worst { value: 0.0, ..Worst::NONE };
-        for (piece, angle) in self.places() {
+        for (piece, angle) in self.groove.places() {
             for side in FlankSide::BOTH {
                 let Some((polar, height)) = place(side, (piece, angle)) else { continue };
-                let off = (self.distance_unrolled((polar, height), radius, angle) - self.signed(side).abs()).abs();
+                let off =
+                    (self.distance_unrolled((polar, height), radius, angle) - self.groove.signed(side).abs()).abs();
                 if off > worst.value {
                     worst = Worst { value: off, at: angle, z: 0.0 };
                 }
@@ -84,7 +86,7 @@ impl Barrel {
     fn distance_unrolled(&self, (polar, height): (f64, f64), radius: f64, near: f64) -> f64 {
         let mut angle = near;
         let apart = |angle: f64| {
-            let (piece, inside) = self.motion.locate(angle);
+            let (piece, inside) = self.groove.motion.locate(angle);
             let axis = self.axis(piece, inside);
             let x = radius * (polar - angle) - axis.across[0];
             ([x, height - axis.along[0]], [-radius - axis.across[1], -axis.along[1]], [-axis.across[2], -axis.along[2]])

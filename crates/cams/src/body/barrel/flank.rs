@@ -1,21 +1,17 @@
-//! The flanks of a barrel as bicubic spline patches: u the cam angle, v the radius of the cylinder on which a point lies.
+//! The solid of a barrel, its flanks as bicubic spline patches: u the cam angle, v the radius of the cylinder on which a point lies.
 //!
 //! Points and slopes by the cam angle are exact, so that two patches meet smoothly and the rims lie on their cylinders within what the splines miss.
 //! That is kept far below the tolerance: a flank that misses everywhere to one side would change the volume.
 
-use super::{Barrel, FlankSide};
-use crate::body::flank::refuse_too_many;
+use super::Barrel;
+use crate::body::swept::{CELLS, FlankSide, LONGEST_PATCH, SweptBody, fitted_flanks};
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::geometry::patch_fit::{FlankStretch, fitted};
-use camgen_kernel::geometry::solid::SplineSurface;
+use camgen_kernel::geometry::patch_fit::FlankStretch;
+use camgen_kernel::geometry::solid::grooved_cylinder::GroovedCylinder;
+use camgen_kernel::geometry::solid::{CheckedSolid, SplineSurface};
 use camgen_kernel::refusal::Refusal;
 use nalgebra::Vector3;
 use truck_modeling::Point3;
-
-/// Longest patch, rad.
-const LONGEST: f64 = std::f64::consts::PI / 6.0;
-/// Share of the tolerance that the splines may miss.
-const SHARE: f64 = 0.02;
 
 /// A stretch of the cam angle within a piece of the motion.
 #[derive(Debug, Clone, Copy)]
@@ -44,20 +40,20 @@ impl Barrel {
     /// The stretches of the turn: pieces, parted where the roller turns round, none longer than a twelfth of a turn.
     fn stretches(&self) -> Vec<Stretch> {
         let mut stretches = Vec::new();
-        for (index, piece) in self.motion.pieces().iter().enumerate() {
-            let slope = |angle: f64| self.motion.jet(index, angle).ds;
+        for (index, piece) in self.groove.motion.pieces().iter().enumerate() {
+            let slope = |angle: f64| self.groove.motion.jet(index, angle).ds;
             let (start, end) = (piece.start, piece.end);
             let margin = 1e-6 * (end - start);
             let turns = if piece.dwell {
                 Vec::new()
             } else {
-                camgen_kernel::numeric::root::sign_changes(slope, (start + margin, end - margin), super::CELLS)
+                camgen_kernel::numeric::root::sign_changes(slope, (start + margin, end - margin), CELLS)
             };
             let mut joints = vec![start];
             joints.extend(turns);
             joints.push(end);
             for (from, to) in joints.iter().zip(joints.iter().skip(1)) {
-                let count = ((to - from) / LONGEST - 1e-9).ceil().max(1.0);
+                let count = ((to - from) / LONGEST_PATCH - 1e-9).ceil().max(1.0);
                 let mut i = 0.0;
                 while i < count {
                     let place = |share: f64| if share == count { *to } else { from + (to - from) * share / count };
@@ -95,16 +91,31 @@ impl Barrel {
             })
             .collect();
         let radii = (MILLIMETRES * self.floor(), MILLIMETRES * self.outer);
-        let (mut upper, deviation) = fitted(&both, radii, SHARE * tolerance).map_err(|(missed, rings)| {
-            Refusal::new(format!("the flanks of the barrel miss by {missed:.2e} mm, with {rings} rings of splines"))
-                .remedy("give a coarser --tolerance, a larger cam.outer_radius or a smoother motion")
-        })?;
-        refuse_too_many(&upper)?;
+        let (mut upper, deviation) = fitted_flanks(&both, radii, tolerance, Self::WORDS)?;
         let lower = upper.split_off(stretches.len());
         let is_level = |(_, stretch): &(usize, &Stretch)| self.is_level(stretch.piece, stretch.start);
         let seams = stretches.iter().enumerate().filter(is_level).map(|(index, _)| index).collect();
         let flanks = Flanks { upper, lower, seams, deviation };
-        Ok(if self.sense() > 0.0 { flanks } else { flanks.mirrored() })
+        Ok(if self.groove.sense() > 0.0 { flanks } else { flanks.mirrored() })
+    }
+
+    /// The solid with these flanks.
+    ///
+    /// # Errors
+    /// [`Refusal`] when a check of it fails: a fault of camgen.
+    pub(super) fn solid(&self, flanks: &Flanks) -> Result<CheckedSolid, Refusal> {
+        let holes = self.groove.holes();
+        let ends = (MILLIMETRES * self.ends.0, MILLIMETRES * self.ends.1);
+        let drilled: f64 = holes.iter().map(|hole| hole.area_and_centroid().0).sum();
+        let cylinder = GroovedCylinder {
+            upper: &flanks.upper,
+            lower: &flanks.lower,
+            seams: &flanks.seams,
+            radii: (MILLIMETRES * self.outer, MILLIMETRES * self.floor()),
+            ends,
+            holes: &holes,
+        };
+        cylinder.solid(self.volume() + drilled * (ends.1 - ends.0))
     }
 }
 

@@ -1,32 +1,34 @@
-//! The barrel as a [`Body`].
+//! The barrel as a swept body.
 
-use super::{BARREL, Barrel, BarrelCurve, FlankSide, RollerPath, mechanism, report, sheet};
-use crate::body::in_groove::GrooveForces;
-use crate::body::part;
-use crate::body::picture::RIGID;
-use crate::body::{Body, Cut, DrawError, DrawingEvidence, Drawn, Kind, Request, SweptDrawing, SweptFlanks};
-use crate::check::Measures;
-use crate::machine::{Machine, Rotation};
+use super::contact::AxisLine;
+use super::{BARREL, Barrel, BarrelCurve, RollerPath, mechanism, report, sheet};
+use crate::body::flank_switch::SwitchFigures;
+use crate::body::swept::{
+    BlankSurface, FlankSide, LinePoint, NearestRoller, RollerLine, SweptBody, SweptDrawing, SweptGeometry, SweptGroove,
+    SweptWords, TouchingRoller,
+};
+use crate::body::{DrawingEvidence, Drawn, Kind};
+use crate::check::{Measures, Subject};
+use crate::report::Section;
 use crate::report::mechanism::MovingMechanism;
 use crate::report::sheet::SheetView;
-use crate::report::{Section, Speeds};
-use crate::table::{AddedColumn, Row, Table, TurnAngles, turned};
-use camgen_kernel::geometry::contour::Contour;
-use camgen_kernel::geometry::{Entity, MILLIMETRES};
-use camgen_kernel::motion::{Motion, Quantity};
-use camgen_kernel::profile::followed;
-use camgen_kernel::profile::outline::{OutlineError, SegmentKind, Side};
+use crate::table::{AddedColumn, Table};
+use camgen_kernel::motion::Jet;
+use camgen_kernel::profile::Worst;
 use camgen_kernel::refusal::Refusal;
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
-/// What is not modelled of a barrel.
-const NOT_MODELLED: &[&str] = &[
-    "Vibration, friction and the guide of the follower are not computed for a barrel.",
-    "The ends of the roller: it is a straight cylinder without a rounded edge.",
-];
-
-/// The endings of its tables.
-const TABLES: &[&str] = &["-sections.csv", "-four-axes.csv"];
+const WORDS: SweptWords = SweptWords {
+    noun: "barrel",
+    folds: "a flank folds over itself: the roller cannot follow it",
+    smoother: "give a coarser --tolerance, a larger cam.outer_radius or a smoother motion",
+    tables: &["-sections.csv", "-four-axes.csv"],
+    points: "its tables are -sections.csv and -four-axes.csv",
+    not_modelled: &[
+        "Vibration, friction and the guide of the follower are not computed for a barrel.",
+        "The ends of the roller: it is a straight cylinder without a rounded edge.",
+    ],
+};
 
 /// Both flanks on the outside.
 const UPPER_X: AddedColumn = AddedColumn { name: "upper_flank_x_mm", after: "pressure_angle_deg" };
@@ -34,149 +36,131 @@ const UPPER_Z: AddedColumn = AddedColumn { name: "upper_flank_z_mm", after: "pre
 const LOWER_X: AddedColumn = AddedColumn { name: "lower_flank_x_mm", after: "pressure_angle_deg" };
 const LOWER_Z: AddedColumn = AddedColumn { name: "lower_flank_z_mm", after: "pressure_angle_deg" };
 
-impl Barrel {
-    fn row(&self, at: TurnAngles, (piece, angle): (usize, f64)) -> Row {
-        let lift = self.motion.jet(piece, angle);
-        let steepest = self.touched(&self.path.at(&lift)).map(|v| self.path.pressure_angle(&lift, v));
-        let steepest = if steepest[0].abs() > steepest[1].abs() { steepest[0] } else { steepest[1] };
-        let flank = |side| self.developed_at(BarrelCurve::Flank(side), (piece, angle)).0;
-        let (upper, lower) = (flank(FlankSide::Upper), flank(FlankSide::Lower));
-        let swings = self.motion.quantity() == Quantity::Angle;
-        Row {
-            cam_deg: Some(at.cam_deg),
-            at: Some((piece, angle)),
-            lift: (!swings).then_some(lift),
-            swing: swings.then_some(lift),
-            position: self.motion.origin().map(|origin| origin + lift.s),
-            pressure_angle_deg: Some(steepest.to_degrees()),
-            swings,
-            force: GrooveForces::of(self).map(|forces| forces.row((piece, angle))),
-            added: vec![(&UPPER_X, upper.x), (&UPPER_Z, upper.y), (&LOWER_X, lower.x), (&LOWER_Z, lower.y)],
-            ..Row::default()
-        }
-    }
-}
+impl SweptGeometry for Barrel {
+    type Line = AxisLine;
 
-impl Body for Barrel {
-    fn kind(&self) -> &'static Kind {
-        &BARREL
+    const RETURNS: bool = true;
+
+    fn groove(&self) -> &SweptGroove {
+        &self.groove
     }
 
-    fn machine(&self) -> &Machine {
-        &self.machine
+    fn ends(&self) -> (f64, f64) {
+        self.ends
     }
 
-    fn speeds(&self) -> Speeds {
-        self.rpm.map_or(Speeds::Any(()), Speeds::One)
+    fn line(&self, lift: &Jet, _roller: i32) -> AxisLine {
+        self.path.at(lift)
     }
 
-    /// None: a groove in space has no outline in a plane.
-    fn cuts(&self) -> Vec<Cut<'_>> {
-        Vec::new()
+    /// From its inner end, which stands so far below the outside as it reaches into the groove, to where it leaves the cylinder.
+    fn touched(&self, axis: &AxisLine) -> [f64; 2] {
+        [self.outer - self.reach, self.outer].map(|from_axis| axis.at_distance(from_axis))
     }
 
-    fn swept(&self) -> Option<&dyn SweptFlanks> {
-        Some(self)
+    fn middle(&self, axis: &AxisLine) -> f64 {
+        let [inner, outer] = self.touched(axis);
+        0.5 * (inner + outer)
     }
 
-    fn further_tables(&self, samples: u32, cutter: Option<f64>) -> Vec<Table> {
-        vec![self.sections_table(samples), self.four_axes_table(samples, cutter)]
-    }
-
-    fn holes_within(&self, _outline: &Contour) -> Vec<Entity> {
-        part::bore(&self.machine).into_iter().collect()
-    }
-
-    fn shaft_speed(&self) -> Option<f64> {
-        self.speed()
-    }
-
-    fn largest_rates(&self) -> [f64; 2] {
-        followed::largest_rates(&*self.motion)
-    }
-
-    /// Of a point of the developed view.
-    fn parameter_at(&self, point: Vector2<f64>) -> f64 {
-        self.sense() * point.x / self.outer
-    }
-
-    fn measures(&self, of: &mut Measures<'_>) {
-        self.take_measures(of);
-    }
-
-    fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {
-        if self.least_fold().value <= self.distances[0].max(self.distances[1]) {
-            return Err(DrawError::NoOutline("a flank folds over itself: the roller cannot follow it".into()));
-        }
-        let without = |what: &str| Refusal::new(format!("{what} is not drawn for a barrel")).remedy("leave it out");
-        if request.lead_in.is_some() || request.start.is_some() {
-            return Err(without("a start of the cut").into());
-        }
-        if request.fit.side != Side::Both || request.fit.laid != SegmentKind::Arcs {
-            return Err(without("--side, or an outline of splines,").into());
-        }
-        if request.points.is_some() {
-            return Err(without("a table of points of an outline")
-                .remedy("its tables are -sections.csv and -four-axes.csv")
-                .into());
-        }
-        let tolerance = MILLIMETRES * request.fit.tolerance;
-        let flanks = self.flanks(tolerance)?;
-        let swept = SweptDrawing {
-            solid: self.solid(&flanks)?,
-            deviation: flanks.deviation,
-            developed: self.developed_view(tolerance)?,
-            tables: TABLES,
+    fn contact_on(&self, axis: &AxisLine, flank: FlankSide, surface: BlankSurface) -> Option<LinePoint> {
+        let radius = match surface {
+            BlankSurface::Floor => self.floor(),
+            BlankSurface::Outside => self.outer,
         };
-        Ok(Drawn { swept: Some(Box::new(swept)), ..Drawn::of(Vec::new()) })
+        axis.on_cylinder(self.groove.signed(flank), radius).map(|found| found.line)
     }
 
-    fn height(&self) -> Option<(f64, f64)> {
-        Some((MILLIMETRES * self.ends.0, MILLIMETRES * self.ends.1))
+    /// From the roller's inner end, or the floor, to the outer edge of the flank.
+    fn touching(&self, lift: &Jet, flank: FlankSide) -> Vec<TouchingRoller<AxisLine>> {
+        let line = self.path.at(lift);
+        let [floor, outside] =
+            [BlankSurface::Floor, BlankSurface::Outside].map(|surface| self.contact_on(&line, flank, surface));
+        let [inner, _] = self.touched(&line);
+        let length = floor.zip(outside).map_or(0.0, |(floor, outside)| outside.v - inner.max(floor.v)).max(0.0);
+        vec![TouchingRoller { roller: 0, line, length }]
     }
 
-    fn rows(&self, samples: u32) -> Vec<Row> {
-        let row = |index: u32| {
-            let at = turned(index, samples, self.motion.lobes());
-            self.row(at, self.motion.locate(at.angle))
-        };
-        (0..samples).map(row).collect()
+    fn pressure_angle(&self, lift: &Jet, axis: &AxisLine, v: f64) -> f64 {
+        self.path.pressure_angle(lift, axis.point(v).slope)
     }
 
-    fn row_on(&self, piece: usize, parameter: f64) -> Option<Row> {
-        let cam_deg = crate::report::degrees(parameter);
-        let crank_deg = (f64::from(self.motion.lobes()) * cam_deg) % 360.0;
-        Some(self.row(TurnAngles { cam_deg, angle: parameter, crank_deg }, (piece, parameter)))
-    }
-
-    fn leverage(&self) -> f64 {
+    fn way_of_lift(&self) -> f64 {
         if let RollerPath::Arm { arm, .. } = self.path { arm } else { 1.0 }
     }
 
-    fn follower_motion(&self) -> Option<&dyn Motion> {
-        Some(&*self.motion)
+    fn carrier_turn(&self, lift: &Jet, _axis: &AxisLine) -> [f64; 2] {
+        match self.path {
+            RollerPath::Straight { .. } => [0.0; 2],
+            RollerPath::Arm { side, .. } => [side * lift.ds, side * lift.dds],
+        }
     }
 
-    fn sections(&self, found: &DrawingEvidence<'_>) -> Vec<Section> {
-        report::sections(self, found)
-    }
-
-    fn mechanism(&self, drawn: &Drawn, samples: u32) -> MovingMechanism {
-        mechanism::of(self, drawn, samples)
-    }
-
-    fn not_modelled(&self) -> Vec<&'static str> {
-        [RIGID, NOT_MODELLED].concat()
-    }
-
-    fn view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
-        Ok(sheet::view(self, drawn))
+    fn nearest(&self, point: Vector3<f64>) -> NearestRoller {
+        self.nearest_roller(point)
     }
 }
 
-impl Barrel {
-    /// Whether it turns clockwise.
-    pub(super) fn is_clockwise(&self) -> bool {
-        self.machine.cam.rotation == Rotation::Clockwise
+impl SweptBody for Barrel {
+    const KIND: &'static Kind = &BARREL;
+    const WORDS: &'static SweptWords = &WORDS;
+
+    /// At the inner end of the roller or at the outside, signed.
+    fn steepest(&self, lift: &Jet) -> f64 {
+        let axis = self.path.at(lift);
+        let [inner, outer] = self.touched(&axis).map(|v| self.pressure_angle(lift, &axis, v));
+        if inner.abs() > outer.abs() { inner } else { outer }
+    }
+
+    fn added_columns(&self, at: (usize, f64)) -> Vec<(&'static AddedColumn, f64)> {
+        let [upper, lower] = FlankSide::BOTH.map(|side| self.developed_at(BarrelCurve::Flank(side), at).0);
+        vec![(&UPPER_X, upper.x), (&UPPER_Z, upper.y), (&LOWER_X, lower.x), (&LOWER_Z, lower.y)]
+    }
+
+    fn tables(&self, samples: u32, cutter: Option<f64>) -> Vec<Table> {
+        vec![self.sections_table(samples), self.four_axes_table(samples, cutter)]
+    }
+
+    /// Of a point of the developed view.
+    fn angle_of(&self, point: Vector2<f64>) -> f64 {
+        self.groove.sense() * point.x / self.outer
+    }
+
+    fn drawing(&self, tolerance: f64) -> Result<SweptDrawing, Refusal> {
+        let flanks = self.flanks(tolerance)?;
+        Ok(SweptDrawing {
+            solid: self.solid(&flanks)?,
+            deviation: flanks.deviation,
+            developed: self.developed_view(tolerance)?,
+            tables: WORDS.tables,
+        })
+    }
+
+    fn remedy(&self) -> Option<String> {
+        self.larger_outer()
+    }
+
+    fn wall(&self) -> (f64, Option<Worst>) {
+        (self.least_wall(), None)
+    }
+
+    fn longest(&self) -> f64 {
+        (2.0 * self.outer).max(self.ends.1 - self.ends.0)
+    }
+
+    fn own_measures(&self, of: &mut Measures<'_>, subject: &Subject<'_>) {
+        self.measure_path(of, subject);
+    }
+
+    fn own_section(&self, found: &DrawingEvidence<'_>, switches: Vec<SwitchFigures>) -> Section {
+        report::section(self, found, switches)
+    }
+
+    fn moving(&self, drawn: &Drawn, samples: u32) -> MovingMechanism {
+        mechanism::of(self, drawn, samples)
+    }
+
+    fn fill_sheet(&self, drawn: Option<&SweptDrawing>, view: &mut SheetView) {
+        sheet::fill(self, drawn, view);
     }
 }

@@ -17,12 +17,12 @@ pub(super) fn of(barrel: &Barrel, drawn: &Drawn, samples: u32) -> MovingMechanis
     let Some(swept) = drawn.swept.as_deref() else { return MovingMechanism::default() };
     let samples = samples.max(1);
     let around = MILLIMETRES * barrel.outer * TAU;
-    let sense = barrel.sense();
+    let sense = barrel.groove.sense();
     let (low, high) = (MILLIMETRES * barrel.ends.0, MILLIMETRES * barrel.ends.1);
     let mut poses = Vec::new();
     for index in 0..=samples {
-        let at = turned(index % samples, samples, barrel.motion.lobes());
-        let (piece, angle) = barrel.motion.locate(at.angle);
+        let at = turned(index % samples, samples, barrel.groove.motion.lobes());
+        let (piece, angle) = barrel.groove.motion.locate(at.angle);
         let roller = barrel.developed_at(BarrelCurve::Pitch, (piece, angle)).0;
         let cam_deg = if index == samples { 360.0 } else { at.cam_deg };
         let ahead = roller.x - sense * MILLIMETRES * barrel.outer * angle;
@@ -46,7 +46,7 @@ pub(super) fn of(barrel: &Barrel, drawn: &Drawn, samples: u32) -> MovingMechanis
     for turn in [-1.0, 0.0, 1.0] {
         parts.push(RigidPart::new("cam", groove(turn * around)).at(x.clone(), 0.0));
     }
-    let radius = MILLIMETRES * barrel.roller;
+    let radius = MILLIMETRES * barrel.groove.roller;
     let roller_x: Vec<f64> = poses.iter().map(|pose| pose.2).collect();
     let roller_y: Vec<f64> = poses.iter().map(|pose| pose.3).collect();
     parts.push(
@@ -59,7 +59,7 @@ pub(super) fn of(barrel: &Barrel, drawn: &Drawn, samples: u32) -> MovingMechanis
     cover.add((-SHOWN * around, SHOWN * around), (low - radius, high + 2.0 * radius));
     let view = MechanismView {
         rpm: None,
-        shaft_speed: barrel.speed(),
+        shaft_speed: barrel.groove.speed(),
         returns: false,
         place: "cam_deg",
         at: poses.iter().map(|pose| pose.0).collect(),

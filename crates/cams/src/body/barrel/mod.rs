@@ -7,54 +7,44 @@
 mod contact;
 mod developed;
 mod flank;
-mod forces;
 mod implementation;
 pub mod measures;
 mod mechanism;
 mod report;
 mod sheet;
-mod solid;
 mod swept;
 mod tables;
 mod tool;
 
 use super::Kind;
-use super::swept::refuse_jumps;
+use super::swept::{
+    FlankSide, LinePoint, RollerLine, SweptGeometry, SweptGroove, largest, least_fold, pressure_angles,
+};
 use crate::machine::Machine;
 use camgen_kernel::document::cams;
 use camgen_kernel::follower::{Carrier, Element};
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::motion::{Jet, Motion};
-use camgen_kernel::numeric::extremum::{self, Extremum};
+use camgen_kernel::motion::Motion;
 use camgen_kernel::profile::size::{first_that_keeps, rounded_up};
 use camgen_kernel::profile::{Worst, lifts};
 use camgen_kernel::refusal::Refusal;
 use contact::{AxisLine, FlankPoint, RollerPath};
 use std::sync::Arc;
-pub use swept::{BarrelCurve, FlankSide};
+pub use swept::BarrelCurve;
 
 /// The barrel of any motion.
 pub const BARREL: Kind = Kind { command: cams::MAKE, noun: "barrel cam", keys: cams::BARREL };
 
 /// An outside so many times as large as that of the pressure angle is tried.
 const LARGEST_GROWTH: f64 = 8.0;
-/// Cells of a piece in which figures are searched.
-const CELLS: u32 = 32;
-/// Golden sections to a place.
-const SECTIONS: u32 = 50;
 /// The roller rests where the slope of the lift, over the lift itself, is below this, 1/rad.
 const LEVEL: f64 = 1e-9;
 
 /// A barrel cam.
 #[derive(Debug, Clone)]
 pub struct Barrel {
-    machine: Arc<Machine>,
-    motion: Arc<dyn Motion>,
+    groove: SweptGroove,
     path: RollerPath,
-    /// Radius of the roller, m.
-    roller: f64,
-    /// Of the flanks above and below from the centre line of the roller, m.
-    distances: [f64; 2],
     /// Radius of the outside, m.
     outer: f64,
     /// Depth of the groove, m.
@@ -63,8 +53,6 @@ pub struct Barrel {
     reach: f64,
     /// Heights of the two ends, m.
     ends: (f64, f64),
-    /// Speed of the cam, rpm and rad/s, where it is known.
-    rpm: Option<f64>,
 }
 
 impl Barrel {
@@ -80,20 +68,15 @@ impl Barrel {
         let depth = track.groove_depth.ok_or_else(|| {
             Refusal::new("a barrel needs the depth of its groove").remedy("give cam.groove_depth, e.g. \"12 mm\"")
         })?;
-        let inside = track.clearance * track.clearance_share;
         let mut found = Self {
-            machine: Arc::new(machine.clone()),
-            motion: Arc::clone(motion),
+            groove: SweptGroove::new(machine, motion, rpm, radius),
             path,
-            roller: radius,
-            distances: [radius + track.clearance - inside, radius + inside],
             outer: track.outer_radius.unwrap_or(f64::NAN),
             depth,
             reach: track.barrel.roller_height.unwrap_or(depth),
             ends: (0.0, 0.0),
-            rpm,
         };
-        refuse_jumps(&**motion)?;
+        found.groove.refuse_jumps()?;
         if track.outer_radius.is_none() {
             found.outer = found.smallest_outer()?;
         }
@@ -105,15 +88,19 @@ impl Barrel {
     /// The smallest radius of the outside, in whole millimetres, that keeps the pressure angle at the inner end of the roller (R ≥ max s'/tan α of a
     /// straight path), the curvature of both flanks and the wall about the bore.
     fn smallest_outer(&self) -> Result<f64, Refusal> {
-        let limits = &self.machine.limits;
-        let bore =
-            self.machine.cam.bore_reach().map_or(0.0, |bore| bore + limits.least_wall(self.machine.cam.bore_radius));
+        let limits = &self.groove.machine.limits;
+        let bore = self
+            .groove
+            .machine
+            .cam
+            .bore_reach()
+            .map_or(0.0, |bore| bore + limits.least_wall(self.groove.machine.cam.bore_radius));
         let least = rounded_up(bore + self.depth.max(self.reach));
         let keeps = |outer: f64| Self { outer, ..self.clone() }.keeps_limits();
         if keeps(least) {
             return Ok(least);
         }
-        let steepest = self.largest(|jet| self.path.at(jet).along[1].abs());
+        let steepest = largest(self, |_, line| line.along[1].abs());
         let by_angle = steepest.value / libm::tan(limits.pressure_angles()[0].min(1.5)) + self.reach;
         let found = first_that_keeps(least, LARGEST_GROWTH * by_angle.max(least), keeps).map(rounded_up);
         found.ok_or_else(|| {
@@ -124,21 +111,22 @@ impl Barrel {
 
     /// Whether the pressure angle and the curvature of both flanks keep their limits.
     fn keeps_limits(&self) -> bool {
-        let limits = &self.machine.limits;
+        let limits = &self.groove.machine.limits;
         let [up, down] = limits.pressure_angles();
-        let [rising, falling] = self.signed_pressure_angles();
-        let convex = self.least_radius().value >= limits.convex_radius(self.roller);
-        let free = self.least_fold().value > self.distances[0].max(self.distances[1]) && convex;
+        let [rising, falling] = pressure_angles(self);
+        let convex = self.least_radius().value >= limits.convex_radius(self.groove.roller);
+        let free = least_fold(self).value > self.groove.farther() && convex;
         rising.value <= up && falling.value <= down && free
     }
 
     /// Heights of the ends of the blank: as long as asked, with the groove in its middle, or long enough for the wall on either side of it.
     fn blank_ends(&self) -> Result<(f64, f64), Refusal> {
-        let wall = self.machine.limits.least_wall(self.machine.cam.bore_radius);
-        let heights = |sign: f64| self.largest(|jet| sign * self.path.at(jet).along[0]).value;
-        let (top, bottom) = (heights(1.0) + self.distances[0], heights(-1.0) + self.distances[1]);
+        let wall = self.groove.machine.limits.least_wall(self.groove.machine.cam.bore_radius);
+        let [top, bottom] = self.roller_heights();
+        let [above, below] = self.groove.distances;
+        let (top, bottom) = (top + above, bottom + below);
         let needed = top + bottom;
-        let Some(length) = self.machine.cam.track.barrel.blank_length else {
+        let Some(length) = self.groove.machine.cam.track.barrel.blank_length else {
             let margin = 1e-3 * ((needed + 2.0 * wall) * MILLIMETRES - 1e-9).ceil() - needed;
             return Ok((-bottom - 0.5 * margin, top + 0.5 * margin));
         };
@@ -151,6 +139,11 @@ impl Barrel {
         Ok((-bottom - margin, top + margin))
     }
 
+    /// How far the roller's centre line goes above and below z = 0, m.
+    fn roller_heights(&self) -> [f64; 2] {
+        [1.0, -1.0].map(|sign| largest(self, |_, line| sign * line.along[0]).value)
+    }
+
     /// The refusal of a groove that leaves the cylinder, or whose roller misses it.
     fn refuse_what_leaves(&self) -> Result<(), Refusal> {
         let floor = self.floor();
@@ -159,12 +152,12 @@ impl Barrel {
             let what = format!("the groove of {deep:.3} mm reaches the axis of the barrel");
             return Err(Refusal::new(what).remedy("give a larger cam.outer_radius or a smaller cam.groove_depth"));
         }
-        for (piece, at) in self.places() {
+        for (piece, at) in self.groove.places() {
             let axis = self.axis(piece, at);
             let known = |axis: &AxisLine| {
-                [(floor, 0, 1.0), (floor, 1, -1.0), (self.outer, 0, 1.0), (self.outer, 1, -1.0)]
-                    .iter()
-                    .all(|(radius, flank, sign)| axis.on_cylinder(sign * self.distances[*flank], *radius).is_some())
+                [(floor, 0, 1.0), (floor, 1, -1.0), (self.outer, 0, 1.0), (self.outer, 1, -1.0)].iter().all(
+                    |(radius, flank, sign)| axis.on_cylinder(sign * self.groove.distances[*flank], *radius).is_some(),
+                )
             };
             if !known(&axis) {
                 let [_, by, second] = axis.across;
@@ -193,106 +186,41 @@ impl Barrel {
         })
     }
 
-    /// Places of all pieces, a few to each.
-    fn places(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let of = |(index, piece): (usize, &camgen_kernel::motion::Piece)| {
-            let (start, end) = (piece.start, piece.end);
-            (0..=CELLS).map(move |i| (index, start + (end - start) * f64::from(i) / f64::from(CELLS)))
-        };
-        self.motion.pieces().iter().enumerate().flat_map(of)
-    }
-
-    /// The largest of a value of the lift.
-    fn largest(&self, value: impl Fn(&Jet) -> f64) -> Worst {
-        let of = |(index, piece): (usize, &camgen_kernel::motion::Piece)| {
-            let at = |angle: f64| value(&self.motion.jet(index, angle));
-            extremum::largest_without_slope(at, (piece.start, piece.end), CELLS, SECTIONS)
-        };
-        let found =
-            self.motion.pieces().iter().enumerate().map(of).reduce(|a, b| if b.value > a.value { b } else { a });
-        found.map_or(Worst::NONE, |Extremum { value, at, .. }| Worst { value, at, z: 0.0 })
-    }
-
     /// Radius of the floor, m.
     fn floor(&self) -> f64 {
         self.outer - self.depth
     }
 
-    /// Places along the roller between which it touches the flanks, m: its inner end, which stands so far below the outside as it reaches into the groove, and
-    /// where it leaves the cylinder.
-    fn touched(&self, axis: &AxisLine) -> [f64; 2] {
-        [self.outer - self.reach, self.outer].map(|from_axis| axis.at_distance(from_axis))
-    }
-
     /// The roller's centre line at a cam angle of a piece.
     fn axis(&self, piece: usize, angle: f64) -> AxisLine {
-        self.path.at(&self.motion.jet(piece, angle))
-    }
-
-    /// Signed distance of a flank from the centre line, m: positive above.
-    fn signed(&self, flank: FlankSide) -> f64 {
-        match flank {
-            FlankSide::Upper => self.distances[0],
-            FlankSide::Lower => -self.distances[1],
-        }
+        self.path.at(&self.groove.motion.jet(piece, angle))
     }
 
     /// A flank on the cylinder of a radius (m) at a cam angle of a piece.
     fn edge(&self, flank: FlankSide, radius: f64, (piece, angle): (usize, f64)) -> Option<FlankPoint> {
-        self.axis(piece, angle).on_cylinder(self.signed(flank), radius)
-    }
-
-    /// Largest pressure angle with the lift growing, and falling as a positive number, rad, anywhere along the roller.
-    fn signed_pressure_angles(&self) -> [Worst; 2] {
-        [1.0, -1.0].map(|sign| {
-            let at = |jet: &Jet| {
-                let ends = self.touched(&self.path.at(jet));
-                // Where the roller misses the cylinder nothing keeps a limit.
-                let known = |v: f64| if v.is_nan() { f64::INFINITY } else { sign * self.path.pressure_angle(jet, v) };
-                ends.map(known).into_iter().fold(0.0, f64::max)
-            };
-            self.largest(at)
-        })
+        self.axis(piece, angle).on_cylinder(self.groove.signed(flank), radius)
     }
 
     /// The smallest radius of curvature of the roller's path across its axis, m, anywhere along the roller: either flank is convex where it bends
     /// towards it.
     fn least_radius(&self) -> Worst {
-        let sharpest = self.largest(|jet| {
-            let axis = self.path.at(jet);
-            let bends = self.touched(&axis).map(|v| axis.point(v).path_radius().abs().recip());
+        let sharpest = largest(self, |_, axis| {
+            let bends = self.touched(axis).map(|v| path_radius(&axis.point(v)).abs().recip());
             bends.into_iter().fold(0.0, f64::max)
-        });
-        Worst { value: sharpest.value.recip(), ..sharpest }
-    }
-
-    /// Smallest distance from the roller's axis at which a flank self-intersects, m, over the groove's depth. The depth is taken between the points at
-    /// which the flank itself meets the floor and the outside; at a pressure angle these are nearer to the shaft than those of the roller's axis.
-    /// 0 if a flank does not reach them.
-    fn least_fold(&self) -> Worst {
-        let sharpest = self.largest(|jet| {
-            let axis = self.path.at(jet);
-            let of = |flank: FlankSide, radius: f64| {
-                let distance = self.signed(flank);
-                let found = axis.on_cylinder(distance, radius);
-                found.map_or(0.0, |found| found.line.folds_at(&axis, distance.signum()))
-            };
-            let folds = FlankSide::BOTH.map(|flank| of(flank, self.floor()).min(of(flank, self.outer)));
-            folds.into_iter().map(f64::recip).fold(0.0, f64::max)
         });
         Worst { value: sharpest.value.recip(), ..sharpest }
     }
 
     /// Whether the roller rests at a place, so that both flanks are level there.
     fn is_level(&self, piece: usize, angle: f64) -> bool {
-        let jet = self.motion.jet(piece, angle);
-        jet.ds.abs() <= LEVEL * lifts(&*self.motion).1.max(1e-6)
+        let jet = self.groove.motion.jet(piece, angle);
+        jet.ds.abs() <= LEVEL * lifts(&*self.groove.motion).1.max(1e-6)
     }
+}
 
-    /// Angular speed of the cam, rad/s.
-    fn speed(&self) -> Option<f64> {
-        self.rpm.map(|rpm| rpm * std::f64::consts::TAU / 60.0)
-    }
+/// Radius of curvature of the roller's path across its axis, m, positive where the flank above is convex towards it.
+fn path_radius(point: &LinePoint) -> f64 {
+    point.speed / point.turn
 }
 
 fn needs_a_roller() -> Refusal {

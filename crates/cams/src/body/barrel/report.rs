@@ -1,13 +1,12 @@
 //! The sections of the report on a barrel.
 
 use super::Barrel;
-use crate::body::disc::program;
+use crate::body::DrawingEvidence;
 use crate::body::flank_switch::SwitchFigures;
-use crate::body::{DrawingEvidence, in_groove};
+use crate::body::swept::{SweptGeometry, largest, sharpest_curvature};
 use crate::report::{Section, shown};
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::geometry::contour::Contour;
-use camgen_kernel::motion::{Jet, Quantity};
+use camgen_kernel::motion::Quantity;
 use camgen_kernel::profile::lifts;
 use serde::Serialize;
 
@@ -45,39 +44,22 @@ struct BarrelSection {
     switches: Vec<SwitchFigures>,
 }
 
-/// Everything that is reported of a barrel.
-pub(super) fn sections(barrel: &Barrel, found: &DrawingEvidence<'_>) -> Vec<Section> {
-    let mut sections = vec![section(barrel, found)];
-    sections.extend(program::of_motion(&*barrel.motion, barrel.speed()));
-    sections.extend(in_groove::sections(barrel));
-    sections
-}
-
-/// Cubic millimetres in a cubic metre.
-const CUBIC: f64 = MILLIMETRES * MILLIMETRES * MILLIMETRES;
-
-fn section(barrel: &Barrel, found: &DrawingEvidence<'_>) -> Section {
+/// The section with these changes of flank.
+pub(super) fn section(barrel: &Barrel, found: &DrawingEvidence<'_>, switches: Vec<SwitchFigures>) -> Section {
     let drawn = found.drawn.and_then(|drawn| drawn.swept.as_deref());
-    let swings = barrel.motion.quantity() == Quantity::Angle;
-    let top = lifts(&*barrel.motion).1;
+    let swings = barrel.groove.motion.quantity() == Quantity::Angle;
+    let top = lifts(&*barrel.groove.motion).1;
     let angle = |end: usize| {
-        let at = |jet: &Jet| barrel.path.pressure_angle(jet, barrel.touched(&barrel.path.at(jet))[end]).abs();
-        barrel.largest(at).value.to_degrees()
+        let at_end = largest(barrel, |lift, line| barrel.pressure_angle(lift, line, barrel.touched(line)[end]).abs());
+        at_end.value.to_degrees()
     };
-    let sharpest = barrel.largest(|jet| {
-        let axis = barrel.path.at(jet);
-        let of = |v: f64, distance: f64| axis.point(v).reduced_curvature(&axis, distance);
-        let [upper, lower] = barrel.distances;
-        let [inner, outer] = barrel.touched(&axis);
-        [of(inner, upper), of(inner, -lower), of(outer, upper), of(outer, -lower)].into_iter().fold(0.0, f64::max)
-    });
     let volume = drawn.map(|drawn| drawn.solid.volume);
     let value = BarrelSection {
         outer_radius_mm: MILLIMETRES * barrel.outer,
         floor_radius_mm: MILLIMETRES * barrel.floor(),
         groove_depth_mm: MILLIMETRES * barrel.depth,
-        groove_width_mm: MILLIMETRES * barrel.distances.iter().sum::<f64>(),
-        roller_radius_mm: MILLIMETRES * barrel.roller,
+        groove_width_mm: MILLIMETRES * barrel.groove.width(),
+        roller_radius_mm: MILLIMETRES * barrel.groove.roller,
         roller_height_mm: MILLIMETRES * barrel.reach,
         blank_length_mm: MILLIMETRES * (barrel.ends.1 - barrel.ends.0),
         z_from_mm: MILLIMETRES * barrel.ends.0,
@@ -86,12 +68,12 @@ fn section(barrel: &Barrel, found: &DrawingEvidence<'_>) -> Section {
         max_lift_deg: swings.then_some(top.to_degrees()),
         smallest_outer_radius_mm: barrel.smallest_outer().ok().map(|radius| MILLIMETRES * radius),
         pressure_angle_deg: [angle(0), angle(1)],
-        largest_reduced_curvature_per_mm: sharpest.value / MILLIMETRES,
+        largest_reduced_curvature_per_mm: sharpest_curvature(barrel) / MILLIMETRES,
         volume_mm3: volume,
-        mass_kg: volume.map(|volume| volume / CUBIC * barrel.machine.cam.density()),
+        mass_kg: volume.map(|volume| barrel.groove.mass(volume)),
         spline_patches: drawn.map(|_| barrel.patches()),
         spline_deviation_mm: drawn.map(|drawn| drawn.deviation),
-        switches: in_groove::switches(barrel),
+        switches,
     };
     let words = words(&value, barrel, drawn.map(|drawn| drawn.developed.len()));
     let figures = words.iter().take(3).cloned().collect();
@@ -136,8 +118,7 @@ fn words(section: &BarrelSection, barrel: &Barrel, arcs: Option<usize>) -> Vec<S
     if let Some(mass) = section.mass_kg {
         words.push(format!("mass {} kg", shown(mass)));
     }
-    let bore: Option<Contour> = barrel.holes().into_iter().next();
-    if bore.is_none() {
+    if barrel.groove.holes().is_empty() {
         words.push("without a bore".into());
     }
     words.extend(section.switches.iter().map(SwitchFigures::words));

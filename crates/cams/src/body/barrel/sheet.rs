@@ -1,10 +1,10 @@
 //! What the review sheet of a barrel shows: the developed view with its flanks, a section along the axis, and tables of places of both flanks.
 
-use super::{Barrel, FlankSide};
-use crate::body::sheet::{keyway_note, tolerance_note};
-use crate::body::{Drawn, Layer};
-use crate::report::sheet::Dimensions;
-use crate::report::sheet::{Mark, PlaceTable, ShapeGroup, SheetShape, SheetView, TitleFacts, rounded};
+use super::Barrel;
+use crate::body::Layer;
+use crate::body::swept::sheet::{bore_mark, dimension};
+use crate::body::swept::{FlankSide, SweptDrawing};
+use crate::report::sheet::{Dimensions, Mark, PlaceTable, ShapeGroup, SheetShape, SheetView, rounded};
 use camgen_kernel::geometry::{Entity, MILLIMETRES};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
@@ -15,9 +15,8 @@ const GAP: f64 = 0.5;
 /// Rows of the finest table of places over a turn.
 const ROWS: u32 = 72;
 
-/// What the review sheet shows.
-pub(super) fn view(barrel: &Barrel, drawn: &Drawn) -> SheetView {
-    let swept = drawn.swept.as_deref();
+/// Adds what the review sheet shows.
+pub(super) fn fill(barrel: &Barrel, swept: Option<&SweptDrawing>, view: &mut SheetView) {
     let of = |layer: Layer| -> Vec<SheetShape> {
         let entities = swept.into_iter().flat_map(|swept| &swept.developed).filter(|(other, _)| *other == layer);
         let shape = |entity: &Entity| match entity {
@@ -30,38 +29,25 @@ pub(super) fn view(barrel: &Barrel, drawn: &Drawn) -> SheetView {
         id: id.into(),
         ..ShapeGroup::new("profile", label, of(layer)).with_legend()
     };
-    let mut view = SheetView {
-        groups: vec![
-            ShapeGroup { id: "blank".into(), ..ShapeGroup::new("side", "developed blank", of(Layer::Blank)) },
-            flank("upper-flank", "flank above the roller, on the outside", Layer::FlankUpper),
-            flank("lower-flank", "flank below the roller, on the outside", Layer::FlankLower),
-            ShapeGroup::new("pitch-curve", "centre line of the roller", of(Layer::Pitch)).with_legend(),
-        ],
-        tables: tables(barrel),
-        facts: TitleFacts {
-            thickness_mm: Some(MILLIMETRES * (barrel.ends.1 - barrel.ends.0)),
-            ..TitleFacts::of(&barrel.machine, swept.map(|swept| mass(barrel, swept.solid.volume)))
-        },
-        notes: tolerance_note(&barrel.machine).into_iter().chain(keyway_note(&barrel.machine)).collect(),
-        ..SheetView::default()
-    };
-    let sense = if barrel.is_clockwise() { "clockwise" } else { "counter-clockwise" };
+    view.groups.extend([
+        ShapeGroup { id: "blank".into(), ..ShapeGroup::new("side", "developed blank", of(Layer::Blank)) },
+        flank("upper-flank", "flank above the roller, on the outside", Layer::FlankUpper),
+        flank("lower-flank", "flank below the roller, on the outside", Layer::FlankLower),
+        ShapeGroup::new("pitch-curve", "centre line of the roller", of(Layer::Pitch)).with_legend(),
+    ]);
+    view.tables = tables(barrel);
+    let sense = if barrel.groove.is_clockwise() { "clockwise" } else { "counter-clockwise" };
     view.notes
         .push(format!("Developed view of the outside, seen from outside; the barrel turns {sense} seen from above."));
-    developed_marks(barrel, &mut view);
-    section(barrel, &mut view);
-    view
-}
-
-fn mass(barrel: &Barrel, volume: f64) -> f64 {
-    volume / (MILLIMETRES * MILLIMETRES * MILLIMETRES) * barrel.machine.cam.density()
+    developed_marks(barrel, view);
+    section(barrel, view);
 }
 
 /// Lengths of the developed view, and the roller in its groove at the start.
 fn developed_marks(barrel: &Barrel, view: &mut SheetView) {
-    let units = barrel.machine.units();
-    let start = barrel.motion.range().0;
-    let x = |angle: f64| MILLIMETRES * barrel.sense() * barrel.outer * angle;
+    let units = barrel.groove.machine.units();
+    let start = barrel.groove.motion.range().0;
+    let x = |angle: f64| MILLIMETRES * barrel.groove.sense() * barrel.outer * angle;
     let (left, right) = (x(start).min(x(start + TAU)), x(start).max(x(start + TAU)));
     let (low, high) = (MILLIMETRES * barrel.ends.0, MILLIMETRES * barrel.ends.1);
     let at = Vector2::new;
@@ -75,13 +61,13 @@ fn developed_marks(barrel: &Barrel, view: &mut SheetView) {
     for (to, text) in [to_zero, (at(left, high), units.dimension(high - low))] {
         view.marks.push(Mark::Distance { from: at(left, low), to, away: at(-1.0, 0.0), text });
     }
-    let (piece, angle) = barrel.motion.locate(0.0);
+    let (piece, angle) = barrel.groove.motion.locate(0.0);
     let axis = barrel.axis(piece, angle);
     let centre = at(x(0.0), MILLIMETRES * axis.along[0]);
-    let radius = MILLIMETRES * barrel.roller;
+    let radius = MILLIMETRES * barrel.groove.roller;
     let roller = vec![SheetShape::Entity(Entity::Circle(centre, radius))];
     view.groups.push(ShapeGroup::new("roller", "roller at θ = 0", roller).with_legend());
-    let width = MILLIMETRES * barrel.distances.iter().sum::<f64>();
+    let width = MILLIMETRES * barrel.groove.width();
     view.marks.push(Mark::Label {
         class: "dimension",
         at: centre,
@@ -96,7 +82,7 @@ fn developed_marks(barrel: &Barrel, view: &mut SheetView) {
 
 /// The section along the axis at θ = 0, to the right of the developed view.
 fn section(barrel: &Barrel, view: &mut SheetView) {
-    let units = barrel.machine.units();
+    let units = barrel.groove.machine.units();
     let (outer, floor) = (MILLIMETRES * barrel.outer, MILLIMETRES * barrel.floor());
     let (low, high) = (MILLIMETRES * barrel.ends.0, MILLIMETRES * barrel.ends.1);
     let right = crate::report::sheet::extents_of(&view.groups).largest.x + (GAP + 1.0) * outer;
@@ -104,7 +90,7 @@ fn section(barrel: &Barrel, view: &mut SheetView) {
     let mut shapes = Vec::new();
     // The groove as it is cut at θ = 0 on one side, and half a turn later on the other.
     for (side, angle) in [(1.0, 0.0), (-1.0, 0.5 * TAU)] {
-        let place = barrel.motion.locate(angle);
+        let place = barrel.groove.motion.locate(angle);
         let height =
             |flank, radius: f64| barrel.edge(flank, radius, place).map_or(f64::NAN, |found| MILLIMETRES * found.height);
         let [upper, lower] = FlankSide::BOTH.map(|flank| height(flank, barrel.outer));
@@ -116,49 +102,36 @@ fn section(barrel: &Barrel, view: &mut SheetView) {
         id: "section".into(),
         ..ShapeGroup::new("side", "section along the axis at θ = 0", shapes)
     });
-    let bore = barrel.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius);
+    let bore = barrel.groove.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius);
     let hidden: Vec<SheetShape> =
         bore.iter().flat_map(|radius| [*radius, -radius]).map(|x| SheetShape::Line(at(x, low), at(x, high))).collect();
     view.groups.push(ShapeGroup { id: "section-bore".into(), ..ShapeGroup::new("hidden", "hidden edges", hidden) });
     let beyond = 0.1 * outer;
     let axis = vec![SheetShape::Line(at(0.0, low - beyond), at(0.0, high + beyond))];
     view.groups.push(ShapeGroup::new("axis", "axis of the barrel", axis).with_legend());
-    let distance = |from: Vector2<f64>, to: Vector2<f64>, way: f64, text: String| Mark::Distance {
-        from,
-        to,
-        away: Vector2::new(0.0, way),
-        text,
-    };
-    view.marks.push(distance(at(-outer, low), at(outer, low), -1.0, format!("Ø{}", units.dimension(2.0 * outer))));
-    view.marks.push(distance(
+    let (up, down) = (Vector2::new(0.0, 1.0), Vector2::new(0.0, -1.0));
+    view.marks.push(dimension(at(-outer, low), at(outer, low), down, format!("Ø{}", units.dimension(2.0 * outer))));
+    view.marks.push(dimension(
         at(floor, high),
         at(outer, high),
-        1.0,
+        up,
         format!("{} deep", units.dimension(outer - floor)),
     ));
-    if let Some(radius) = bore {
-        let fit = barrel.machine.cam.bore_fit.map_or(String::new(), |fit| format!(" {fit}"));
-        view.marks.push(distance(
-            at(-radius, high),
-            at(radius, high),
-            1.0,
-            format!("Ø{}{fit}", units.dimension(2.0 * radius)),
-        ));
-    }
+    view.marks.extend(bore_mark(&barrel.groove.machine, at(0.0, high)));
 }
 
 /// Angle and height of both flanks on the outside and at the floor.
 fn tables(barrel: &Barrel) -> Vec<PlaceTable> {
-    let units = barrel.machine.units();
+    let units = barrel.groove.machine.units();
     let row = |index: u32| {
         let degrees = 360.0 * f64::from(index) / f64::from(ROWS);
-        let place = barrel.motion.locate(degrees.to_radians());
+        let place = barrel.groove.motion.locate(degrees.to_radians());
         let mut cells = vec![rounded(degrees)];
         for radius in [barrel.outer, barrel.floor()] {
             for flank in FlankSide::BOTH {
                 let found = barrel.edge(flank, radius, place);
                 let [angle, height] = found.map_or([f64::NAN; 2], |found| {
-                    [barrel.sense() * (degrees + found.ahead.to_degrees()), MILLIMETRES * found.height]
+                    [barrel.groove.sense() * (degrees + found.ahead.to_degrees()), MILLIMETRES * found.height]
                 });
                 cells.extend([format!("{angle:.4}"), units.cell(height)]);
             }

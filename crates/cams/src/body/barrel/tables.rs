@@ -1,12 +1,11 @@
 //! The tables of a barrel: sections of both flanks on cylinders, and the places of a tool on a machine with four axes.
 
+use super::Barrel;
 use super::contact::AxisLine;
-use super::{Barrel, FlankSide};
+use crate::body::swept::{FlankSide, RollerLine};
 use crate::table::{ListedColumn, Table, turned};
 use camgen_kernel::geometry::MILLIMETRES;
 
-/// Rounding of a diameter that was typed.
-const ROUNDING: f64 = 1e-12;
 /// Cylinders on which the flanks are listed, from the floor to the outside.
 const CYLINDERS: u32 = 4;
 
@@ -54,12 +53,12 @@ impl Barrel {
             let share = f64::from(ring) / f64::from(CYLINDERS);
             let radius = if ring == CYLINDERS { self.outer } else { self.floor() + self.depth * share };
             for index in 0..samples {
-                let at = turned(index, samples, self.motion.lobes());
-                let place = self.motion.locate(at.angle);
+                let at = turned(index, samples, self.groove.motion.lobes());
+                let place = self.groove.motion.locate(at.angle);
                 let edge = |side| {
                     let found = self.edge(side, radius, place);
                     found.map_or([f64::NAN; 2], |found| {
-                        [self.sense() * (at.cam_deg + found.ahead.to_degrees()), MILLIMETRES * found.height]
+                        [self.groove.sense() * (at.cam_deg + found.ahead.to_degrees()), MILLIMETRES * found.height]
                     })
                 };
                 let (upper, lower) = (edge(FlankSide::Upper), edge(FlankSide::Lower));
@@ -73,31 +72,28 @@ impl Barrel {
     /// A tool of the width of the groove, which is meant where none is given, runs in the middle between both flanks; a smaller one along either flank, which it touches exactly in the
     /// middle of the groove's depth.
     pub(super) fn four_axes_table(&self, samples: u32, tool: Option<f64>) -> Table {
-        let half = self.widest();
-        let one = tool.is_none_or(|tool| tool >= half * (1.0 - ROUNDING));
-        let passes: &[Option<FlankSide>] =
-            if one { &[None] } else { &[Some(FlankSide::Upper), Some(FlankSide::Lower)] };
-        let radius = if one { half } else { tool.unwrap_or(half) };
+        let passes = self.groove.passes(tool);
+        let radius = passes.radius;
         let middle = self.half_deep();
         let mut rows = Vec::new();
-        for (pass, side) in passes.iter().enumerate() {
+        for (pass, side) in passes.flanks.iter().enumerate() {
             for index in 0..samples {
-                let at = turned(index, samples, self.motion.lobes());
-                let (piece, angle) = self.motion.locate(at.angle);
+                let at = turned(index, samples, self.groove.motion.lobes());
+                let (piece, angle) = self.groove.motion.locate(at.angle);
                 let axis = self.axis(piece, angle);
                 let (sin, cos) = axis.point(axis.at_distance(middle)).slope;
-                let away = self.tool_offset(*side, radius);
-                let across = self.sense() * (axis.across[0] - away * sin);
+                let away = self.groove.tool_offset(*side, radius);
+                let across = self.groove.sense() * (axis.across[0] - away * sin);
                 let along = axis.along[0] + away * cos;
-                let missed =
-                    side.map_or(0.0, |side| self.missed_by_tool(&axis, self.signed(side).abs() - radius, middle));
+                let missed = side
+                    .map_or(0.0, |side| self.missed_by_tool(&axis, self.groove.signed(side).abs() - radius, middle));
                 #[expect(clippy::cast_precision_loss, reason = "two passes")]
                 let number = (pass + 1) as f64;
                 let [y_mm, z_mm, missed_mm] = [across, along, missed].map(|length| MILLIMETRES * length);
                 rows.push(ToolRow {
                     pass: number,
                     tool_mm: 2.0 * MILLIMETRES * radius,
-                    a_deg: self.sense() * at.cam_deg,
+                    a_deg: self.groove.sense() * at.cam_deg,
                     y_mm,
                     z_mm,
                     missed_mm,

@@ -1,6 +1,6 @@
-use super::{Barrel, FlankSide};
+use super::Barrel;
 use crate::body::in_groove::GrooveForces;
-use crate::body::swept::SweptFlanks;
+use crate::body::swept::{FlankSide, RollerLine, SweptFlanks, SweptGeometry, largest, pressure_angles};
 use crate::machine::Machine;
 use crate::pipeline::{Cam, Spec};
 use nalgebra::Vector3;
@@ -18,9 +18,9 @@ fn barrel(overrides: &[&str]) -> (Barrel, Cam) {
 fn a_point_is_as_far_from_the_flank_as_it_was_moved() {
     for rotation in ["cw", "ccw"] {
         let (barrel, _) = barrel(&[&format!("cam.rotation={rotation}")]);
-        let sense = barrel.sense();
+        let sense = barrel.groove.sense();
         for i in 0..40 {
-            let (piece, angle) = barrel.motion.locate(0.157 * f64::from(i) + 0.01);
+            let (piece, angle) = barrel.groove.motion.locate(0.157 * f64::from(i) + 0.01);
             let radius = barrel.floor() + barrel.depth * f64::from(i % 5) / 4.0;
             for side in FlankSide::BOTH {
                 let found = barrel.edge(side, radius, (piece, angle)).expect("a point");
@@ -62,7 +62,7 @@ fn a_barrel_is_proved_on_its_files() {
 #[test]
 fn the_automatic_radius_keeps_the_pressure_angle() {
     let (barrel, _) = barrel(&["cam.outer_radius=auto", "cam.bore_radius=5 mm"]);
-    let steepest = barrel.largest(|jet| jet.ds.abs()).value;
+    let steepest = largest(&barrel, |jet, _| jet.ds.abs()).value;
     let least = steepest / 30.0_f64.to_radians().tan() + barrel.reach;
     assert!(barrel.outer >= least && barrel.outer < least + 1.001e-3, "{} {least}", barrel.outer);
 }
@@ -88,18 +88,18 @@ cam = { body = "barrel", outer_radius = "65 mm", groove_depth = "12 mm", clearan
     for barrel in [straight, arm] {
         let forces = GrooveForces::of(&barrel).expect("a mass and a speed");
         for i in 0..40 {
-            let (piece, angle) = barrel.motion.locate(0.157 * f64::from(i) + 0.01);
+            let (piece, angle) = barrel.groove.motion.locate(0.157 * f64::from(i) + 0.01);
             let row = forces.row((piece, angle));
             let axis = barrel.axis(piece, angle);
             let middle = 0.5 * barrel.touched(&axis).iter().sum::<f64>();
             let (sin, _) = axis.point(middle).slope;
-            let lift = barrel.motion.jet(piece, angle);
+            let lift = barrel.groove.motion.jet(piece, angle);
             let sign = row.path.signum();
             let turned = sign * row.contact.expect("in touch") * sin * middle;
             assert!((turned - row.torque).abs() < 1e-9 * (1.0 + row.torque.abs()), "{i}: {turned} {row:?} {lift:?}");
         }
         let torque = forces.shaft_torque().expect("it turns");
-        let damped = barrel.machine.spring().is_some_and(|spring| spring.damping > 0.0);
+        let damped = barrel.groove.machine.spring().is_some_and(|spring| spring.damping > 0.0);
         assert!(if damped { torque.mean > 0.1 } else { torque.mean.abs() < 1e-12 }, "{torque:?}");
     }
 }
@@ -110,18 +110,18 @@ fn pressure_and_life_are_those_of_the_formulas() {
     let (barrel, _) = barrel(&["follower.roller.mass=8 kg", "follower.roller.bearing.dynamic_rating=20 kN"]);
     let forces = GrooveForces::of(&barrel).expect("a mass and a speed");
     let stress = forces.contact_stress().expect("a material");
-    let at = barrel.motion.locate(stress.at);
+    let at = barrel.groove.motion.locate(stress.at);
     let axis = barrel.axis(at.0, at.1);
     let [inner, outer] = barrel.touched(&axis);
     let row = forces.row(at);
-    let side = if row.path > 0.0 { -barrel.distances[1] } else { barrel.distances[0] };
-    let sharpest = [inner, outer].map(|v| axis.point(v).reduced_curvature(&axis, side)).into_iter().fold(0.0, f64::max);
+    let side = if row.path > 0.0 { -barrel.groove.distances[1] } else { barrel.groove.distances[0] };
+    let sharpest = [inner, outer].map(|v| axis.reduced_curvature(&axis.point(v), side)).into_iter().fold(0.0, f64::max);
     // Of the clearance, 1.5 µm a side of 10 mm, the pressure takes the roller.
-    let curvature = sharpest - side.abs().recip() + barrel.roller.recip();
+    let curvature = sharpest - side.abs().recip() + barrel.groove.roller.recip();
     let modulus = 210e9 / (2.0 * (1.0 - 0.3 * 0.3));
     // The contact line is off the roller's axis by the sine of the pressure angle, and ends there at the cylinder.
-    let lift = barrel.motion.jet(at.0, at.1);
-    let beside = |v: f64| side * libm::sin(barrel.path.pressure_angle(&lift, v));
+    let lift = barrel.groove.motion.jet(at.0, at.1);
+    let beside = |v: f64| side * libm::sin(barrel.pressure_angle(&lift, &axis, v));
     let leaves = (0..50).fold(outer, |v, _| (barrel.outer.powi(2) - beside(v).powi(2)).sqrt());
     let length = leaves - inner;
     let due = (row.contact.expect("in touch") * modulus * curvature / (std::f64::consts::PI * length)).sqrt();
@@ -131,9 +131,9 @@ fn pressure_and_life_are_those_of_the_formulas() {
     let (mut worn, mut turns) = (0.0, 0.0);
     for i in 0..count {
         let angle = std::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(count);
-        let at = barrel.motion.locate(angle);
+        let at = barrel.groove.motion.locate(angle);
         let line = barrel.axis(at.0, at.1).point(0.5 * (inner + outer));
-        let n = line.speed / barrel.roller / f64::from(count);
+        let n = line.speed / barrel.groove.roller / f64::from(count);
         worn += n * libm::pow(forces.row(at).contact.expect("in touch"), exponent);
         turns += n;
     }
@@ -149,7 +149,7 @@ fn pressure_and_life_are_those_of_the_formulas() {
 #[test]
 fn a_roller_beside_the_axis_runs_nearer_to_it() {
     let (barrel, _) = barrel(&["follower.roller.offset=38mm"]);
-    let steepest = barrel.signed_pressure_angles()[0].value.to_degrees();
+    let steepest = pressure_angles(&barrel)[0].value.to_degrees();
     let v = (54.0_f64 * 54.0 - 38.0 * 38.0).sqrt();
     let due = (31.020_9_f64 / v).atan().to_degrees();
     assert!((steepest - due).abs() < 1e-3, "{steepest} {due}");

@@ -6,7 +6,7 @@
 //! with R = D − v cos ψ, and the flank touches the roller where the normal is n = a × V/|a × V|: n = −sin χ e_θ + cos χ w with tan χ = v ψ'/R. The flanks are
 //! X = C ± r n, and χ is the pressure angle.
 
-use crate::body::swept::smallest_root;
+use crate::body::swept::{LinePoint, RollerLine};
 use nalgebra::Vector3;
 
 /// Steps to the place of a flank at a distance from the turret's axis, and the step over that distance at which they end.
@@ -15,25 +15,9 @@ const LAST_STEP: f64 = 1e-15;
 
 /// The centre line of a roller at a cam angle: the turret angle with two derivatives by the cam angle, and the distance of both axes, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct TurretLine {
+pub(crate) struct TurretLine {
     pub(super) distance: f64,
     pub(super) angle: [f64; 3],
-}
-
-/// A place of the centre line with the contact there.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct LinePoint {
-    /// Distance from the turret's axis, m.
-    pub(super) v: f64,
-    /// Distance R from the axis of the cam, m.
-    pub(super) run: f64,
-    /// Sine and cosine of χ.
-    pub(super) slope: (f64, f64),
-    /// |V|, m.
-    pub(super) speed: f64,
-    /// Derivatives of χ by the cam angle and by v (1/m).
-    pub(super) turn: f64,
-    pub(super) turn_along: f64,
 }
 
 /// A point of a flank, m, as (along e_r, along e_θ, along e_z) of the cam angle, with its derivative by the cam angle in the same directions, the
@@ -69,74 +53,17 @@ impl FlankPoint {
 }
 
 impl TurretLine {
-    /// The contact at a distance from the turret's axis, m.
-    pub(super) fn point(&self, v: f64) -> LinePoint {
-        let [angle, by, second] = self.angle;
-        let (sin, cos) = libm::sincos(angle);
-        let run = self.distance - v * cos;
-        let rise = v * by;
-        let square = run * run + rise * rise;
-        let speed = square.sqrt();
-        LinePoint {
-            v,
-            run,
-            slope: (rise / speed, run / speed),
-            speed,
-            turn: (v * second * run - rise * v * sin * by) / square,
-            turn_along: by * self.distance / square,
-        }
-    }
-
-    /// Derivative of |V| at a place of the centre line by the cam angle, m.
-    pub(super) fn speed_slope(&self, line: &LinePoint) -> f64 {
-        let [angle, by, second] = self.angle;
-        let (tilt, lean) = line.slope;
-        lean * line.v * libm::sin(angle) * by + tilt * line.v * second
+    /// Distance R of a place of the centre line from the axis of the cam, m.
+    pub(super) fn run(&self, v: f64) -> f64 {
+        self.distance - v * libm::cos(self.angle[0])
     }
 
     /// The flank at a signed distance from a place of the centre line (m, positive above).
     pub(super) fn flank(&self, line: &LinePoint, distance: f64) -> Vector3<f64> {
         let (sin, cos) = libm::sincos(self.angle[0]);
         let (tilt, lean) = line.slope;
-        Vector3::new(line.run + distance * lean * sin, -distance * tilt, line.v * sin + distance * lean * cos)
-    }
-
-    /// Sizes of the steps of the flank along the direction of V by the cam angle, along the roller by the cam angle, and along the direction of V by v;
-    /// along the roller a step by v is 1.
-    fn steps(&self, line: &LinePoint, distance: f64) -> (f64, f64, f64) {
-        let (sin, cos) = libm::sincos(self.angle[0]);
-        let (tilt, lean) = line.slope;
-        let across = line.speed - distance * (line.turn - sin);
-        let along = -distance * (tilt * cos + self.angle[1] * lean);
-        (across, along, -distance * line.turn_along)
-    }
-
-    /// The smallest distance from the centre line, m, above it (sign 1) or below it (−1), at which the flank folds over itself; infinite where it never does.
-    pub(super) fn folds_at(&self, line: &LinePoint, sign: f64) -> f64 {
-        // The area of the flank by the cam angle and by v is S − d (χ' − sin ψ) − d² q χ_v, with q = sin χ cos ψ + ψ' cos χ: 0 where it folds.
-        let (sin, cos) = libm::sincos(self.angle[0]);
-        let (tilt, lean) = line.slope;
-        let linear = -sign * (line.turn - sin);
-        let square = -(tilt * cos + self.angle[1] * lean) * line.turn_along;
-        smallest_root(line.speed, linear, square)
-    }
-
-    /// The reduced curvature of the line of contact on the flank at a signed distance, 1/m: 1/r and the curvatures of the flank across the line, convex
-    /// positive.
-    ///
-    /// The normal changes by (sin ψ − χ') t − q a by the cam angle and by −χ_v t along the roller, for the steps of the flank there; the shape of a surface
-    /// that holds a straight line for both roller and flank is the change of the normal along t for a step along t.
-    pub(super) fn reduced_curvature(&self, line: &LinePoint, distance: f64) -> f64 {
-        let (across, along, by_v) = self.steps(line, distance);
-        let (sin, cos) = libm::sincos(self.angle[0]);
-        let (tilt, lean) = line.slope;
-        let q = tilt * cos + self.angle[1] * lean;
-        // A step along t: by the angle 1/area, by v −along/area.
-        let area = across - along * by_v;
-        let second = ((sin - line.turn) + along * line.turn_along) / area;
-        // A step along a: by the angle −by_v/area, by v across/area.
-        let first = q * by_v / area;
-        1.0 / distance.abs() - distance.signum() * (first + second)
+        let run = self.distance - line.v * cos;
+        Vector3::new(run + distance * lean * sin, -distance * tilt, line.v * sin + distance * lean * cos)
     }
 
     /// Where the flank at a signed distance from the centre line (m) is at a distance from the turret's axis in the plane through the axis of the cam, m;
@@ -170,15 +97,43 @@ impl TurretLine {
         }
         let line = self.point(v);
         let place = self.flank(&line, distance);
-        let (across, length, by_v) = self.steps(&line, distance);
+        let steps = line.steps(distance);
         let tangent = direction(&line);
-        let (by_angle, by_v) = (tangent * across + along * length, along + tangent * by_v);
+        let (by_angle, by_v) = (tangent * steps.across + along * steps.along, along + tangent * steps.across_by_v);
         let outwards = gradient(&place);
         let rate = outwards.dot(&by_v);
-        if !(v > 0.0 && line.run > 0.0 && rate > 0.0 && away(&place).abs() <= 1e-12 * from_turret * from_turret) {
+        if !(v > 0.0 && self.run(v) > 0.0 && rate > 0.0 && away(&place).abs() <= 1e-12 * from_turret * from_turret) {
             return None;
         }
         Some(FlankPoint { place, by_angle: by_angle - by_v * (outwards.dot(&by_angle) / rate), line })
+    }
+}
+
+impl RollerLine for TurretLine {
+    /// At a distance from the turret's axis.
+    fn point(&self, v: f64) -> LinePoint {
+        let [angle, by, second] = self.angle;
+        let (sin, cos) = libm::sincos(angle);
+        let run = self.distance - v * cos;
+        let rise = v * by;
+        let square = run * run + rise * rise;
+        let speed = square.sqrt();
+        let (tilt, lean) = (rise / speed, run / speed);
+        LinePoint {
+            v,
+            slope: (tilt, lean),
+            speed,
+            slide: 0.0,
+            turn: (v * second * run - rise * v * sin * by) / square - sin,
+            turn_along: by * self.distance / square,
+            tip: tilt * cos + by * lean,
+        }
+    }
+
+    fn speed_slope(&self, point: &LinePoint) -> f64 {
+        let [angle, by, second] = self.angle;
+        let (tilt, lean) = point.slope;
+        lean * point.v * libm::sin(angle) * by + tilt * point.v * second
     }
 }
 
@@ -216,12 +171,6 @@ mod tests {
         }
     }
 
-    /// The area of a flank by the cam angle and by v.
-    fn area(line: &TurretLine, point: &LinePoint, distance: f64) -> f64 {
-        let (across, along, by_v) = line.steps(point, distance);
-        across - along * by_v
-    }
-
     /// A turret angle with its derivatives, smooth in the cam angle.
     fn at(angle: f64) -> TurretLine {
         let (sin, cos) = libm::sincos(angle);
@@ -256,7 +205,7 @@ mod tests {
                 let by_v = (in_space(angle, v + h, distance) - in_space(angle, v - h, distance)) / (2.0 * h);
                 let point = line.point(v);
                 let found = by_angle.cross(&by_v).norm();
-                assert!((found - area(&line, &point, distance).abs()).abs() < 1e-8, "{angle} {distance}");
+                assert!((found - point.steps(distance).area().abs()).abs() < 1e-8, "{angle} {distance}");
                 // Mean curvature by the normal: trace of its change over steps of the surface.
                 let normal = |angle: f64, v: f64| {
                     let line = at(angle);
@@ -281,10 +230,10 @@ mod tests {
             let line = at(0.5 * f64::from(i));
             let point = line.point(0.055);
             for sign in [1.0, -1.0] {
-                let fold = line.folds_at(&point, sign);
+                let fold = point.folds_at(sign);
                 let until = if fold.is_finite() { fold } else { 10.0 };
-                assert!((0..100).all(|k| area(&line, &point, sign * until * 0.01 * f64::from(k)) > 0.0));
-                assert!(!fold.is_finite() || area(&line, &point, sign * fold).abs() < 1e-12 * (1.0 + fold * fold));
+                assert!((0..100).all(|k| point.steps(sign * until * 0.01 * f64::from(k)).area() > 0.0));
+                assert!(!fold.is_finite() || point.steps(sign * fold).area().abs() < 1e-12 * (1.0 + fold * fold));
             }
         }
     }

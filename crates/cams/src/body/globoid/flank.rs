@@ -2,23 +2,19 @@
 //! lies exactly at its distance from the turret's axis, so that the rims lie on their tori within what the splines miss; the first and the last patch end on the
 //! cones, each place at its own cam angle.
 
-use super::{End, Flank, Globoid};
-use crate::body::flank::refuse_too_many;
-use crate::body::part;
+use super::{End, Globoid};
+use crate::body::swept::{FlankSide, LONGEST_PATCH, SweptBody, fitted_flanks};
+use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::Contour;
-use camgen_kernel::geometry::patch_fit::{FlankStretch, fitted};
+use camgen_kernel::geometry::patch_fit::FlankStretch;
 use camgen_kernel::geometry::solid::CheckedSolid;
 use camgen_kernel::geometry::solid::globoid::{GlobeGroove, GrooveGloboid};
-use camgen_kernel::geometry::{Entity, MILLIMETRES};
 use camgen_kernel::refusal::Refusal;
 use nalgebra::Vector3;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
-/// Longest patch, and the shortest between an end and a joint of the motion, rad.
-const LONGEST: f64 = PI / 6.0;
+/// Shortest patch between an end and a joint of the motion, rad.
 const SHORTEST: f64 = 0.04;
-/// Share of the tolerance that the splines may miss.
-const SHARE: f64 = 0.02;
 /// Distances from the turret's axis at which the cam angles of an end are compared.
 const PLACES: u32 = 8;
 /// Joints whose angles differ by less are one, rad.
@@ -42,7 +38,7 @@ struct Stretch {
 
 /// The stretches of the flank of a roller.
 struct Course {
-    flank: Flank,
+    flank: FlankSide,
     roller: f64,
     stretches: Vec<Stretch>,
 }
@@ -71,11 +67,6 @@ pub(super) struct GloboidSolid {
 }
 
 impl Globoid {
-    /// The bore as a contour with the metal on its left.
-    pub(super) fn holes(&self) -> Vec<Contour> {
-        part::bore(&self.machine).iter().map(|bore: &Entity| bore.contour().reversed()).collect()
-    }
-
     /// The solid within a tolerance, mm.
     ///
     /// # Errors
@@ -83,21 +74,14 @@ impl Globoid {
     pub(super) fn solid(&self, tolerance: f64) -> Result<GloboidSolid, Refusal> {
         let starts = 0..self.turret.advance;
         let courses: Vec<Course> = starts
-            .flat_map(|roller| Flank::BOTH.map(|flank| self.course(flank, f64::from(roller))))
+            .flat_map(|roller| FlankSide::BOTH.map(|flank| self.course(flank, f64::from(roller))))
             .collect::<Result<_, _>>()?;
         let stretches: Vec<FlankStretch<'_>> = courses
             .iter()
             .flat_map(|course| course.stretches.iter().map(|stretch| self.stretch(course, *stretch)))
             .collect();
         let depth = MILLIMETRES * (self.floor - self.outside);
-        let (mut patches, deviation) =
-            fitted(&stretches, (0.0, depth), SHARE * tolerance).map_err(|(missed, rings)| {
-                Refusal::new(format!(
-                    "the flanks of the globoid miss by {missed:.2e} mm, with {rings} rings of splines"
-                ))
-                .remedy("give a coarser --tolerance, a larger cam.turret_distance or a smoother motion")
-            })?;
-        refuse_too_many(&patches)?;
+        let (mut patches, deviation) = fitted_flanks(&stretches, (0.0, depth), tolerance, Self::WORDS)?;
         let mut grooves = Vec::new();
         for pair in courses.chunks(2) {
             let [upper, lower] = pair else { continue };
@@ -128,8 +112,8 @@ impl Globoid {
             let what = "two grooves pass the cam one after the other, and no rib lies between them";
             return Err(Refusal::new(what).remedy("give a larger cam.end_angle"));
         }
-        let mirrored = !self.is_clockwise();
-        let holes: Vec<Contour> = self.holes();
+        let mirrored = !self.groove.is_clockwise();
+        let holes: Vec<Contour> = self.groove.holes();
         let drilled: f64 = holes.iter().map(|hole| hole.area_and_centroid().0).sum();
         let in_own_frame: Vec<Contour> =
             if mirrored { holes.iter().map(Contour::mirrored_about_x).collect() } else { holes };
@@ -163,7 +147,7 @@ impl Globoid {
     }
 
     /// The range of cam angles at which a flank passes an end, between floor and outside.
-    fn passage(&self, flank: Flank, end: End, roller: f64) -> Result<(f64, f64), Refusal> {
+    fn passage(&self, flank: FlankSide, end: End, roller: f64) -> Result<(f64, f64), Refusal> {
         let mut range = (f64::INFINITY, f64::NEG_INFINITY);
         for i in 0..=PLACES {
             let from_turret = self.outside + (self.floor - self.outside) * f64::from(i) / f64::from(PLACES);
@@ -177,7 +161,7 @@ impl Globoid {
     }
 
     /// The stretches of a flank: pieces of the motion, none longer than a twelfth of a turn, with those up to the ends of the cam.
-    fn course(&self, flank: Flank, roller: f64) -> Result<Course, Refusal> {
+    fn course(&self, flank: FlankSide, roller: f64) -> Result<Course, Refusal> {
         let entry = self.passage(flank, End::Bottom, roller)?;
         let exit = self.passage(flank, End::Top, roller)?;
         let joints = self.joints(entry.0, exit.1);
@@ -209,13 +193,13 @@ impl Globoid {
     /// The places at which flanks are divided, from before a cam angle to behind another: the joints of the motion, and as many between them as no stretch
     /// is longer than a twelfth of a turn.
     fn joints(&self, from: f64, to: f64) -> Vec<Joint> {
-        let start = self.motion.range().0;
+        let start = self.groove.motion.range().0;
         let mut joints = Vec::new();
         let mut turns = ((from - start) / TAU).floor();
         while start + turns * TAU <= to {
-            for (index, piece) in self.motion.pieces().iter().enumerate() {
+            for (index, piece) in self.groove.motion.pieces().iter().enumerate() {
                 let width = piece.end - piece.start;
-                let count = (width / LONGEST - 1e-9).ceil().max(1.0);
+                let count = (width / LONGEST_PATCH - 1e-9).ceil().max(1.0);
                 let mut i = 0.0;
                 while i < count {
                     let at = piece.start + width * i / count + turns * TAU;
@@ -249,20 +233,20 @@ impl Globoid {
     /// Point (mm) of a flank, and its derivative by the cam angle times a width.
     fn flank_at(
         &self,
-        (flank, roller): (Flank, f64),
+        (flank, roller): (FlankSide, f64),
         from_turret: f64,
         (piece, angle): (Option<(usize, f64)>, f64),
         width: f64,
     ) -> [Vector3<f64>; 2] {
         let line = match piece {
             Some((piece, turns)) => {
-                let own = self.motion.pieces().get(piece).copied();
+                let own = self.groove.motion.pieces().get(piece).copied();
                 let inside = own.map_or(f64::NAN, |own| (angle - turns * TAU).clamp(own.start, own.end));
-                self.line((piece, inside, turns), roller)
+                self.line_of((piece, inside, turns), roller)
             }
             None => self.line_at(angle, roller),
         };
-        let Some(found) = line.at_distance(self.signed(flank), from_turret) else {
+        let Some(found) = line.at_distance(self.groove.signed(flank), from_turret) else {
             return [Vector3::repeat(f64::NAN); 2];
         };
         let (sin, cos) = libm::sincos(angle);

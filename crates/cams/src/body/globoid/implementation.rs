@@ -1,170 +1,180 @@
-//! The globoid as a [`Body`].
+//! The globoid as a swept body.
 
+use super::contact::TurretLine;
 use super::{GLOBOID, Globoid, mechanism, report, sheet};
-use crate::body::in_groove::GrooveForces;
-use crate::body::part;
-use crate::body::picture::RIGID;
-use crate::body::{Body, Cut, DrawError, DrawingEvidence, Drawn, Kind, Request, SweptDrawing, SweptFlanks};
-use crate::check::Measures;
-use crate::machine::Machine;
+use crate::body::flank_switch::SwitchFigures;
+use crate::body::swept::{
+    BlankSurface, FlankSide, LinePoint, NearestRoller, RollerLine, SweptBody, SweptDrawing, SweptGeometry, SweptGroove,
+    SweptWords, TouchingRoller,
+};
+use crate::body::{DrawError, DrawingEvidence, Drawn, Kind};
+use crate::check::{Measures, Subject};
+use crate::report::Section;
 use crate::report::mechanism::MovingMechanism;
 use crate::report::sheet::SheetView;
-use crate::report::{Section, Speeds};
-use crate::table::{Row, Table, TurnAngles, turned};
-use camgen_kernel::geometry::contour::Contour;
-use camgen_kernel::geometry::{Entity, MILLIMETRES};
-use camgen_kernel::motion::Motion;
-use camgen_kernel::profile::followed;
-use camgen_kernel::profile::outline::{OutlineError, SegmentKind, Side};
+use crate::table::Table;
+use camgen_kernel::motion::Jet;
+use camgen_kernel::profile::Worst;
 use camgen_kernel::refusal::Refusal;
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
+use std::ops::RangeInclusive;
 
-/// What is not modelled of a globoid.
-const NOT_MODELLED: &[&str] = &[
-    "Vibration and friction are not computed for a globoid.",
-    "The sharing of the force by several rollers: each of those in contact is taken to carry all of it.",
-    "The ends of the rollers: they are straight cylinders without a rounded edge.",
-    "The lead-in of the grooves: rollers enter them as wide as they are.",
-];
+const WORDS: SweptWords = SweptWords {
+    noun: "globoid",
+    folds: "a flank folds over itself: the rollers cannot follow it",
+    smoother: "give a coarser --tolerance, a larger cam.turret_distance or a smoother motion",
+    tables: &["-sections.csv", "-two-axes.csv"],
+    points: "its tables are -sections.csv and -two-axes.csv",
+    not_modelled: &[
+        "Vibration and friction are not computed for a globoid.",
+        "The sharing of the force by several rollers: each of those in contact is taken to carry all of it.",
+        "The ends of the rollers: they are straight cylinders without a rounded edge.",
+        "The lead-in of the grooves: rollers enter them as wide as they are.",
+    ],
+};
 
-/// The endings of its tables.
-const TABLES: &[&str] = &["-sections.csv", "-two-axes.csv"];
+impl SweptGeometry for Globoid {
+    type Line = TurretLine;
 
-impl Globoid {
-    fn row(&self, at: TurnAngles, (piece, angle): (usize, f64)) -> Row {
-        let lift = self.motion.jet(piece, angle);
-        let steepest = |roller: i32| {
-            let line = self.line((piece, angle, 0.0), f64::from(roller));
-            let reaches = line.angle[0].abs() <= self.end_angle;
-            let slopes = self.touched().map(|v| line.point(v).slope);
-            let angle = slopes.into_iter().map(|(sin, cos)| libm::atan2(sin, cos)).fold(0.0, f64::max);
-            if reaches { angle } else { 0.0 }
-        };
-        let steepest = self.rollers().map(steepest).fold(0.0, f64::max);
-        Row {
-            cam_deg: Some(at.cam_deg),
-            at: Some((piece, angle)),
-            swing: Some(lift),
-            position: self.motion.origin().map(|origin| origin + lift.s),
-            pressure_angle_deg: Some(steepest.to_degrees()),
-            swings: true,
-            force: GrooveForces::of(self).map(|forces| forces.row((piece, angle))),
-            ..Row::default()
-        }
-    }
-}
+    /// A turret does not turn back.
+    const RETURNS: bool = false;
 
-impl Body for Globoid {
-    fn kind(&self) -> &'static Kind {
-        &GLOBOID
+    fn groove(&self) -> &SweptGroove {
+        &self.groove
     }
 
-    fn machine(&self) -> &Machine {
-        &self.machine
+    fn ends(&self) -> (f64, f64) {
+        let (_, height) = self.rim(self.floor);
+        (-height, height)
     }
 
-    fn speeds(&self) -> Speeds {
-        self.rpm.map_or(Speeds::Any(()), Speeds::One)
+    fn rollers(&self) -> RangeInclusive<i32> {
+        self.passing_rollers()
     }
 
-    /// None: grooves in space have no outline in a plane.
-    fn cuts(&self) -> Vec<Cut<'_>> {
-        Vec::new()
+    fn line(&self, lift: &Jet, roller: i32) -> TurretLine {
+        self.line_at_lift(lift, -f64::from(roller) * self.turret.pitch())
     }
 
-    fn swept(&self) -> Option<&dyn SweptFlanks> {
-        Some(self)
+    fn is_near(&self, line: &TurretLine) -> bool {
+        line.angle[0].abs() <= self.end_angle + libm::asin(self.groove.farther() / self.outside)
     }
 
-    fn further_tables(&self, samples: u32, cutter: Option<f64>) -> Vec<Table> {
-        vec![self.sections_table(samples), self.two_axes_table(samples, cutter)]
+    fn touched(&self, _line: &TurretLine) -> [f64; 2] {
+        [self.outside, self.reached]
     }
 
-    fn holes_within(&self, _outline: &Contour) -> Vec<Entity> {
-        part::bore(&self.machine).into_iter().collect()
-    }
-
-    fn shaft_speed(&self) -> Option<f64> {
-        self.speed()
-    }
-
-    fn largest_rates(&self) -> [f64; 2] {
-        followed::largest_rates(&*self.motion)
-    }
-
-    /// Of a point in the plane across the axis.
-    fn parameter_at(&self, point: Vector2<f64>) -> f64 {
-        libm::atan2(self.sense() * point.y, point.x)
-    }
-
-    fn measures(&self, of: &mut Measures<'_>) {
-        self.take_measures(of);
-    }
-
-    fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {
-        if self.least_fold().value <= self.distances[0].max(self.distances[1]) {
-            return Err(DrawError::NoOutline("a flank folds over itself: the rollers cannot follow it".into()));
-        }
-        if !(self.thinnest_rib().0 > 0.0) {
-            return Err(DrawError::NoOutline("the grooves of two rollers meet: no rib is left between them".into()));
-        }
-        let without = |what: &str| Refusal::new(format!("{what} is not drawn for a globoid")).remedy("leave it out");
-        if request.lead_in.is_some() || request.start.is_some() {
-            return Err(without("a start of the cut").into());
-        }
-        if request.fit.side != Side::Both || request.fit.laid != SegmentKind::Arcs {
-            return Err(without("--side, or an outline of splines,").into());
-        }
-        if request.points.is_some() {
-            return Err(without("a table of points of an outline")
-                .remedy("its tables are -sections.csv and -two-axes.csv")
-                .into());
-        }
-        let found = self.solid(MILLIMETRES * request.fit.tolerance)?;
-        let swept =
-            SweptDrawing { solid: found.solid, deviation: found.deviation, developed: Vec::new(), tables: TABLES };
-        Ok(Drawn { swept: Some(Box::new(swept)), ..Drawn::of(Vec::new()) })
-    }
-
-    fn height(&self) -> Option<(f64, f64)> {
-        let height = MILLIMETRES * self.rim(self.floor).1;
-        Some((-height, height))
-    }
-
-    fn rows(&self, samples: u32) -> Vec<Row> {
-        let row = |index: u32| {
-            let at = turned(index, samples, 1);
-            self.row(at, self.motion.locate(at.angle))
-        };
-        (0..samples).map(row).collect()
-    }
-
-    fn row_on(&self, piece: usize, parameter: f64) -> Option<Row> {
-        let cam_deg = crate::report::degrees(parameter);
-        Some(self.row(TurnAngles { cam_deg, angle: parameter, crank_deg: cam_deg }, (piece, parameter)))
-    }
-
-    fn leverage(&self) -> f64 {
+    fn middle(&self, _line: &TurretLine) -> f64 {
         self.turret.arm
     }
 
-    fn follower_motion(&self) -> Option<&dyn Motion> {
-        Some(&*self.motion)
+    /// A centre line meets floor and outside also beyond the ends of the cam, where the flank itself does not.
+    fn contact_on(&self, line: &TurretLine, flank: FlankSide, surface: BlankSurface) -> Option<LinePoint> {
+        let from_turret = match surface {
+            BlankSurface::Floor => self.floor,
+            BlankSurface::Outside => self.outside,
+        };
+        let found = line.at_distance(self.groove.signed(flank), from_turret);
+        Some(found.map_or_else(|| line.point(from_turret), |found| found.line))
     }
 
-    fn sections(&self, found: &DrawingEvidence<'_>) -> Vec<Section> {
-        report::sections(self, found)
+    /// The rollers that touch over their whole reach; if none, those with centre lines between the ends that touch at all.
+    fn touching(&self, lift: &Jet, flank: FlankSide) -> Vec<TouchingRoller<TurretLine>> {
+        let touching = |(roller, line)| {
+            let length = self.length_of_contact(&line, flank);
+            TouchingRoller { roller, line, length }
+        };
+        let lines = || self.rollers().map(|roller| (roller, self.line(lift, roller)));
+        let whole: Vec<_> = lines().filter(|(_, line)| self.touches_wholly(line, flank)).map(touching).collect();
+        if !whole.is_empty() {
+            return whole;
+        }
+        let between = lines().filter(|(_, line)| line.angle[0].abs() <= self.end_angle);
+        between.map(touching).filter(|touching| touching.length > 0.0).collect()
     }
 
-    fn mechanism(&self, _drawn: &Drawn, samples: u32) -> MovingMechanism {
+    fn way_of_lift(&self) -> f64 {
+        self.turret.arm
+    }
+
+    fn carrier_turn(&self, _lift: &Jet, line: &TurretLine) -> [f64; 2] {
+        let (sin, cos) = libm::sincos(line.angle[0]);
+        [sin, cos * line.angle[1]]
+    }
+
+    fn roller_count(&self) -> u32 {
+        self.turret.rollers
+    }
+
+    fn nearest(&self, point: Vector3<f64>) -> NearestRoller {
+        self.nearest_roller(point)
+    }
+}
+
+impl SweptBody for Globoid {
+    const KIND: &'static Kind = &GLOBOID;
+    const WORDS: &'static SweptWords = &WORDS;
+
+    fn lobes(&self) -> u32 {
+        1
+    }
+
+    /// Of the rollers between the ends.
+    fn steepest(&self, lift: &Jet) -> f64 {
+        let lines = self.rollers().map(|roller| self.line(lift, roller));
+        let between = lines.filter(|line| line.angle[0].abs() <= self.end_angle);
+        let angles = between.flat_map(|line| self.touched(&line).map(|v| self.pressure_angle(lift, &line, v)));
+        angles.fold(0.0, f64::max)
+    }
+
+    fn tables(&self, samples: u32, cutter: Option<f64>) -> Vec<Table> {
+        vec![self.sections_table(samples), self.two_axes_table(samples, cutter)]
+    }
+
+    /// Of a point in the plane across the axis.
+    fn angle_of(&self, point: Vector2<f64>) -> f64 {
+        libm::atan2(self.groove.sense() * point.y, point.x)
+    }
+
+    fn refuse_drawing(&self) -> Result<(), DrawError> {
+        if self.thinnest_rib().0 > 0.0 {
+            return Ok(());
+        }
+        Err(DrawError::NoOutline("the grooves of two rollers meet: no rib is left between them".into()))
+    }
+
+    fn drawing(&self, tolerance: f64) -> Result<SweptDrawing, Refusal> {
+        let found = self.solid(tolerance)?;
+        Ok(SweptDrawing { solid: found.solid, deviation: found.deviation, developed: Vec::new(), tables: WORDS.tables })
+    }
+
+    fn remedy(&self) -> Option<String> {
+        self.larger_distance()
+    }
+
+    fn wall(&self) -> (f64, Option<Worst>) {
+        let (value, at) = self.least_wall();
+        (value, at.map(|at| Worst { value, at, z: 0.0 }))
+    }
+
+    fn longest(&self) -> f64 {
+        let (radius, height) = self.rim(self.outside);
+        (2.0 * radius).max(2.0 * self.rim(self.floor).1.max(height))
+    }
+
+    fn own_measures(&self, of: &mut Measures<'_>, subject: &Subject<'_>) {
+        self.measure_meshing(of, subject);
+    }
+
+    fn own_section(&self, found: &DrawingEvidence<'_>, switches: Vec<SwitchFigures>) -> Section {
+        report::section(self, found, switches)
+    }
+
+    fn moving(&self, _drawn: &Drawn, samples: u32) -> MovingMechanism {
         mechanism::of(self, samples)
     }
 
-    fn not_modelled(&self) -> Vec<&'static str> {
-        [RIGID, NOT_MODELLED].concat()
-    }
-
-    fn view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
-        Ok(sheet::view(self, drawn))
+    fn fill_sheet(&self, _drawn: Option<&SweptDrawing>, view: &mut SheetView) {
+        sheet::fill(self, view);
     }
 }

@@ -1,14 +1,10 @@
 //! What is checked of a globoid as it was solved.
 
+use super::Globoid;
 use super::contact::TurretLine;
-use super::{Flank, Globoid};
-use crate::body::{Body, in_groove};
-use crate::check::continuity::RunMotion;
-use crate::check::{
-    Check, CheckExplanation, CheckScope, Measures, Subject, continuity, curvature, cutter_radius, pressure_angle, size,
-    wall,
-};
-use crate::report::{Bound, Place, shown};
+use crate::body::swept::{FlankSide, RollerLine, least_fold, pressure_angles};
+use crate::check::{Check, CheckExplanation, CheckScope, Measures, Subject};
+use crate::report::{Bound, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::profile::Worst;
 use camgen_kernel::profile::size::{first_that_keeps, rounded_up};
@@ -42,14 +38,15 @@ impl Globoid {
     /// Least number of rollers that touch each flank over their whole reach, with the cam angle where that is.
     pub(super) fn least_touching(&self) -> (f64, f64) {
         let mut least = (f64::INFINITY, 0.0);
-        for (index, piece) in self.motion.pieces().iter().enumerate() {
+        for (index, piece) in self.groove.motion.pieces().iter().enumerate() {
             for i in 0..=PLACES {
                 let angle = piece.start + (piece.end - piece.start) * f64::from(i) / f64::from(PLACES);
-                for flank in Flank::BOTH {
-                    let inside =
-                        |roller: &i32| self.touches_wholly(&self.line((index, angle, 0.0), f64::from(*roller)), flank);
+                for flank in FlankSide::BOTH {
+                    let inside = |roller: &i32| {
+                        self.touches_wholly(&self.line_of((index, angle, 0.0), f64::from(*roller)), flank)
+                    };
                     #[expect(clippy::cast_precision_loss, reason = "a few rollers")]
-                    let count = self.rollers().filter(inside).count() as f64;
+                    let count = self.passing_rollers().filter(inside).count() as f64;
                     if count < least.0 {
                         least = (count, angle);
                     }
@@ -60,23 +57,23 @@ impl Globoid {
     }
 
     /// Whether a flank of a roller's groove lies between the ends over the whole reach of the roller.
-    pub(super) fn touches_wholly(&self, line: &TurretLine, flank: Flank) -> bool {
-        self.touched().into_iter().all(|v| {
-            let place = line.flank(&line.point(v), self.signed(flank));
+    pub(super) fn touches_wholly(&self, line: &TurretLine, flank: FlankSide) -> bool {
+        [self.outside, self.reached].into_iter().all(|v| {
+            let place = line.flank(&line.point(v), self.groove.signed(flank));
             let about = libm::atan2(place.z, self.turret.distance - place.xy().norm());
             about.abs() <= self.end_angle + AT_END
         })
     }
 
     /// Contact length of a roller and a flank within its reach, m: between the cam's ends and inside its outer surface.
-    pub(super) fn length_of_contact(&self, line: &TurretLine, flank: Flank) -> f64 {
+    pub(super) fn length_of_contact(&self, line: &TurretLine, flank: FlankSide) -> f64 {
         let touches = |v: f64| {
-            let place = line.flank(&line.point(v), self.signed(flank));
+            let place = line.flank(&line.point(v), self.groove.signed(flank));
             let off = self.turret.distance - place.xy().norm();
             let between = libm::atan2(place.z, off).abs() <= self.end_angle + AT_END;
             between && libm::hypot(off, place.z) >= self.outside * (1.0 - AT_END)
         };
-        let [outside, reached] = self.touched();
+        let [outside, reached] = [self.outside, self.reached];
         let (mut touching, mut beyond) = match [outside, reached].map(touches) {
             [true, true] => return reached - outside,
             [false, false] => return 0.0,
@@ -92,20 +89,22 @@ impl Globoid {
     }
 
     /// Least metal, m: about the bore, and of the ribs on the outside, with the cam angle of the latter.
-    pub(super) fn wall(&self) -> (f64, Option<f64>) {
-        let bore = self.machine.cam.bore_reach().map_or(f64::INFINITY, |bore| self.turret.distance - self.floor - bore);
+    pub(super) fn least_wall(&self) -> (f64, Option<f64>) {
+        let bore =
+            self.groove.machine.cam.bore_reach().map_or(f64::INFINITY, |bore| self.turret.distance - self.floor - bore);
         let (rib, at) = self.thinnest_rib();
         if rib < bore { (rib, Some(at)) } else { (bore, None) }
     }
 
     /// A distance of the turret with which the pressure angle, the flanks and the walls keep their limits.
-    fn remedy(&self) -> Option<String> {
-        let limits = self.machine.limits;
-        let least_wall = limits.least_wall(self.machine.cam.bore_radius);
+    pub(super) fn larger_distance(&self) -> Option<String> {
+        let limits = self.groove.machine.limits;
+        let least_wall = limits.least_wall(self.groove.machine.cam.bore_radius);
         let keeps = |distance: f64| {
             self.at_distance(distance).is_some_and(|other| {
-                let free = other.least_fold().value > other.distances[0].max(other.distances[1]);
-                free && other.pressure_angle().value <= limits.pressure_angles()[0] && other.wall().0 >= least_wall
+                let free = least_fold(&other).value > other.groove.farther();
+                let [rising, _] = pressure_angles(&other);
+                free && rising.value <= limits.pressure_angles()[0] && other.least_wall().0 >= least_wall
             })
         };
         let distance = self.turret.distance;
@@ -114,27 +113,7 @@ impl Globoid {
             .then(|| format!("cam.turret_distance = \"{} mm\" would keep every limit", shown(MILLIMETRES * found)))
     }
 
-    pub(super) fn take_measures(&self, of: &mut Measures<'_>) {
-        let at = |worst: &Worst| -> (Place, Option<String>) { (self.place(worst.at), None) };
-        let remedy = || self.remedy();
-        let subject = Subject { machine: &self.machine, curves: None, speed: self.speed(), at: &at, remedy: &remedy };
-        let run = || [RunMotion { motion: &*self.motion, z: 0.0, speed: self.speed() }];
-        let none = Worst { value: 0.0, at: 0.0, z: 0.0 };
-        of.add(&continuity::CHECK, |_| continuity::measure(&run(), || None, &subject));
-        of.add(&pressure_angle::CHECK, |_| pressure_angle::measure([self.pressure_angle(), none], &subject));
-        let widest = self.distances[0].max(self.distances[1]);
-        of.add(&curvature::UNDERCUT, |_| curvature::undercut(&self.least_fold(), widest, Vec::new, &subject));
-        let half = 0.5 * self.distances.iter().sum::<f64>();
-        let widest_cutter = Worst { value: half, at: 0.0, z: 0.0 };
-        of.add(&cutter_radius::CHECK, |_| cutter_radius::measure(Some(widest_cutter), Some(half), &subject));
-        of.add(&wall::CHECK, |written| {
-            let (value, at) = self.wall();
-            wall::measure((value, at.map(|at| Worst { value, at, z: 0.0 })), written, &subject)
-        });
-        let (radius, height) = self.rim(self.outside);
-        let longest = MILLIMETRES * (2.0 * radius).max(2.0 * self.rim(self.floor).1.max(height));
-        of.add(&size::CHECK, |_| size::CHECK.measure(longest, Some(MILLIMETRES * self.machine.limits.largest_size())));
-        in_groove::measured(self, of, &subject);
+    pub(super) fn measure_meshing(&self, of: &mut Measures<'_>, subject: &Subject<'_>) {
         of.add(&MESHING, |_| {
             let (count, at) = self.least_touching();
             let kept = count >= 1.0;
@@ -144,7 +123,7 @@ impl Globoid {
                     self.end_angle.to_degrees()
                 )
             });
-            MESHING.measure(count, Some(1.0)).kept(kept).noted(note).at(&subject, &Worst { value: count, at, z: 0.0 })
+            MESHING.measure(count, Some(1.0)).kept(kept).noted(note).at(subject, &Worst { value: count, at, z: 0.0 })
         });
     }
 }

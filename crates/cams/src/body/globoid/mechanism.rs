@@ -32,7 +32,8 @@ pub(super) fn outline(globoid: &Globoid, side: f64) -> Vec<Vector2<f64>> {
 pub(super) fn of(globoid: &Globoid, samples: u32) -> MovingMechanism {
     let samples = samples.max(1);
     let [distance, outside, reached, radius] =
-        [globoid.turret.distance, globoid.outside, globoid.reached, globoid.roller].map(|length| MILLIMETRES * length);
+        [globoid.turret.distance, globoid.outside, globoid.reached, globoid.groove.roller]
+            .map(|length| MILLIMETRES * length);
     let mut cam_deg = Vec::new();
     let mut turret_deg = Vec::new();
     for index in 0..=samples {
@@ -65,7 +66,7 @@ pub(super) fn of(globoid: &Globoid, samples: u32) -> MovingMechanism {
     cover.add((-wide, distance + reached), (-height.max(reached), height.max(reached)));
     let view = MechanismView {
         rpm: None,
-        shaft_speed: globoid.speed(),
+        shaft_speed: globoid.groove.speed(),
         returns: false,
         place: "cam_deg",
         at: cam_deg.clone(),

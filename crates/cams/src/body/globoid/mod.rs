@@ -6,7 +6,6 @@
 
 mod contact;
 mod flank;
-mod forces;
 mod implementation;
 pub mod measures;
 mod mechanism;
@@ -17,15 +16,13 @@ mod swept;
 mod tables;
 
 use super::Kind;
-use super::swept::refuse_jumps;
-use crate::machine::{Machine, Rotation, TurretData};
+use super::swept::{FlankSide, SweptGroove, largest_of_motion};
+use crate::machine::{Machine, TurretData};
 use camgen_kernel::document::cams;
 use camgen_kernel::follower::Element;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::{Jet, Motion};
-use camgen_kernel::numeric::extremum::{self, Extremum};
 use camgen_kernel::numeric::root;
-use camgen_kernel::profile::Worst;
 use camgen_kernel::refusal::Refusal;
 use contact::{FlankPoint, TurretLine};
 use std::f64::consts::TAU;
@@ -34,9 +31,6 @@ use std::sync::Arc;
 /// The globoid of any motion that indexes.
 pub const GLOBOID: Kind = Kind { command: cams::MAKE, noun: "globoid cam", keys: cams::GLOBOID };
 
-/// Cells of a piece in which figures are searched, and golden sections to a place.
-const CELLS: u32 = 32;
-const SECTIONS: u32 = 50;
 /// The turret rests, or does not turn back, where its rate over its index is below this, 1/rad.
 const LEVEL: f64 = 1e-9;
 /// Largest angle of a conical end that is chosen, rad: beyond, it is nearly a cylinder.
@@ -47,13 +41,8 @@ const FREE: f64 = 0.2 * std::f64::consts::PI / 180.0;
 /// A globoid cam.
 #[derive(Debug, Clone)]
 pub struct Globoid {
-    machine: Arc<Machine>,
-    motion: Arc<dyn Motion>,
+    groove: SweptGroove,
     turret: TurretData,
-    /// Radius of a roller, m.
-    roller: f64,
-    /// Of the flanks above and below from the centre line of a roller, m.
-    distances: [f64; 2],
     /// Distances from the turret's axis, m: of the outside, of the inner end of a roller's reach, and of the floor.
     outside: f64,
     reached: f64,
@@ -62,21 +51,6 @@ pub struct Globoid {
     first: f64,
     /// Angle about the turret from the middle of the cam to its ends, rad.
     end_angle: f64,
-    /// Speed of the cam, rpm, where it is known.
-    rpm: Option<f64>,
-}
-
-/// A flank of a groove.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Flank {
-    /// Its metal lies above the roller.
-    Upper,
-    /// Its metal lies below.
-    Lower,
-}
-
-impl Flank {
-    const BOTH: [Self; 2] = [Self::Upper, Self::Lower];
 }
 
 /// An end of the cam.
@@ -107,23 +81,18 @@ impl Globoid {
             Refusal::new("a globoid needs the depth of its grooves").remedy("give cam.groove_depth, e.g. \"12 mm\"")
         })?;
         let reach = track.barrel.roller_height.unwrap_or(depth);
-        let inside = track.clearance * track.clearance_share;
         let outside = turret.arm - 0.5 * reach;
         let mut found = Self {
-            machine: Arc::new(machine.clone()),
-            motion: Arc::clone(motion),
+            groove: SweptGroove::new(machine, motion, rpm, radius),
             turret,
-            roller: radius,
-            distances: [radius + track.clearance - inside, radius + inside],
             outside,
             reached: outside + reach,
             floor: outside + depth,
             first: 0.0,
             end_angle: turret.end_angle.unwrap_or(f64::NAN),
-            rpm,
         };
         found.first = found.start();
-        refuse_jumps(&**motion)?;
+        found.groove.refuse_jumps()?;
         found.refuse_motion()?;
         found.refuse_size(depth, reach)?;
         if turret.end_angle.is_none() {
@@ -136,20 +105,20 @@ impl Globoid {
 
     /// This globoid with its turret at another distance, m; `None` where no globoid is possible there.
     fn at_distance(&self, distance: f64) -> Option<Self> {
-        let mut machine = Machine::clone(&self.machine);
+        let mut machine = Machine::clone(&self.groove.machine);
         machine.cam.track.turret = Some(TurretData { distance, ..self.turret });
-        Self::of(&machine, &self.motion, self.rpm).ok()
+        Self::of(&machine, &self.groove.motion, self.groove.rpm).ok()
     }
 
     /// Where the first roller stands at the start, less the lift there: a rib or a groove is in the middle.
     fn start(&self) -> f64 {
         let at_rest = if self.turret.rests_in_groove { 0.0 } else { -0.5 * self.turret.pitch() };
-        at_rest - self.motion.jet(0, self.motion.range().0).s
+        at_rest - self.groove.motion.jet(0, self.groove.motion.range().0).s
     }
 
     /// The refusal of a turret that turns back.
     fn refuse_motion(&self) -> Result<(), Refusal> {
-        let slowest = self.motion_extreme(|jet| -jet.ds);
+        let slowest = largest_of_motion(&self.groove, |jet| -jet.ds);
         let small = LEVEL * self.turret.index();
         if slowest.value > small {
             let what = "the turret turns back, and a roller would enter its groove twice";
@@ -172,9 +141,9 @@ impl Globoid {
             return Err(Refusal::new(what)
                 .remedy("give a larger cam.turret_distance, or a smaller cam.arm or cam.groove_depth"));
         }
-        let widest = self.distances[0].max(self.distances[1]);
+        let widest = self.groove.farther();
         let between = 2.0 * self.outside * libm::sin(0.5 * self.turret.pitch());
-        let both = self.distances[0] + self.distances[1];
+        let both = self.groove.distances[0] + self.groove.distances[1];
         if widest >= self.outside || both >= between {
             let [between, both] = [between, both].map(|length| MILLIMETRES * length);
             let what =
@@ -187,9 +156,9 @@ impl Globoid {
     /// The turret angles at which the first roller rests, rad, as they come in a turn.
     fn rests(&self) -> Vec<f64> {
         let small = LEVEL * self.turret.index();
-        let pieces = self.motion.pieces().iter().enumerate();
+        let pieces = self.groove.motion.pieces().iter().enumerate();
         let ends = pieces.flat_map(|(index, piece)| [(index, piece.start), (index, piece.end)]);
-        let jets = ends.map(|(index, angle)| self.motion.jet(index, angle)).filter(|jet| jet.ds.abs() <= small);
+        let jets = ends.map(|(index, angle)| self.groove.motion.jet(index, angle)).filter(|jet| jet.ds.abs() <= small);
         let mut found: Vec<f64> = jets.map(|jet| self.first + jet.s).collect();
         found.dedup_by(|a, b| (*a - *b).abs() < FREE);
         found
@@ -200,7 +169,7 @@ impl Globoid {
         let pitch = self.turret.pitch();
         let mut least = f64::INFINITY;
         for rest in self.rests() {
-            for (distance, sign) in [(self.distances[0], 1.0), (self.distances[1], -1.0)] {
+            for (distance, sign) in [(self.groove.distances[0], 1.0), (self.groove.distances[1], -1.0)] {
                 // In the plane through the axis: from where a flank leaves the outside to where it leaves the floor.
                 let [outer, floor] = [self.outside, self.floor].map(|from| rest + sign * libm::asin(distance / from));
                 for end in [end_angle, -end_angle] {
@@ -249,14 +218,15 @@ impl Globoid {
 
     /// The refusal of flanks that do not reach from the floor to the outside.
     fn refuse_what_leaves(&self) -> Result<(), Refusal> {
-        for (piece, angle) in self.places() {
-            for roller in self.rollers() {
-                let line = self.line((piece, angle, 0.0), f64::from(roller));
+        for (piece, angle) in self.groove.places() {
+            for roller in self.passing_rollers() {
+                let line = self.line_of((piece, angle, 0.0), f64::from(roller));
                 if line.angle[0].abs() > self.end_angle {
                     continue;
                 }
-                let known =
-                    |from: f64| Flank::BOTH.iter().all(|flank| line.at_distance(self.signed(*flank), from).is_some());
+                let known = |from: f64| {
+                    FlankSide::BOTH.iter().all(|flank| line.at_distance(self.groove.signed(*flank), from).is_some())
+                };
                 if !(known(self.floor) && known(self.outside)) {
                     let what = "a flank of a groove does not reach from its floor to the outside: the rollers are too large for the cam";
                     return Err(Refusal::new(what)
@@ -268,17 +238,8 @@ impl Globoid {
         Ok(())
     }
 
-    /// Places of all pieces, a few to each.
-    fn places(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let of = |(index, piece): (usize, &camgen_kernel::motion::Piece)| {
-            let (start, end) = (piece.start, piece.end);
-            (0..=CELLS).map(move |i| (index, start + (end - start) * f64::from(i) / f64::from(CELLS)))
-        };
-        self.motion.pieces().iter().enumerate().flat_map(of)
-    }
-
     /// Numbers of rollers, the first being 0 and the next behind it 1, that may touch the cam during the turn of the motion.
-    fn rollers(&self) -> std::ops::RangeInclusive<i32> {
+    fn passing_rollers(&self) -> std::ops::RangeInclusive<i32> {
         let pitch = self.turret.pitch();
         #[expect(clippy::cast_possible_truncation, reason = "a few rollers")]
         let count = |angle: f64| (angle / pitch).ceil() as i32;
@@ -287,75 +248,42 @@ impl Globoid {
     }
 
     /// The centre line of a roller at a place: piece, cam angle in it, and turns beyond it.
-    fn line(&self, (piece, angle, turns): (usize, f64, f64), roller: f64) -> TurretLine {
-        let jet = self.motion.jet(piece, angle);
-        let moved = turns * self.turret.index() - roller * self.turret.pitch();
-        TurretLine { distance: self.turret.distance, angle: [self.first + jet.s + moved, jet.ds, jet.dds] }
+    fn line_of(&self, (piece, angle, turns): (usize, f64, f64), roller: f64) -> TurretLine {
+        self.line_at_lift(
+            &self.groove.motion.jet(piece, angle),
+            turns * self.turret.index() - roller * self.turret.pitch(),
+        )
+    }
+
+    /// The centre line of a roller at a lift, moved by an angle from the first one in the first turn.
+    fn line_at_lift(&self, lift: &Jet, moved: f64) -> TurretLine {
+        TurretLine { distance: self.turret.distance, angle: [self.first + lift.s + moved, lift.ds, lift.dds] }
     }
 
     /// The centre line of a roller at a cam angle of any turn.
     fn line_at(&self, angle: f64, roller: f64) -> TurretLine {
-        let (piece, inside) = self.motion.locate(angle);
-        self.line((piece, inside, ((angle - inside) / TAU).round()), roller)
-    }
-
-    /// The largest of a value of the motion.
-    fn motion_extreme(&self, value: impl Fn(&Jet) -> f64) -> Worst {
-        let of = |(index, piece): (usize, &camgen_kernel::motion::Piece)| {
-            let at = |angle: f64| value(&self.motion.jet(index, angle));
-            extremum::largest_without_slope(at, (piece.start, piece.end), CELLS, SECTIONS)
-        };
-        let found =
-            self.motion.pieces().iter().enumerate().map(of).reduce(|a, b| if b.value > a.value { b } else { a });
-        found.map_or(Worst::NONE, |Extremum { value, at, .. }| Worst { value, at, z: 0.0 })
-    }
-
-    /// The largest of a value of the centre lines of all rollers that touch the cam.
-    fn largest(&self, value: impl Fn(&TurretLine) -> f64 + Sync) -> Worst {
-        let reach = self.end_angle + libm::asin(self.distances[0].max(self.distances[1]) / self.outside);
-        let of_roller = |roller: &i32| {
-            let of = |(index, piece): (usize, &camgen_kernel::motion::Piece)| {
-                let at = |angle: f64| {
-                    let line = self.line((index, angle, 0.0), f64::from(*roller));
-                    if line.angle[0].abs() <= reach { value(&line) } else { f64::NEG_INFINITY }
-                };
-                extremum::largest_without_slope(at, (piece.start, piece.end), CELLS, SECTIONS)
-            };
-            let pieces = self.motion.pieces().iter().enumerate();
-            pieces.map(of).reduce(|a, b| if b.value > a.value { b } else { a })
-        };
-        let rollers: Vec<i32> = self.rollers().collect();
-        let found = camgen_kernel::numeric::parallel::map(&rollers, of_roller);
-        let largest = found.into_iter().flatten().reduce(|a, b| if b.value > a.value { b } else { a });
-        largest.map_or(Worst::NONE, |Extremum { value, at, .. }| Worst { value, at, z: 0.0 })
-    }
-
-    /// Signed distance of a flank from the centre line, m: positive above.
-    fn signed(&self, flank: Flank) -> f64 {
-        match flank {
-            Flank::Upper => self.distances[0],
-            Flank::Lower => -self.distances[1],
-        }
+        let (piece, inside) = self.groove.motion.locate(angle);
+        self.line_of((piece, inside, ((angle - inside) / TAU).round()), roller)
     }
 
     /// A flank of a roller's groove at a distance from the turret's axis and a cam angle of any turn.
-    fn edge(&self, flank: Flank, from_turret: f64, (angle, roller): (f64, f64)) -> Option<FlankPoint> {
-        self.line_at(angle, roller).at_distance(self.signed(flank), from_turret)
+    fn edge(&self, flank: FlankSide, from_turret: f64, (angle, roller): (f64, f64)) -> Option<FlankPoint> {
+        self.line_at(angle, roller).at_distance(self.groove.signed(flank), from_turret)
     }
 
     /// The cam angle at which the flank of a roller passes an end of the cam at a distance from the turret's axis; `None` where it does not.
-    fn passes(&self, flank: Flank, end: End, (from_turret, roller): (f64, f64)) -> Option<f64> {
+    fn passes(&self, flank: FlankSide, end: End, (from_turret, roller): (f64, f64)) -> Option<f64> {
         let due = end.sign() * self.end_angle;
         let off = |angle: f64| {
             let found = self.edge(flank, from_turret, (angle, roller));
             found.map_or(f64::NAN, |found| found.about_turret(self.turret.distance) - due)
         };
         // Which turn of the cam brings the roller there, and between which joints of the motion.
-        let spread = self.signed(flank).signum() * libm::asin(self.signed(flank).abs() / from_turret);
+        let spread = self.groove.signed(flank).signum() * libm::asin(self.groove.signed(flank).abs() / from_turret);
         let target = due - spread - self.first + roller * self.turret.pitch();
         let turn = (target / self.turret.index()).floor();
         for turns in [turn, turn - 1.0, turn + 1.0] {
-            for piece in self.motion.pieces().iter().filter(|piece| !piece.dwell) {
+            for piece in self.groove.motion.pieces().iter().filter(|piece| !piece.dwell) {
                 let (low, high) = (piece.start + turns * TAU, piece.end + turns * TAU);
                 if off(low) < 0.0 && off(high) >= 0.0 {
                     return root::bracketed(off, low, high, 0.0).ok();
@@ -365,55 +293,10 @@ impl Globoid {
         None
     }
 
-    /// Distances from the turret's axis between which a roller touches the flanks, m.
-    fn touched(&self) -> [f64; 2] {
-        [self.outside, self.reached]
-    }
-
-    /// Largest pressure angle, rad, anywhere along the rollers that touch.
-    fn pressure_angle(&self) -> Worst {
-        self.largest(|line| {
-            self.touched()
-                .map(|v| line.point(v).slope)
-                .into_iter()
-                .map(|(sin, cos)| libm::atan2(sin, cos))
-                .fold(0.0, f64::max)
-        })
-    }
-
-    /// Smallest distance from the centre line at which a flank self-intersects, m, over the grooves' depth: taken between the points at which the flank
-    /// itself meets the outside and the floor, even if the centre line meets them beyond the ends of the cam.
-    fn least_fold(&self) -> Worst {
-        let sharpest = self.largest(|line| {
-            let of = |flank: Flank, from_turret: f64| {
-                let distance = self.signed(flank);
-                let found = line.at_distance(distance, from_turret);
-                line.folds_at(&found.map_or_else(|| line.point(from_turret), |found| found.line), distance.signum())
-            };
-            let folds = Flank::BOTH.map(|flank| of(flank, self.outside).min(of(flank, self.floor)));
-            folds.into_iter().map(f64::recip).fold(0.0, f64::max)
-        });
-        Worst { value: sharpest.value.recip(), ..sharpest }
-    }
-
-    /// 1 where the drawing is that of a cam that turns clockwise, −1 where it is mirrored.
-    fn sense(&self) -> f64 {
-        if self.is_clockwise() { 1.0 } else { -1.0 }
-    }
-
-    fn is_clockwise(&self) -> bool {
-        self.machine.cam.rotation == Rotation::Clockwise
-    }
-
     /// Radius and height of a rim of an end, m: on the outside or on the floor.
     fn rim(&self, from_turret: f64) -> (f64, f64) {
         let (sin, cos) = libm::sincos(self.end_angle);
         (self.turret.distance - from_turret * cos, from_turret * sin)
-    }
-
-    /// Angular speed of the cam, rad/s.
-    fn speed(&self) -> Option<f64> {
-        self.rpm.map(|rpm| rpm * TAU / 60.0)
     }
 }
 

@@ -1,9 +1,9 @@
 //! The sections of the report on a globoid.
 
 use super::Globoid;
-use crate::body::disc::program;
+use crate::body::DrawingEvidence;
 use crate::body::flank_switch::SwitchFigures;
-use crate::body::{DrawingEvidence, in_groove};
+use crate::body::swept::{pressure_angles, sharpest_curvature};
 use crate::report::{Section, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use serde::Serialize;
@@ -43,38 +43,22 @@ struct GloboidSection {
     switches: Vec<SwitchFigures>,
 }
 
-/// Everything that is reported of a globoid.
-pub(super) fn sections(globoid: &Globoid, found: &DrawingEvidence<'_>) -> Vec<Section> {
-    let mut sections = vec![section(globoid, found)];
-    sections.extend(program::of_motion(&*globoid.motion, globoid.speed()));
-    sections.extend(in_groove::sections(globoid));
-    sections
-}
-
-/// Cubic millimetres in a cubic metre.
-const CUBIC: f64 = MILLIMETRES * MILLIMETRES * MILLIMETRES;
-
-fn section(globoid: &Globoid, found: &DrawingEvidence<'_>) -> Section {
+/// The section with these changes of flank.
+pub(super) fn section(globoid: &Globoid, found: &DrawingEvidence<'_>, switches: Vec<SwitchFigures>) -> Section {
     let drawn = found.drawn.and_then(|drawn| drawn.swept.as_deref());
-    let [upper, lower] = globoid.distances;
-    let sharpest = globoid.largest(|line| {
-        let of = |v: f64, distance: f64| line.reduced_curvature(&line.point(v), distance);
-        let [outer, inner] = globoid.touched();
-        [of(inner, upper), of(inner, -lower), of(outer, upper), of(outer, -lower)].into_iter().fold(0.0, f64::max)
-    });
     let rest: f64 =
-        globoid.motion.pieces().iter().filter(|piece| piece.dwell).map(|piece| piece.end - piece.start).sum();
+        globoid.groove.motion.pieces().iter().filter(|piece| piece.dwell).map(|piece| piece.end - piece.start).sum();
     let volume = drawn.map(|drawn| drawn.solid.volume);
-    let (turret, machine) = (globoid.turret, &globoid.machine);
+    let turret = globoid.turret;
     let value = GloboidSection {
         rollers: turret.rollers,
         advance: turret.advance,
         index_deg: turret.index().to_degrees(),
         turret_distance_mm: MILLIMETRES * turret.distance,
         arm_mm: MILLIMETRES * turret.arm,
-        roller_radius_mm: MILLIMETRES * globoid.roller,
+        roller_radius_mm: MILLIMETRES * globoid.groove.roller,
         roller_height_mm: MILLIMETRES * (globoid.reached - globoid.outside),
-        groove_width_mm: MILLIMETRES * (upper + lower),
+        groove_width_mm: MILLIMETRES * globoid.groove.width(),
         groove_depth_mm: MILLIMETRES * (globoid.floor - globoid.outside),
         outside_about_turret_mm: MILLIMETRES * globoid.outside,
         floor_about_turret_mm: MILLIMETRES * globoid.floor,
@@ -82,14 +66,14 @@ fn section(globoid: &Globoid, found: &DrawingEvidence<'_>) -> Section {
         outer_radius_mm: MILLIMETRES * globoid.rim(globoid.outside).0,
         blank_length_mm: 2.0 * MILLIMETRES * globoid.rim(globoid.floor).1,
         end_angle_deg: globoid.end_angle.to_degrees(),
-        pressure_angle_deg: globoid.pressure_angle().value.to_degrees(),
+        pressure_angle_deg: pressure_angles(globoid)[0].value.to_degrees(),
         rest_deg: rest.to_degrees(),
         thinnest_rib_mm: MILLIMETRES * globoid.thinnest_rib().0,
-        largest_reduced_curvature_per_mm: sharpest.value / MILLIMETRES,
+        largest_reduced_curvature_per_mm: sharpest_curvature(globoid) / MILLIMETRES,
         volume_mm3: volume,
-        mass_kg: volume.map(|volume| volume / CUBIC * machine.cam.density()),
+        mass_kg: volume.map(|volume| globoid.groove.mass(volume)),
         spline_deviation_mm: drawn.map(|drawn| drawn.deviation),
-        switches: in_groove::switches(globoid),
+        switches,
     };
     let words = words(&value, globoid);
     let figures = words.iter().take(4).cloned().collect();
@@ -134,7 +118,7 @@ fn words(section: &GloboidSection, globoid: &Globoid) -> Vec<String> {
     if let Some(mass) = section.mass_kg {
         words.push(format!("mass {} kg", shown(mass)));
     }
-    if globoid.holes().is_empty() {
+    if globoid.groove.holes().is_empty() {
         words.push("without a bore".into());
     }
     words.extend(section.switches.iter().map(SwitchFigures::words));

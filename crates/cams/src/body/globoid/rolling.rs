@@ -2,6 +2,7 @@
 
 use super::Globoid;
 use super::contact::TurretLine;
+use crate::body::swept::{Descent, NearestRoller, SeenPoint};
 use nalgebra::Vector3;
 
 /// Cam angles to either side of a point at which rollers are tried first, their distance over that of a flank from the roller's path, and steps to the nearest.
@@ -13,34 +14,10 @@ const WORTH: f64 = 2.0;
 /// far at most between its contact and the point's own angle.
 const FARTHEST: f64 = 1.2;
 const STEPS: usize = 16;
-const AT_REST: f64 = 1e-14;
-
-/// Where a roller comes nearest to a point.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Nearest {
-    /// Cam angle, rad, of any turn.
-    pub(super) at: f64,
-    /// Turret angle of the roller there, rad.
-    pub(super) turret: f64,
-    /// Of the point from the centre line of the roller, m: along the circumference, and across the roller upwards.
-    pub(super) off: [f64; 2],
-}
-
-/// The place of a point seen along a centre line, with two derivatives by the cam angle.
-struct Seen {
-    off: [f64; 2],
-    first: [f64; 2],
-    second: [f64; 2],
-    turret: f64,
-}
 
 impl Globoid {
     /// A point (m) seen along the centre line of a roller at a cam angle.
-    fn seen(&self, point: Vector3<f64>, angle: f64, roller: f64) -> Seen {
-        Self::seen_along(point, angle, self.line_at(angle, roller))
-    }
-
-    fn seen_along(point: Vector3<f64>, angle: f64, line: TurretLine) -> Seen {
+    fn see(point: Vector3<f64>, angle: f64, line: TurretLine) -> SeenPoint {
         let [turret, by, second] = line.angle;
         let (sin, cos) = libm::sincos(angle);
         let (s, c) = libm::sincos(turret);
@@ -49,51 +26,27 @@ impl Globoid {
         let up = off * s + point.z * c;
         let back = off * c - point.z * s;
         let back_by = across * c - up * by;
-        Seen {
+        SeenPoint {
             off: [across, up],
             first: [-out, across * s + back * by],
             second: [-across, -out * s + across * c * by + back_by * by + back * second],
-            turret,
+            rise: (s, c),
         }
     }
 
     /// Where the roller of a number comes nearest to a point, m, near a cam angle.
-    fn nearest_of(&self, point: Vector3<f64>, start: f64, roller: f64) -> (f64, Nearest) {
-        // A longer step could lead to where the roller's axis, without its end, passes the point on the far side of the cam.
-        let longest = APART * self.distances[0].max(self.distances[1]) / point.xy().norm();
-        let square = |seen: &Seen| seen.off[0] * seen.off[0] + seen.off[1] * seen.off[1];
-        let (mut at, mut seen) = (start, self.seen(point, start, roller));
-        let mut least = square(&seen);
-        for _ in 0..STEPS {
-            let ([a, b], [da, db], [dda, ddb]) = (seen.off, seen.first, seen.second);
-            let (slope, bend) = (a * da + b * db, da * da + db * db + a * dda + b * ddb);
-            let mut by = (slope / if bend > 0.0 { bend } else { da * da + db * db }).clamp(-longest, longest);
-            let mut next = self.seen(point, at - by, roller);
-            // A step that does not come nearer is halved.
-            for _ in 0..STEPS {
-                if square(&next) <= least {
-                    break;
-                }
-                by *= 0.5;
-                next = self.seen(point, at - by, roller);
-            }
-            if square(&next) > least {
-                break;
-            }
-            (at, least, seen) = (at - by, square(&next), next);
-            if by.abs() <= AT_REST {
-                break;
-            }
-        }
-        (least, Nearest { at, turret: seen.turret, off: seen.off })
+    fn nearest_of(&self, point: Vector3<f64>, start: f64, roller: f64) -> NearestRoller {
+        let longest = APART * self.groove.farther() / point.xy().norm();
+        let descent = Descent { longest, steps: STEPS };
+        descent.from(start, |angle| Self::see(point, angle, self.line_at(angle, roller)))
     }
 
     /// The roller that comes nearest to a point, m.
-    pub(super) fn nearest(&self, point: Vector3<f64>) -> Nearest {
+    pub(super) fn nearest_roller(&self, point: Vector3<f64>) -> NearestRoller {
         let polar = libm::atan2(point.y, point.x);
         let radius = point.xy().norm();
         let about = libm::atan2(point.z, self.turret.distance - radius);
-        let step = APART * self.distances[0].max(self.distances[1]) / radius;
+        let step = APART * self.groove.farther() / radius;
         let lead = (self.line_at(polar, 0.0).angle[0] - about) / self.turret.pitch();
         let places: Vec<(f64, TurretLine)> = (-TRIED - 1..=TRIED + 1)
             .map(|i| polar + step * f64::from(i))
@@ -106,9 +59,7 @@ impl Globoid {
             let back = roller * self.turret.pitch();
             let square = |(angle, line): &(f64, TurretLine)| {
                 let [turret, by, second] = line.angle;
-                let [a, b] =
-                    Self::seen_along(point, *angle, TurretLine { angle: [turret - back, by, second], ..*line }).off;
-                a * a + b * b
+                Self::see(point, *angle, TurretLine { angle: [turret - back, by, second], ..*line }).square()
             };
             let tried: Vec<f64> = places.iter().map(square).collect();
             for ((start, _), around) in places.iter().skip(1).zip(tried.windows(3)) {
@@ -122,26 +73,28 @@ impl Globoid {
         let least = starts.iter().map(|start| start.2).fold(f64::INFINITY, f64::min);
         let near = starts.iter().filter(|start| start.2 <= WORTH * least);
         let found = near.map(|(angle, roller, _)| self.nearest_of(point, *angle, *roller));
-        let found = found.reduce(|best, next| if next.0 < best.0 { next } else { best });
-        found.map_or(Nearest { at: polar, turret: about, off: [f64::NAN; 2] }, |(_, nearest)| nearest)
+        let found = found.reduce(|best, next| if next.seen.square() < best.seen.square() { next } else { best });
+        let [off, first, second] = [[f64::NAN; 2]; 3];
+        found.unwrap_or(NearestRoller { at: polar, seen: SeenPoint { off, first, second, rise: libm::sincos(about) } })
     }
 
     /// The least thickness of the ribs on the outside, m, where they are thinnest, with the cam angle: what lies between a flank and the nearest roller above it.
     pub(super) fn thinnest_rib(&self) -> (f64, f64) {
         let mut least = (f64::INFINITY, 0.0);
-        for (piece, angle) in self.places() {
-            let line = self.line((piece, angle, 0.0), 0.0);
+        for (piece, angle) in self.groove.places() {
+            let line = self.line_of((piece, angle, 0.0), 0.0);
             // Of the roller that then is nearest to the middle.
             let roller = (line.angle[0] / self.turret.pitch()).round();
-            let Some(found) = self.line((piece, angle, 0.0), roller).at_distance(self.distances[0], self.outside)
+            let Some(found) =
+                self.line_of((piece, angle, 0.0), roller).at_distance(self.groove.distances[0], self.outside)
             else {
                 continue;
             };
             let (sin, cos) = libm::sincos(angle);
             let place = found.place;
             let point = Vector3::new(place.x * cos - place.y * sin, place.x * sin + place.y * cos, place.z);
-            let (square, _) = self.nearest_of(point, angle, roller - 1.0);
-            let thick = square.sqrt() - self.distances[1];
+            let nearest = self.nearest_of(point, angle, roller - 1.0);
+            let thick = nearest.seen.square().sqrt() - self.groove.distances[1];
             if !(thick >= least.0) {
                 least = (thick, angle);
             }

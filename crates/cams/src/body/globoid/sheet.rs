@@ -1,11 +1,10 @@
 //! What the review sheet of a globoid shows: the section of its blank with the turret, and a table of places of both flanks.
 
 use super::mechanism::outline;
-use super::{End, Flank, Globoid};
-use crate::body::Drawn;
-use crate::body::sheet::{keyway_note, tolerance_note};
-use crate::report::sheet::Dimensions;
-use crate::report::sheet::{Mark, PlaceTable, ShapeGroup, SheetShape, SheetView, TitleFacts, rounded};
+use super::{End, Globoid};
+use crate::body::swept::FlankSide;
+use crate::body::swept::sheet::{bore_mark, dimension};
+use crate::report::sheet::{Dimensions, Mark, PlaceTable, ShapeGroup, SheetShape, SheetView, rounded};
 use camgen_kernel::geometry::{Entity, MILLIMETRES};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
@@ -16,20 +15,11 @@ const ROWS: u32 = 72;
 /// What stands for a place beyond the ends.
 const NOWHERE: &str = "–";
 
-/// What the review sheet shows.
-pub(super) fn view(globoid: &Globoid, drawn: &Drawn) -> SheetView {
-    let swept = drawn.swept.as_deref();
-    let volume = swept.map(|swept| swept.solid.volume);
-    let mass = |volume: f64| volume / (MILLIMETRES * MILLIMETRES * MILLIMETRES) * globoid.machine.cam.density();
-    let height = MILLIMETRES * globoid.rim(globoid.floor).1;
-    let mut view = SheetView {
-        groups: section(globoid),
-        tables: tables(globoid),
-        facts: TitleFacts { thickness_mm: Some(2.0 * height), ..TitleFacts::of(&globoid.machine, volume.map(mass)) },
-        notes: tolerance_note(&globoid.machine).into_iter().chain(keyway_note(&globoid.machine)).collect(),
-        ..SheetView::default()
-    };
-    let sense = if globoid.is_clockwise() { "clockwise" } else { "counter-clockwise" };
+/// Adds what the review sheet shows.
+pub(super) fn fill(globoid: &Globoid, view: &mut SheetView) {
+    view.groups = section(globoid);
+    view.tables = tables(globoid);
+    let sense = if globoid.groove.is_clockwise() { "clockwise" } else { "counter-clockwise" };
     view.notes.push(format!(
         "Section through the axes of cam and turret. The cam turns {sense} seen from above; its rollers move up."
     ));
@@ -38,8 +28,7 @@ pub(super) fn view(globoid: &Globoid, drawn: &Drawn) -> SheetView {
         globoid.turret.rollers,
         rounded(globoid.turret.index().to_degrees())
     ));
-    marks(globoid, &mut view);
-    view
+    marks(globoid, view);
 }
 
 /// The blank, its floor, the bore, the axes, and the rollers as they stand at the start.
@@ -56,7 +45,7 @@ fn section(globoid: &Globoid) -> Vec<ShapeGroup> {
         SheetShape::Arc(end(-1.0), end(1.0), bulge)
     };
     let mut rollers = Vec::new();
-    for number in globoid.rollers() {
+    for number in globoid.passing_rollers() {
         let angle = globoid.line_at(0.0, f64::from(number)).angle[0];
         if angle.abs() > globoid.end_angle {
             continue;
@@ -66,11 +55,11 @@ fn section(globoid: &Globoid) -> Vec<ShapeGroup> {
             let (along, across) = (MILLIMETRES * along, MILLIMETRES * across);
             at(distance - along * cos + across * sin, along * sin + across * cos)
         };
-        let [inner, outer, radius] = [globoid.outside, globoid.reached, globoid.roller];
+        let [inner, outer, radius] = [globoid.outside, globoid.reached, globoid.groove.roller];
         let corners = [(inner, -radius), (outer, -radius), (outer, radius), (inner, radius), (inner, -radius)];
         rollers.push(SheetShape::Path(corners.map(|(a, b)| place(a, b)).to_vec()));
     }
-    let bore = globoid.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius);
+    let bore = globoid.groove.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius);
     let edges = bore.iter().flat_map(|radius| [*radius, -radius]);
     let hidden: Vec<SheetShape> = edges.map(|x| SheetShape::Line(at(x, -height), at(x, height))).collect();
     let beyond = 0.1 * distance;
@@ -94,7 +83,7 @@ fn section(globoid: &Globoid) -> Vec<ShapeGroup> {
 
 /// The dimensions of the blank.
 fn marks(globoid: &Globoid, view: &mut SheetView) {
-    let units = globoid.machine.units();
+    let units = globoid.groove.machine.units();
     let at = Vector2::new;
     let [distance, outside, floor] =
         [globoid.turret.distance, globoid.outside, globoid.floor].map(|length| MILLIMETRES * length);
@@ -103,12 +92,6 @@ fn marks(globoid: &Globoid, view: &mut SheetView) {
     let (rim, height) = globoid.rim(globoid.floor);
     let (rim, height) = (MILLIMETRES * rim, MILLIMETRES * height);
     let waist = distance - outside;
-    let dimension = |from: Vector2<f64>, to: Vector2<f64>, away: Vector2<f64>, text: String| Mark::Distance {
-        from,
-        to,
-        away,
-        text,
-    };
     let (up, down, left) = (at(0.0, 1.0), at(0.0, -1.0), at(-1.0, 0.0));
     view.marks.push(dimension(
         at(-outer, outer_z),
@@ -120,15 +103,7 @@ fn marks(globoid: &Globoid, view: &mut SheetView) {
     view.marks.push(dimension(at(-outer, -height), at(-outer, height), left, units.dimension(2.0 * height)));
     view.marks.push(dimension(at(outer, -outer_z), at(outer, outer_z), at(1.0, 0.0), units.dimension(2.0 * outer_z)));
     view.marks.push(dimension(at(0.0, -height), at(distance, -height), down, units.dimension(distance)));
-    if let Some(radius) = globoid.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius) {
-        let fit = globoid.machine.cam.bore_fit.map_or(String::new(), |fit| format!(" {fit}"));
-        view.marks.push(dimension(
-            at(-radius, height),
-            at(radius, height),
-            up,
-            format!("Ø{}{fit}", units.dimension(2.0 * radius)),
-        ));
-    }
+    view.marks.extend(bore_mark(&globoid.groove.machine, at(0.0, height)));
     let hollow = -0.5 * globoid.end_angle;
     let (sin, cos) = libm::sincos(hollow);
     view.marks.push(Mark::Label {
@@ -137,7 +112,7 @@ fn marks(globoid: &Globoid, view: &mut SheetView) {
         towards: at(0.9, -0.4),
         text: format!("R{} about the turret, waist Ø{}", units.dimension(outside), units.dimension(2.0 * waist)),
     });
-    let width = MILLIMETRES * globoid.distances.iter().sum::<f64>();
+    let width = MILLIMETRES * globoid.groove.width();
     view.marks.push(Mark::Label {
         class: "dimension",
         at: at(-(distance - floor), 0.0),
@@ -148,12 +123,12 @@ fn marks(globoid: &Globoid, view: &mut SheetView) {
 
 /// Angle, radius and height of both flanks on the outside and at the floor, from where the first groove enters to where it leaves.
 fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
-    let [Some(from), Some(to)] = [(Flank::Upper, End::Bottom), (Flank::Lower, End::Top)]
+    let [Some(from), Some(to)] = [(FlankSide::Upper, End::Bottom), (FlankSide::Lower, End::Top)]
         .map(|(flank, end)| globoid.passes(flank, end, (globoid.outside, 0.0)))
     else {
         return Vec::new();
     };
-    let units = globoid.machine.units();
+    let units = globoid.groove.machine.units();
     // Whole steps of five degrees, as many as the groove is long.
     let step = TAU / f64::from(ROWS);
     let (first, last) = ((from / step).floor(), (to / step).ceil());
@@ -163,13 +138,13 @@ fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
         let angle = i * step;
         let mut cells = vec![rounded(angle.to_degrees())];
         for from_turret in [globoid.outside, globoid.floor] {
-            for flank in Flank::BOTH {
+            for flank in FlankSide::BOTH {
                 let found = globoid.edge(flank, from_turret, (angle, 0.0));
                 let inside =
                     found.filter(|found| found.about_turret(globoid.turret.distance).abs() <= globoid.end_angle);
                 cells.extend(match inside {
                     Some(found) => [
-                        format!("{:.4}", globoid.sense() * (angle + found.ahead()).to_degrees()),
+                        format!("{:.4}", globoid.groove.sense() * (angle + found.ahead()).to_degrees()),
                         units.cell(MILLIMETRES * found.radius()),
                         units.cell(MILLIMETRES * found.place.z),
                     ],

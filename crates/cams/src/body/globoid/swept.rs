@@ -1,14 +1,13 @@
 //! The globoid as a body with swept flanks: the rollers rolled past any point, its round faces and its volume.
 
-use super::{End, Flank, Globoid};
-use crate::body::swept::{FlankMiss, RoundFace, RoundForm, SweptFlanks};
+use super::{End, Globoid};
+use crate::body::swept::{FlankMiss, FlankSide, RoundFace, RoundForm, SweptFlanks, integrate_smooth, miss};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::numeric::quadrature;
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
-/// Panels of eight points for a radian of cam angle, and over the depth of the groove.
-const PANELS_PER_RADIAN: f64 = 4.0;
+/// Panels of eight points over the depth of the groove.
 const PANELS_DEEP: u32 = 2;
 
 impl Globoid {
@@ -32,7 +31,7 @@ impl Globoid {
     /// Area of the groove of a roller on the torus at a distance from the turret's axis, m²: ∮ w (D φ − w sin φ) du round it, with the polar angle u.
     fn groove_area(&self, from_turret: f64, roller: f64) -> f64 {
         let height = |about: f64| from_turret * (self.turret.distance * about - from_turret * libm::sin(about));
-        let of = |flank: Flank| {
+        let of = |flank: FlankSide| {
             let ends =
                 [End::Bottom, End::Top].map(|end| self.passes(flank, end, (from_turret, roller)).unwrap_or(f64::NAN));
             let mut area = 0.0;
@@ -42,27 +41,25 @@ impl Globoid {
                     found
                         .map_or(f64::NAN, |found| height(found.about_turret(self.turret.distance)) * found.polar_rate())
                 };
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a turn has few panels")]
-                let panels = ((to - from) * PANELS_PER_RADIAN).ceil().max(1.0) as u32;
-                area += quadrature::integrate(value, (from, to), panels);
+                area += integrate_smooth(value, (from, to));
             }
             let polar = |angle: f64| {
                 self.edge(flank, from_turret, (angle, roller)).map_or(f64::NAN, |found| angle + found.ahead())
             };
             (area, ends.map(polar))
         };
-        let ((upper, [enters, leaves]), (lower, [later, last])) = (of(Flank::Upper), of(Flank::Lower));
+        let ((upper, [enters, leaves]), (lower, [later, last])) = (of(FlankSide::Upper), of(FlankSide::Lower));
         // Along the ends, from where the upper flank passes them to where the lower one does.
         upper - lower + height(-self.end_angle) * (enters - later) - height(self.end_angle) * (leaves - last)
     }
 
     /// The parts of a range of cam angles, of any turn, within the pieces of the motion.
     fn smooth_parts(&self, [from, to]: [f64; 2]) -> Vec<(f64, f64)> {
-        let start = self.motion.range().0;
+        let start = self.groove.motion.range().0;
         let mut parts = Vec::new();
         let mut turns = ((from - start) / TAU).floor();
         while start + turns * TAU < to {
-            for piece in self.motion.pieces() {
+            for piece in self.groove.motion.pieces() {
                 let part = ((piece.start + turns * TAU).max(from), (piece.end + turns * TAU).min(to));
                 if part.1 > part.0 {
                     parts.push(part);
@@ -84,20 +81,7 @@ impl Globoid {
 
 impl SweptFlanks for Globoid {
     fn miss(&self, point: Vector3<f64>) -> FlankMiss {
-        let sense = self.sense();
-        let own = Vector3::new(point.x, sense * point.y, point.z) / MILLIMETRES;
-        let nearest = self.nearest(own);
-        let [across, up] = nearest.off;
-        let away = libm::hypot(across, up);
-        let flank = if up > 0.0 { Flank::Upper } else { Flank::Lower };
-        let (sin, cos) = libm::sincos(nearest.at);
-        let (s, c) = libm::sincos(nearest.turret);
-        // Out of the metal, towards the centre line of the roller.
-        let (in_plane, round) = (-up * s, -across);
-        let outward =
-            Vector3::new(in_plane * cos - round * sin, sense * (in_plane * sin + round * cos), -up * c) / away;
-        let angle = self.motion.locate(nearest.at).1;
-        FlankMiss { value: MILLIMETRES * (away - self.signed(flank).abs()), at: angle, outward }
+        miss(self, point)
     }
 
     fn form(&self) -> RoundForm {

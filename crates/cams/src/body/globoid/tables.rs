@@ -1,14 +1,13 @@
 //! The tables of a globoid: places of both flanks of each groove, and those of a tool on two rotary axes.
 
-use super::{End, Flank, Globoid};
+use super::{End, Globoid};
+use crate::body::swept::{FlankSide, RollerLine};
 use crate::table::{ListedColumn, Table};
 use camgen_kernel::geometry::MILLIMETRES;
 use std::f64::consts::TAU;
 
 /// Distances from the turret's axis at which the flanks are listed, from the floor to the outside.
 const TUBES: u32 = 4;
-/// Rounding of a diameter that was typed.
-const ROUNDING: f64 = 1e-12;
 
 /// A place of a flank.
 struct SectionRow {
@@ -56,7 +55,7 @@ const TWO_AXES: &[ListedColumn<ToolRow>] = &[
 
 impl Globoid {
     /// Cam angles, a step apart, at which a flank of a groove lies between the ends.
-    fn angles(&self, flank: Flank, (from_turret, roller): (f64, f64), samples: u32) -> Vec<f64> {
+    fn angles(&self, flank: FlankSide, (from_turret, roller): (f64, f64), samples: u32) -> Vec<f64> {
         let ends = [End::Bottom, End::Top].map(|end| self.passes(flank, end, (from_turret, roller)));
         let [Some(from), Some(to)] = ends else { return Vec::new() };
         let step = TAU / f64::from(samples.max(1));
@@ -78,7 +77,7 @@ impl Globoid {
             for ring in 0..=TUBES {
                 let share = f64::from(ring) / f64::from(TUBES);
                 let from_turret = self.floor + (self.outside - self.floor) * share;
-                for (flank, sign) in [(Flank::Upper, 1.0), (Flank::Lower, -1.0)] {
+                for (flank, sign) in [(FlankSide::Upper, 1.0), (FlankSide::Lower, -1.0)] {
                     for angle in self.angles(flank, (from_turret, roller), samples) {
                         let Some(found) = self.edge(flank, from_turret, (angle, roller)) else { continue };
                         rows.push(SectionRow {
@@ -86,7 +85,7 @@ impl Globoid {
                             flank: sign,
                             cam_deg: angle.to_degrees(),
                             from_turret_mm: MILLIMETRES * from_turret,
-                            polar_deg: self.sense() * (angle + found.ahead()).to_degrees(),
+                            polar_deg: self.groove.sense() * (angle + found.ahead()).to_degrees(),
                             radius_mm: MILLIMETRES * found.radius(),
                             z_mm: MILLIMETRES * found.place.z,
                         });
@@ -101,21 +100,18 @@ impl Globoid {
     /// centre line of the roller, across (y) and upwards (w). A tool as wide as the groove, which is meant where none is given, runs in the middle
     /// between both flanks; a smaller one along either flank, which it touches exactly in the middle of the groove's depth.
     pub(super) fn two_axes_table(&self, samples: u32, tool: Option<f64>) -> Table {
-        let half = 0.5 * self.distances.iter().sum::<f64>();
-        let one = tool.is_none_or(|tool| tool >= half * (1.0 - ROUNDING));
-        let radius = if one { half } else { tool.unwrap_or(half) };
-        let middle = 0.5 * (self.distances[0] - self.distances[1]);
-        let passes = if one { vec![middle] } else { vec![self.distances[0] - radius, radius - self.distances[1]] };
+        let passes = self.groove.passes(tool);
         let step = TAU / f64::from(samples.max(1));
         let mut rows = Vec::new();
         for groove in 0..self.turret.advance {
             let roller = f64::from(groove);
-            let enters = self.passes(Flank::Upper, End::Bottom, (self.floor, roller)).unwrap_or(f64::NAN);
-            let leaves = self.passes(Flank::Lower, End::Top, (self.floor, roller)).unwrap_or(f64::NAN);
-            for away in &passes {
+            let enters = self.passes(FlankSide::Upper, End::Bottom, (self.floor, roller)).unwrap_or(f64::NAN);
+            let leaves = self.passes(FlankSide::Lower, End::Top, (self.floor, roller)).unwrap_or(f64::NAN);
+            for flank in passes.flanks {
+                let away = self.groove.tool_offset(*flank, passes.radius);
                 let mut i = (enters / step).floor();
                 while (i - 1.0) * step < leaves {
-                    rows.push(self.tool_row((i * step, roller), (radius, *away)));
+                    rows.push(self.tool_row((i * step, roller), (passes.radius, away)));
                     i += 1.0;
                 }
             }
@@ -133,12 +129,12 @@ impl Globoid {
             away.abs() * (1.0 - (there.0 * sin + there.1 * cos))
         });
         let [tool_mm, y_mm, w_mm, tip_mm, missed_mm] =
-            [2.0 * radius, -self.sense() * away * sin, away * cos, self.floor, missed[0].max(missed[1])]
+            [2.0 * radius, -self.groove.sense() * away * sin, away * cos, self.floor, missed[0].max(missed[1])]
                 .map(|length| MILLIMETRES * length);
         ToolRow {
             groove: roller + 1.0,
             tool_mm,
-            a_deg: self.sense() * angle.to_degrees(),
+            a_deg: self.groove.sense() * angle.to_degrees(),
             b_deg: line.angle[0].to_degrees(),
             y_mm,
             w_mm,

@@ -1,6 +1,6 @@
-use super::{End, Flank, Globoid};
+use super::{End, Globoid};
 use crate::body::in_groove::{GrooveForces, InGroove};
-use crate::body::swept::SweptFlanks;
+use crate::body::swept::{FlankSide, RollerLine, SweptFlanks};
 use crate::machine::Machine;
 use crate::pipeline::{Cam, Spec};
 use nalgebra::Vector3;
@@ -18,9 +18,9 @@ fn globoid(overrides: &[&str]) -> (Globoid, Cam) {
 fn a_point_is_as_far_from_the_flank_as_it_was_moved() {
     for rotation in ["cw", "ccw"] {
         let (globoid, _) = globoid(&[&format!("cam.rotation={rotation}")]);
-        let sense = globoid.sense();
+        let sense = globoid.groove.sense();
         for i in 0..40 {
-            for flank in Flank::BOTH {
+            for flank in FlankSide::BOTH {
                 let from = globoid.outside + (globoid.floor - globoid.outside) * f64::from(i % 5) / 4.0;
                 let [enters, leaves] =
                     [End::Bottom, End::Top].map(|end| globoid.passes(flank, end, (from, 0.0)).expect("it passes"));
@@ -73,15 +73,16 @@ fn the_normal_force_turns_the_cam_by_the_torque() {
     let (globoid, _) = globoid(&["cam.turret_inertia=0.4 kg*m2", "spring.load=15 N*m"]);
     let forces = GrooveForces::of(&globoid).expect("an inertia and a speed");
     for i in 0..60 {
-        let (piece, angle) = globoid.motion.locate(0.1 * f64::from(i) + 0.01);
+        let (piece, angle) = globoid.groove.motion.locate(0.1 * f64::from(i) + 0.01);
         let row = forces.row((piece, angle));
         let contacts = globoid.contacts((piece, angle), row.path >= 0.0);
         assert!(!contacts.is_empty(), "{i}");
         for contact in contacts {
-            let line = globoid.line((piece, angle, 0.0), f64::from(contact.roller)).point(globoid.turret.arm);
+            let axis = globoid.line_of((piece, angle, 0.0), f64::from(contact.roller));
+            let line = axis.point(globoid.turret.arm);
             let force = row.path.abs() / libm::cos(contact.pressure_angle);
             assert!(force <= row.contact.expect("in touch") * (1.0 + 1e-12));
-            let turned = row.path.signum() * force * line.slope.0 * line.run;
+            let turned = row.path.signum() * force * line.slope.0 * axis.run(line.v);
             assert!((turned - row.torque).abs() < 1e-9 * (1.0 + row.torque.abs()), "{i}: {turned} {row:?}");
         }
     }
@@ -99,7 +100,7 @@ fn a_roller_is_loaded_while_it_passes() {
     let (count, exponent) = (20_000, 10.0 / 3.0);
     let (mut worn, mut turns) = (0.0, 0.0);
     for i in 0..count {
-        let at = globoid.motion.locate(std::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(count));
+        let at = globoid.groove.motion.locate(std::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(count));
         let path = forces.row(at).path;
         for contact in globoid.contacts(at, path >= 0.0) {
             let sign = if path >= 0.0 { 1.0 } else { -1.0 };

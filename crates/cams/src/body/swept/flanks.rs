@@ -1,37 +1,21 @@
 //! Flanks in space that a cylindrical roller sweeps, as their proof needs them.
 
-use super::Layer;
+use crate::body::Layer;
 use camgen_kernel::geometry::Entity;
 use camgen_kernel::geometry::solid::CheckedSolid;
-use camgen_kernel::motion::Motion;
-use camgen_kernel::refusal::Refusal;
 use nalgebra::{Vector2, Vector3};
 
-/// The refusal of a motion whose velocity jumps: a groove has no corners.
-///
-/// # Errors
-/// [`Refusal`] with the cam angle of a jump.
-pub(super) fn refuse_jumps(motion: &dyn Motion) -> Result<(), Refusal> {
-    let pieces = motion.pieces();
-    let after = pieces.iter().enumerate().cycle().skip(1);
-    for ((index, piece), (next, start)) in pieces.iter().enumerate().zip(after) {
-        let [before, behind] = [motion.jet(index, piece.end), motion.jet(next, start.start)];
-        let scale = before.ds.abs().max(behind.ds.abs()).max(1e-3);
-        if (before.ds - behind.ds).abs() > 1e-9 * scale {
-            let what = "the velocity of the follower jumps, and a groove has no corners";
-            let remedy = "give other states or laws of the segments that meet there";
-            return Err(Refusal::new(what).at(format!("{:.3} deg", piece.end.to_degrees())).remedy(remedy));
-        }
-    }
-    Ok(())
+/// A flank of a groove.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FlankSide {
+    /// Its metal lies above the roller.
+    Upper,
+    /// Its metal lies below.
+    Lower,
 }
 
-/// The smallest positive root d of a + b d + c d² with a > 0, the area of a flank at a distance d from the roller's axis; infinite where there is none.
-pub(super) fn smallest_root(a: f64, b: f64, c: f64) -> f64 {
-    let root = (b * b - 4.0 * a * c).sqrt();
-    // In the form without cancellation: 2a/(−b ± root).
-    let roots = [2.0 * a / (-b + root), 2.0 * a / (-b - root)];
-    roots.into_iter().filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min)
+impl FlankSide {
+    pub(crate) const BOTH: [Self; 2] = [Self::Upper, Self::Lower];
 }
 
 /// What is drawn of a body with such flanks.
@@ -133,18 +117,9 @@ pub trait TurnedCam: Sync {
     fn joints(&self) -> Vec<f64>;
 
     /// The exact X and Y of the axis of a tool of a radius (m) at an angle of A (degrees) along a flank, in the middle of its depth, or in the middle of the groove; mm.
-    fn tool_place(&self, flank: Option<TurnedFlank>, tool: f64, a_deg: f64) -> [f64; 2];
+    fn tool_place(&self, flank: Option<FlankSide>, tool: f64, a_deg: f64) -> [f64; 2];
 
     /// By how much a tool at an angle of A that is moved by so much in X and Y (mm) cuts higher up along X, across the groove: the largest of floor and outside,
     /// mm.
     fn across(&self, a_deg: f64, moved: [f64; 2]) -> f64;
-}
-
-/// A flank of a groove in a turned cam.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TurnedFlank {
-    /// That with the larger X.
-    Upper,
-    /// That with the smaller X.
-    Lower,
 }
