@@ -1,7 +1,7 @@
 //! The measures of a barrel: what the roller reaches of its groove, and how long the blank is.
 
 use camgen_kernel::document::Presence::{Default, Optional};
-use camgen_kernel::document::cams::{BARREL, GLOBOID, GROOVE, MAKE};
+use camgen_kernel::document::cams::{CYLINDERS, MAKE, WITH_A_GROOVE};
 use camgen_kernel::document::range::LONGEST;
 use camgen_kernel::document::{Field, KeySection, Occurrence, Reader, TableReader, above};
 use camgen_kernel::geometry::MILLIMETRES;
@@ -24,7 +24,7 @@ const ROLLER_HEIGHT: Field<f64> = Field::quantity(
     Length,
     above(0.0, LONGEST),
 )
-.only(&[GROOVE, BARREL, GLOBOID]);
+.only(WITH_A_GROOVE);
 const BLANK_LENGTH: Field<Option<f64>> = Field::words_or_quantity(
     "blank_length",
     "length of the blank of a barrel along its axis; \"auto\": the groove and the wall on either side of it, in whole millimetres",
@@ -32,7 +32,7 @@ const BLANK_LENGTH: Field<Option<f64>> = Field::words_or_quantity(
     (&["auto"], &[None]),
     (Length, above(0.0, LONGEST), Some),
 )
-.only(&[BARREL]);
+.only(CYLINDERS);
 
 /// The keys of `[cam]` that only a barrel has.
 pub(super) const SECTION: KeySection = KeySection {

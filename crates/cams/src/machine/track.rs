@@ -5,7 +5,7 @@ use super::plate;
 use super::turret::TurretData;
 use camgen_kernel::document::Presence::{Default, Optional};
 use camgen_kernel::document::cams::{
-    BARREL, BODIES, BODY_KINDS, CONJUGATE, DISC_BODY, GLOBOID, GROOVE, MAKE, RIB, RING, WEDGE, YOKE,
+    self, BODIES, BODY_KINDS, CONJUGATE, DISC_BODY, GROOVE, MAKE, RIB, RING, WEDGE, YOKE,
 };
 use camgen_kernel::document::range::{LARGEST_FORCE, LONGEST};
 use camgen_kernel::document::{Field, Input, Key, KeySection, Occurrence, Reader, TableReader, above, within};
@@ -71,7 +71,7 @@ const OUTER_RADIUS: Field<Option<f64>> = Field::words_or_quantity(
     (&["auto"], &[None]),
     (Length, above(0.0, LONGEST), Some),
 )
-.only(&[RING, BARREL]);
+.only(cams::WITH_AN_OUTSIDE);
 const BLANK_RADIUS: Field<Option<f64>> = Field::words_or_quantity(
     "blank_radius",
     "radius of the blank that a groove is cut into; \"auto\": the smallest that leaves the wall, in whole millimetres",
@@ -88,7 +88,7 @@ const CLEARANCE: Field<f64> = Field::quantity(
     Length,
     within(0.0, LONGEST),
 )
-.only(&[GROOVE, BARREL, GLOBOID])
+.only(cams::WITH_A_GROOVE)
 .also(&["play", "gap"]);
 const CLEARANCE_SHARE: Field<f64> = Field::number(
     "clearance_share",
@@ -96,7 +96,7 @@ const CLEARANCE_SHARE: Field<f64> = Field::number(
     Default("0"),
     within(0.0, 1.0),
 )
-.only(&[GROOVE, BARREL, GLOBOID]);
+.only(cams::WITH_A_GROOVE);
 const GROOVE_DEPTH: Field<f64> = Field::quantity(
     "groove_depth",
     "depth of a groove, below the thickness or the radius of the outside",
@@ -104,7 +104,7 @@ const GROOVE_DEPTH: Field<f64> = Field::quantity(
     Length,
     above(0.0, LONGEST),
 )
-.only(&[GROOVE, BARREL, GLOBOID])
+.only(cams::WITH_A_GROOVE)
 .also(&["depth"]);
 
 const ROLLER_DISTANCE: Field<f64> = Field::quantity(
@@ -239,11 +239,13 @@ pub(super) fn read(table: &TableReader<'_>, thickness: Option<f64>, bored: bool)
             Some(_) => {}
         }
     }
-    if (body == BARREL || body == GLOBOID) && groove_depth.is_none() {
+    // A groove in a disc may go as deep as the disc is thick.
+    if body != GROOVE && cams::is_body_of(body, cams::WITH_A_GROOVE) && groove_depth.is_none() {
         let help = "e.g. cam.groove_depth = \"12 mm\"";
         table.fail(&BODY, format!("a {body} needs the depth of its groove"), Some(help.into()));
     }
-    if let (BARREL, Some(outer), Some(depth)) = (body, outer_radius, groove_depth)
+    if cams::is_body_of(body, cams::CYLINDERS)
+        && let (Some(outer), Some(depth)) = (outer_radius, groove_depth)
         && depth >= outer
     {
         let message = format!("the groove of {} reaches the axis of the barrel", table.typed(&GROOVE_DEPTH));

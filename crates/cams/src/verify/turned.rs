@@ -10,7 +10,7 @@ use super::program::{JudgedProgram, ProgramFault, remarks};
 use crate::body::Body;
 use crate::body::four_axes::rounds;
 use crate::body::points::{PointCurve, traced};
-use crate::body::swept::{TurnedCam, TurnedFlank};
+use crate::body::swept::{FlankSide, TurnedCam};
 use crate::machine::Rotation;
 use crate::reading::gcode::{CutterProgram, StandingMove, TurnedPass};
 use crate::report::shown;
@@ -71,7 +71,7 @@ impl Barrel<'_> {
         let mut worst = (0.0, 0.0);
         let mut deepest = vec![0.0_f64; flanks.len()];
         for pass in &program.turned {
-            let off = |flank: &Option<TurnedFlank>| self.off(pass, *flank, tool / MILLIMETRES);
+            let off = |flank: &Option<FlankSide>| self.off(pass, *flank, tool / MILLIMETRES);
             let found = flanks.iter().map(off).enumerate().min_by(|a, b| a.1.0.total_cmp(&b.1.0));
             let Some((flank, (value, at))) = found else { continue };
             if !(value <= limit) {
@@ -98,7 +98,7 @@ impl Barrel<'_> {
     }
 
     /// By how much the tool is off its path along a flank at most, mm, and at which angle of A, degrees.
-    fn off(&self, pass: &TurnedPass, flank: Option<TurnedFlank>, tool: f64) -> (f64, f64) {
+    fn off(&self, pass: &TurnedPass, flank: Option<FlankSide>, tool: f64) -> (f64, f64) {
         let mut worst = (0.0, 0.0);
         for pair in pass.rows.windows(2) {
             let &[from, to] = pair else { continue };

@@ -40,6 +40,8 @@ const ONE_THICKNESS: &str = "cams of one thickness";
 const SURFACE: &str = "cams whose sections differ";
 const BASED: &str = "cams with a base circle";
 const RATED: &str = "cams whose roller may have a rating";
+const GROOVED: &str = "cams whose rollers run in a groove";
+const ROUND_A_CYLINDER: &str = "cams with a groove round a cylinder";
 
 /// The classes of a disc cam.
 pub const OF_A_DISC: &[&str] = &[TURNS, DISC, BASED];
@@ -53,6 +55,12 @@ pub const TURNING: &[&str] = &[TURNS];
 pub const WITH_A_BASE: &[&str] = &[BASED];
 /// Cams whose roller may have a rating.
 pub const WITH_A_RATED_ROLLER: &[&str] = &[MAKE, RATED];
+/// Cams whose rollers run in a groove.
+pub const WITH_A_GROOVE: &[&str] = &[GROOVED];
+/// Cams with a groove round a cylinder.
+pub const CYLINDERS: &[&str] = &[ROUND_A_CYLINDER];
+/// Cams that are turned to a radius of the outside.
+pub const WITH_AN_OUTSIDE: &[&str] = &[RING, ROUND_A_CYLINDER];
 /// Disc cams.
 pub const DISCS: &[&str] = &[DISC];
 /// Cams that are as thick everywhere.
@@ -88,8 +96,12 @@ pub const DISC_BODY: &str = "disc";
 const OF_A_PROGRAM: &[&str] = &[MAKE, TURNS, DISC, ONE_THICKNESS, BASED];
 /// The classes of a body within which a roller runs.
 const OF_A_TRACK: &[&str] = &[MAKE, TURNS, ONE_THICKNESS, BASED];
-/// The classes of a body that is cut into the outside of a round blank.
-const OF_A_CYLINDER: &[&str] = &[MAKE, TURNS];
+/// The classes of a disc with a groove.
+const OF_A_GROOVE: &[&str] = &[MAKE, TURNS, ONE_THICKNESS, BASED, GROOVED];
+/// The classes of a body with a groove round a cylinder.
+const OF_A_CYLINDER: &[&str] = &[MAKE, TURNS, GROOVED, ROUND_A_CYLINDER];
+/// The classes of a body with grooves in another round blank.
+const OF_A_ROUND_BLANK: &[&str] = &[MAKE, TURNS, GROOVED];
 /// The classes of a body that travels.
 const OF_A_PLATE: &[&str] = &[MAKE, ONE_THICKNESS];
 
@@ -98,12 +110,12 @@ const OF_A_PLATE: &[&str] = &[MAKE, ONE_THICKNESS];
 const PROGRAM_BODIES: [(&str, CamKind); 9] = [
     (DISC_BODY, CamKind::cam(MAKE, OF_A_PROGRAM)),
     (RING, CamKind::cam(RING, OF_A_TRACK)),
-    (GROOVE, CamKind::cam(GROOVE, OF_A_TRACK)),
+    (GROOVE, CamKind::cam(GROOVE, OF_A_GROOVE)),
     (CONJUGATE, CamKind::cam(CONJUGATE, OF_A_PROGRAM)),
     (RIB, CamKind::cam(RIB, OF_A_TRACK)),
     (YOKE, CamKind::cam(YOKE, OF_A_PROGRAM)),
     (BARREL, CamKind::cam(BARREL, OF_A_CYLINDER)),
-    (GLOBOID, CamKind::cam(GLOBOID, OF_A_CYLINDER)),
+    (GLOBOID, CamKind::cam(GLOBOID, OF_A_ROUND_BLANK)),
     (WEDGE, CamKind::cam(WEDGE, OF_A_PLATE)),
 ];
 
@@ -127,6 +139,13 @@ pub const BODY_KINDS: &[&str] = &{
     }
     names
 };
+/// Whether the body of a motion program, as keys name it, is one of these kinds or classes.
+#[must_use]
+pub fn is_body_of(body: &str, cams: &[&str]) -> bool {
+    let mut kinds = PROGRAM_BODIES.iter().map(|(_, kind)| kind).filter(|kind| kind.name == body);
+    kinds.any(|kind| cams.contains(&kind.name) || cams.iter().any(|class| kind.classes.contains(class)))
+}
+
 /// The kinds of cam of the core.
 pub const KINDS: &[CamKind] = &{
     let mut kinds = [PROGRAM_BODIES[0].1; PROGRAM_BODIES.len()];

@@ -1,6 +1,7 @@
 //! The developed view of the outside: both flanks and the centre line of the roller as arcs, and what the customary drawings of it would miss.
 
-use super::{Barrel, BarrelCurve};
+use super::Barrel;
+use super::swept::CURVES;
 use crate::body::Layer;
 use crate::body::swept::FlankSide;
 use camgen_kernel::geometry::biarcs::biarcs;
@@ -25,15 +26,15 @@ impl Barrel {
     /// [`Refusal`] when the tolerance is finer than arcs can keep.
     pub(super) fn developed_view(&self, tolerance: f64) -> Result<Vec<(Layer, Entity)>, Refusal> {
         let mut entities = Vec::new();
-        for curve in BarrelCurve::ALL {
+        for (flank, layer) in CURVES {
             for (index, piece) in self.groove.motion.pieces().iter().enumerate() {
-                let place = |angle: f64| self.developed_at(curve, (index, angle));
+                let place = |angle: f64| self.developed_at(flank, (index, angle));
                 let range = (piece.start, piece.end.min(piece.start + LONGEST));
                 let arcs = biarcs(&place, range, SHARE * tolerance).ok_or_else(|| {
                     Refusal::new(format!("no arcs keep {tolerance} mm of the developed view"))
                         .remedy("give a coarser --tolerance")
                 })?;
-                entities.extend(joined(arcs).into_iter().map(|segment| (curve.layer(), Entity::Segment(segment))));
+                entities.extend(joined(arcs).into_iter().map(|segment| (layer, Entity::Segment(segment))));
             }
         }
         entities.extend(self.rectangle().map(|segment| (Layer::Blank, Entity::Segment(segment))));

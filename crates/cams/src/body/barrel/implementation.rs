@@ -1,20 +1,18 @@
 //! The barrel as a swept body.
 
 use super::contact::AxisLine;
-use super::{BARREL, Barrel, BarrelCurve, RollerPath, mechanism, report, sheet};
+use super::{BARREL, Barrel, RollerPath, mechanism, report, sheet};
 use crate::body::flank_switch::SwitchFigures;
 use crate::body::swept::{
     BlankSurface, FlankSide, LinePoint, NearestRoller, RollerLine, SweptBody, SweptDrawing, SweptGeometry, SweptGroove,
     SweptWords, TouchingRoller,
 };
 use crate::body::{DrawingEvidence, Drawn, Kind};
-use crate::check::{Measures, Subject};
 use crate::report::Section;
 use crate::report::mechanism::MovingMechanism;
 use crate::report::sheet::SheetView;
 use crate::table::{AddedColumn, Table};
 use camgen_kernel::motion::Jet;
-use camgen_kernel::profile::Worst;
 use camgen_kernel::refusal::Refusal;
 use nalgebra::{Vector2, Vector3};
 
@@ -113,7 +111,7 @@ impl SweptBody for Barrel {
     }
 
     fn added_columns(&self, at: (usize, f64)) -> Vec<(&'static AddedColumn, f64)> {
-        let [upper, lower] = FlankSide::BOTH.map(|side| self.developed_at(BarrelCurve::Flank(side), at).0);
+        let [upper, lower] = FlankSide::BOTH.map(|side| self.developed_at(Some(side), at).0);
         vec![(&UPPER_X, upper.x), (&UPPER_Z, upper.y), (&LOWER_X, lower.x), (&LOWER_Z, lower.y)]
     }
 
@@ -134,22 +132,6 @@ impl SweptBody for Barrel {
             developed: self.developed_view(tolerance)?,
             tables: WORDS.tables,
         })
-    }
-
-    fn remedy(&self) -> Option<String> {
-        self.larger_outer()
-    }
-
-    fn wall(&self) -> (f64, Option<Worst>) {
-        (self.least_wall(), None)
-    }
-
-    fn longest(&self) -> f64 {
-        (2.0 * self.outer).max(self.ends.1 - self.ends.0)
-    }
-
-    fn own_measures(&self, of: &mut Measures<'_>, subject: &Subject<'_>) {
-        self.measure_path(of, subject);
     }
 
     fn own_section(&self, found: &DrawingEvidence<'_>, switches: Vec<SwitchFigures>) -> Section {

@@ -1,9 +1,11 @@
 //! What is checked of a barrel as it was solved.
 
 use super::Barrel;
+use crate::body::swept::SweptMeasures;
 use crate::check::{Check, CheckExplanation, CheckScope, Measures, Subject, curvature};
 use crate::report::{Bound, shown};
 use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::profile::Worst;
 
 /// The check.
 pub const PLANE_OFFSET: Check = Check {
@@ -20,23 +22,27 @@ pub const PLANE_OFFSET: Check = Check {
     },
 };
 
-impl Barrel {
+impl SweptMeasures for Barrel {
     /// A change of the outer radius with which every limit is kept.
-    pub(super) fn larger_outer(&self) -> Option<String> {
+    fn remedy(&self) -> Option<String> {
         let outer = self.smallest_outer().ok()?;
         (outer > self.outer)
             .then(|| format!("cam.outer_radius = \"{} mm\" keeps every limit", shown(MILLIMETRES * outer)))
     }
 
     /// Least metal: about the bore, and between the groove and the ends, m.
-    pub(super) fn least_wall(&self) -> f64 {
+    fn wall(&self) -> (f64, Option<Worst>) {
         let bore = self.groove.machine.cam.bore_reach().map_or(f64::INFINITY, |bore| self.floor() - bore);
         let ([top, bottom], [up, down]) = (self.roller_heights(), self.groove.distances);
         let (above, below) = (self.ends.1 - top - up, -self.ends.0 - bottom - down);
-        bore.min(above).min(below)
+        (bore.min(above).min(below), None)
     }
 
-    pub(super) fn measure_path(&self, of: &mut Measures<'_>, subject: &Subject<'_>) {
+    fn longest(&self) -> f64 {
+        (2.0 * self.outer).max(self.ends.1 - self.ends.0)
+    }
+
+    fn measure(&self, of: &mut Measures<'_>, subject: &Subject<'_>) {
         of.add(&curvature::MIN_CONVEX_RADIUS, |_| {
             curvature::min_convex_radius(&self.least_radius(), Some(self.groove.roller), subject)
         });

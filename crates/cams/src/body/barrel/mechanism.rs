@@ -1,6 +1,6 @@
 //! The developed groove as it passes its roller.
 
-use super::{Barrel, BarrelCurve};
+use super::Barrel;
 use crate::body::Drawn;
 use crate::body::picture::Cover;
 use crate::report::mechanism::{MechanismView, MovingMechanism, RigidPart, circle, line, rectangle};
@@ -23,7 +23,7 @@ pub(super) fn of(barrel: &Barrel, drawn: &Drawn, samples: u32) -> MovingMechanis
     for index in 0..=samples {
         let at = turned(index % samples, samples, barrel.groove.motion.lobes());
         let (piece, angle) = barrel.groove.motion.locate(at.angle);
-        let roller = barrel.developed_at(BarrelCurve::Pitch, (piece, angle)).0;
+        let roller = barrel.developed_at(None, (piece, angle)).0;
         let cam_deg = if index == samples { 360.0 } else { at.cam_deg };
         let ahead = roller.x - sense * MILLIMETRES * barrel.outer * angle;
         poses.push((cam_deg, -sense * around * cam_deg / 360.0, ahead, roller.y));

@@ -30,7 +30,6 @@ use camgen_kernel::profile::{Worst, lifts};
 use camgen_kernel::refusal::Refusal;
 use contact::{AxisLine, FlankPoint, RollerPath};
 use std::sync::Arc;
-pub use swept::BarrelCurve;
 
 /// The barrel of any motion.
 pub const BARREL: Kind = Kind { command: cams::MAKE, noun: "barrel cam", keys: cams::BARREL };

@@ -17,48 +17,21 @@ const APART: f64 = 0.3;
 const STEPS: usize = 12;
 const AT_REST: f64 = 1e-14;
 
-/// A curve of the developed view.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BarrelCurve {
-    /// A flank on the outside.
-    Flank(FlankSide),
-    /// The centre line of the roller on the outside.
-    Pitch,
-}
-
-impl BarrelCurve {
-    /// All of them.
-    pub(super) const ALL: [Self; 3] = [Self::Flank(FlankSide::Upper), Self::Flank(FlankSide::Lower), Self::Pitch];
-
-    /// Its layer.
-    #[must_use]
-    pub fn layer(self) -> Layer {
-        match self {
-            Self::Flank(FlankSide::Upper) => Layer::FlankUpper,
-            Self::Flank(FlankSide::Lower) => Layer::FlankLower,
-            Self::Pitch => Layer::Pitch,
-        }
-    }
-
-    fn of(layer: Layer) -> Option<Self> {
-        Self::ALL.into_iter().find(|curve| curve.layer() == layer)
-    }
-}
+/// The curves of the developed view with their layers: both flanks on the outside, and the centre line of the roller there.
+pub(super) const CURVES: [(Option<FlankSide>, Layer); 3] =
+    [(Some(FlankSide::Upper), Layer::FlankUpper), (Some(FlankSide::Lower), Layer::FlankLower), (None, Layer::Pitch)];
 
 impl Barrel {
-    /// Point (mm) and unit tangent of a curve of the developed view at a piece and cam angle: x along the outer circumference, growing with the cam angle
+    /// Point (mm) and unit tangent of a flank, or of the centre line of the roller, in the developed view at a piece and cam angle: x along the outer circumference, growing with the cam angle
     /// if the cam turns clockwise; y along the axis.
-    pub(super) fn developed_at(&self, curve: BarrelCurve, place: (usize, f64)) -> (Vector2<f64>, Vector2<f64>) {
-        let (point, slope) = self.developed_with_slope(curve, place);
+    pub(super) fn developed_at(&self, flank: Option<FlankSide>, place: (usize, f64)) -> (Vector2<f64>, Vector2<f64>) {
+        let (point, slope) = self.developed_with_slope(flank, place);
         (point, slope.normalize())
     }
 
     /// The point of [`Self::developed_at`], mm, and its derivative with respect to the cam angle, mm/rad.
-    fn developed_with_slope(&self, curve: BarrelCurve, place: (usize, f64)) -> (Vector2<f64>, Vector2<f64>) {
-        let distance = match curve {
-            BarrelCurve::Flank(side) => self.groove.signed(side),
-            BarrelCurve::Pitch => 0.0,
-        };
+    fn developed_with_slope(&self, flank: Option<FlankSide>, place: (usize, f64)) -> (Vector2<f64>, Vector2<f64>) {
+        let distance = flank.map_or(0.0, |flank| self.groove.signed(flank));
         let nowhere = Vector2::repeat(f64::NAN);
         let Some(found) = self.axis(place.0, place.1).on_cylinder(distance, self.outer) else {
             return (nowhere, nowhere);
@@ -145,16 +118,16 @@ impl SweptFlanks for Barrel {
     }
 
     fn developed(&self) -> Vec<(Layer, [Vector2<f64>; 2])> {
-        let of = |curve: BarrelCurve| (curve.layer(), self.turn().map(|place| self.developed_at(curve, place).0));
-        BarrelCurve::ALL.map(of).to_vec()
+        let ends = |flank| self.turn().map(|place| self.developed_at(flank, place).0);
+        CURVES.map(|(flank, layer)| (layer, ends(flank))).to_vec()
     }
 
     fn developed_miss(&self, layer: Layer, point: Vector2<f64>) -> (f64, f64) {
-        let Some(curve) = BarrelCurve::of(layer) else { return (f64::NAN, 0.0) };
+        let Some((flank, _)) = CURVES.into_iter().find(|(_, other)| *other == layer) else { return (f64::NAN, 0.0) };
         let (start, end) = self.groove.motion.range();
         let at = |angle: f64| {
             let (piece, inside) = self.groove.motion.locate(angle);
-            let (place, slope) = self.developed_with_slope(curve, (piece, inside));
+            let (place, slope) = self.developed_with_slope(flank, (piece, inside));
             // The point of an angle beyond the turn of the motion.
             let shift = MILLIMETRES * self.groove.sense() * self.outer * (angle - inside);
             (place + Vector2::new(shift, 0.0), slope)

@@ -8,13 +8,11 @@ use crate::body::swept::{
     SweptWords, TouchingRoller,
 };
 use crate::body::{DrawError, DrawingEvidence, Drawn, Kind};
-use crate::check::{Measures, Subject};
 use crate::report::Section;
 use crate::report::mechanism::MovingMechanism;
 use crate::report::sheet::SheetView;
 use crate::table::Table;
 use camgen_kernel::motion::Jet;
-use camgen_kernel::profile::Worst;
 use camgen_kernel::refusal::Refusal;
 use nalgebra::{Vector2, Vector3};
 use std::ops::RangeInclusive;
@@ -146,24 +144,6 @@ impl SweptBody for Globoid {
     fn drawing(&self, tolerance: f64) -> Result<SweptDrawing, Refusal> {
         let found = self.solid(tolerance)?;
         Ok(SweptDrawing { solid: found.solid, deviation: found.deviation, developed: Vec::new(), tables: WORDS.tables })
-    }
-
-    fn remedy(&self) -> Option<String> {
-        self.larger_distance()
-    }
-
-    fn wall(&self) -> (f64, Option<Worst>) {
-        let (value, at) = self.least_wall();
-        (value, at.map(|at| Worst { value, at, z: 0.0 }))
-    }
-
-    fn longest(&self) -> f64 {
-        let (radius, height) = self.rim(self.outside);
-        (2.0 * radius).max(2.0 * self.rim(self.floor).1.max(height))
-    }
-
-    fn own_measures(&self, of: &mut Measures<'_>, subject: &Subject<'_>) {
-        self.measure_meshing(of, subject);
     }
 
     fn own_section(&self, found: &DrawingEvidence<'_>, switches: Vec<SwitchFigures>) -> Section {

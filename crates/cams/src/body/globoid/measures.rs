@@ -2,7 +2,7 @@
 
 use super::Globoid;
 use super::contact::TurretLine;
-use crate::body::swept::{FlankSide, RollerLine, least_fold, pressure_angles};
+use crate::body::swept::{FlankSide, RollerLine, SweptMeasures, least_fold, pressure_angles};
 use crate::check::{Check, CheckExplanation, CheckScope, Measures, Subject};
 use crate::report::{Bound, shown};
 use camgen_kernel::geometry::MILLIMETRES;
@@ -87,24 +87,26 @@ impl Globoid {
         }
         (touching - whole).abs()
     }
+}
 
-    /// Least metal, m: about the bore, and of the ribs on the outside, with the cam angle of the latter.
-    pub(super) fn least_wall(&self) -> (f64, Option<f64>) {
+impl SweptMeasures for Globoid {
+    /// About the bore, and of the ribs on the outside, with the cam angle of the latter.
+    fn wall(&self) -> (f64, Option<Worst>) {
         let bore =
             self.groove.machine.cam.bore_reach().map_or(f64::INFINITY, |bore| self.turret.distance - self.floor - bore);
         let (rib, at) = self.thinnest_rib();
-        if rib < bore { (rib, Some(at)) } else { (bore, None) }
+        if rib < bore { (rib, Some(Worst { value: rib, at, z: 0.0 })) } else { (bore, None) }
     }
 
     /// A distance of the turret with which the pressure angle, the flanks and the walls keep their limits.
-    pub(super) fn larger_distance(&self) -> Option<String> {
+    fn remedy(&self) -> Option<String> {
         let limits = self.groove.machine.limits;
         let least_wall = limits.least_wall(self.groove.machine.cam.bore_radius);
         let keeps = |distance: f64| {
             self.at_distance(distance).is_some_and(|other| {
                 let free = least_fold(&other).value > other.groove.farther();
                 let [rising, _] = pressure_angles(&other);
-                free && rising.value <= limits.pressure_angles()[0] && other.least_wall().0 >= least_wall
+                free && rising.value <= limits.pressure_angles()[0] && other.wall().0 >= least_wall
             })
         };
         let distance = self.turret.distance;
@@ -113,7 +115,12 @@ impl Globoid {
             .then(|| format!("cam.turret_distance = \"{} mm\" would keep every limit", shown(MILLIMETRES * found)))
     }
 
-    pub(super) fn measure_meshing(&self, of: &mut Measures<'_>, subject: &Subject<'_>) {
+    fn longest(&self) -> f64 {
+        let (radius, height) = self.rim(self.outside);
+        (2.0 * radius).max(2.0 * self.rim(self.floor).1.max(height))
+    }
+
+    fn measure(&self, of: &mut Measures<'_>, subject: &Subject<'_>) {
         of.add(&MESHING, |_| {
             let (count, at) = self.least_touching();
             let kept = count >= 1.0;

@@ -28,5 +28,5 @@ pub(crate) fn take_measures<B: SweptBody>(body: &B, of: &mut Measures<'_>) {
     let largest_size = MILLIMETRES * groove.machine.limits.largest_size();
     of.add(&size::CHECK, |_| size::CHECK.measure(longest, Some(largest_size)));
     in_groove::measured(body, of, &subject);
-    body.own_measures(of, &subject);
+    body.measure(of, &subject);
 }

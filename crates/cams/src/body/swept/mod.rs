@@ -112,6 +112,21 @@ pub(crate) trait SweptGeometry: Debug + Send + Sync {
     fn nearest(&self, point: Vector3<f64>) -> NearestRoller;
 }
 
+/// What is checked of such a cam.
+pub(crate) trait SweptMeasures {
+    /// A change of the machine file with which every limit is kept.
+    fn remedy(&self) -> Option<String>;
+
+    /// Least metal, m, and where it varies along the cam its place.
+    fn wall(&self) -> (f64, Option<Worst>);
+
+    /// The longest measure of the blank, m.
+    fn longest(&self) -> f64;
+
+    /// The measures that only it has.
+    fn measure(&self, of: &mut Measures<'_>, subject: &Subject<'_>);
+}
+
 /// The words in which bodies with the same rule differ.
 #[derive(Debug)]
 pub(crate) struct SweptWords {
@@ -127,7 +142,7 @@ pub(crate) struct SweptWords {
 }
 
 /// A cam of such rollers: what it is made of, and what is shown of it alone.
-pub(crate) trait SweptBody: SweptGeometry + SweptFlanks {
+pub(crate) trait SweptBody: SweptGeometry + SweptMeasures + SweptFlanks {
     const KIND: &'static Kind;
     const WORDS: &'static SweptWords;
 
@@ -163,18 +178,6 @@ pub(crate) trait SweptBody: SweptGeometry + SweptFlanks {
     /// # Errors
     /// [`Refusal`] when the tolerance is finer than splines of a reasonable size can keep.
     fn drawing(&self, tolerance: f64) -> Result<SweptDrawing, Refusal>;
-
-    /// A change of the machine file with which every limit is kept.
-    fn remedy(&self) -> Option<String>;
-
-    /// Least metal, m, and where it varies along the cam its place.
-    fn wall(&self) -> (f64, Option<Worst>);
-
-    /// The longest measure of the blank, m.
-    fn longest(&self) -> f64;
-
-    /// The measures that only it has.
-    fn own_measures(&self, of: &mut Measures<'_>, subject: &Subject<'_>);
 
     /// Its own section of the report.
     fn own_section(&self, found: &DrawingEvidence<'_>, switches: Vec<SwitchFigures>) -> Section;
