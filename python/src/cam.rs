@@ -4,10 +4,7 @@ use crate::cli::args::parse;
 use crate::errors::{ok, option};
 use crate::options::{quantity, texts, word};
 use crate::table;
-use camgen::body::inspection::Inspection;
-use camgen::body::milling::Milling;
-use camgen::body::points::Points;
-use camgen::body::{self, DrawingEvidence, RateTolerance};
+use camgen::body::{self, DrawingEvidence, Inspection, Milling, Points, RateTolerance};
 use camgen::check::{AsWritten, Measures, Walls};
 use camgen::geometry::contour::{Bend, Contour};
 use camgen::geometry::lead_in::LeadIn;
@@ -16,8 +13,9 @@ use camgen::motion::Quantity;
 use camgen::pipeline::{Assembly, AssemblyDrawing, ExpectedFile, FileSet, ProvenAssembly, Writing};
 use camgen::profile::outline::Fit;
 use camgen::report::{Finding, Report, Speeds};
+use camgen::tool_files::{gcode, inspection, points, requested};
 use camgen::verify;
-use camgen::write::{csv, dxf, gcode, inspection, json, points, servo};
+use camgen::write::{csv, dxf, json};
 use camgen::{Accuracy, Request, Side};
 use numpy::ndarray::Array3;
 use numpy::{IntoPyArray, PyArray2, PyArray3};
@@ -350,7 +348,7 @@ fn with_tables(
     }
     let [curve, form, step, between] = points;
     let points = has(points::FORMAT.name).then_some(Points {
-        curve: word("points_of", curve)?.unwrap_or(body::points::PointCurve::Profile),
+        curve: word("points_of", curve)?.unwrap_or(body::PointCurve::Profile),
         form: word("points_as", form)?,
         step: word("points_step", step)?,
         between: word("points_between", between)?.unwrap_or(PointInterpolation::Linear),
@@ -358,7 +356,7 @@ fn with_tables(
     let ball_radius = ball.unwrap_or(USUAL_BALL_RADIUS);
     Ok(Request {
         milling: has(gcode::FORMAT.name).then_some(Milling { controller: word("controller", controller)? }),
-        servo: servo::NAMES.iter().any(|name| has(name)),
+        formats: requested(formats.unwrap_or_default()),
         inspection: has(inspection::FORMAT.name).then_some(Inspection { ball_radius }),
         points,
         ..request

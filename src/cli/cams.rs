@@ -9,11 +9,7 @@ use super::live::{self, LiveSource};
 use super::progress::Progress;
 use super::put::put_set;
 use super::{Failure, Outcome, print, print_message, print_painted, refusal, text};
-use camgen::body::Request;
-use camgen::body::gauge::Gauge;
-use camgen::body::inspection::Inspection;
-use camgen::body::milling::Milling;
-use camgen::body::points::{PointCurve, Points};
+use camgen::body::{Gauge, Inspection, Milling, PointCurve, Points, Request};
 use camgen::catalogue::catalogue;
 use camgen::document::NamedChoice;
 use camgen::domains::press::MachineOfPress;
@@ -27,13 +23,9 @@ use camgen::machine::Machine;
 use camgen::pipeline::{Cam, FileSet, Judged, ProvenAssembly, Spec, Writing};
 use camgen::profile::outline::Fit;
 use camgen::report::LazyReport;
+use camgen::tool_files::{gauge, gcode, inspection, points, requested, servo};
 use camgen::units::{self, Dimension};
-use camgen::write::gauge;
-use camgen::write::gcode;
-use camgen::write::inspection;
 use camgen::write::json;
-use camgen::write::points;
-use camgen::write::servo;
 use camgen::write::step::LATEST;
 use camgen::write::svg;
 
@@ -204,7 +196,7 @@ impl FileArgs {
             return Err(Failure("--controller belongs to --format gcode".into()));
         }
         let milling = milled.then_some(Milling { controller: self.controller });
-        let servo = self.format.iter().flatten().any(|format| servo::NAMES.contains(&format.as_str()));
+        let formats = requested(self.format.as_deref().unwrap_or_default());
         let inspected = self.format.iter().flatten().any(|format| format == inspection::FORMAT.name);
         let gauged = self.format.iter().flatten().any(|format| format == gauge::FORMAT.name);
         if self.ball_diameter.is_some() && !inspected && !gauged {
@@ -223,7 +215,7 @@ impl FileArgs {
             .map_err(Failure)?
             .unwrap_or(Gauge::Round(ball_radius));
         let gauge = gauged.then_some(asked);
-        Ok(Request { points, milling, servo, inspection, gauge, ..self.outline.request(&common.accuracy)? })
+        Ok(Request { points, milling, formats, inspection, gauge, ..self.outline.request(&common.accuracy)? })
     }
 }
 
@@ -342,7 +334,7 @@ fn cut(
     };
     let (formats, left_out) = writing.chosen(cam.body()).map_err(Failure::new)?;
     // The flank of a three-dimensional cam is drawn, and proved, only for a format that shows it.
-    let request = Request { flank: formats.iter().any(|format| format.flank), ..request };
+    let request = Request { flank: formats.iter().any(|format| format.shows_flank()), ..request };
     progress.stage("drawing");
     let drawing = cams.draw(request).map_err(Failure::new)?;
     progress.stage("proving");

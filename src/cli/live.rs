@@ -30,9 +30,8 @@ impl FileArgs {
             strict: [false; 2],
             ..Request::within(Fit::from(request.fit.tolerance))
         };
-        let of_files = Request { points: None, milling: None, servo: false, inspection: None, gauge: None, ..*request };
         let flags = "--side, --outline, --start, --lead-in, --cutter-diameter, --accuracy, --tolerance-velocity, --tolerance-acceleration";
-        if of_files != own {
+        if request.without_tool_files() != own {
             return Err(Failure(format!("--live draws within --tolerance alone: leave out {flags}")));
         }
         if common.end.is_some() || !common.free.is_empty() || self.outline.dxf_version != Version::default() {

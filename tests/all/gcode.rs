@@ -1,10 +1,10 @@
 //! Programs for milling machines as their controls read them: every body and control, and planted faults.
 
 use crate::common::program::camgen_in;
-use camgen::body::milling::Milling;
+use camgen::body::Milling;
 use camgen::geometry::lead_in::{LeadIn, LeadInForm};
 use camgen::machine::Controller;
-use camgen::reading::gcode::{CutterMove, CutterSide, MoveKind, read};
+use camgen::tool_files::gcode::{CutterMove, CutterSide, MoveKind, read};
 use camgen::{Cam, Error, ExpectedFile, Machine, Proven, Request, Spec, Verdict, Writing};
 
 const TOLERANCE: f64 = 5e-6;
@@ -246,7 +246,7 @@ fn a_barrel_is_milled_on_four_axes() {
             assert_eq!(deep, rounds, "{overrides:?}");
             // Under the upper flank a tool that climbs goes against A, along the lower one with it.
             if let [first, second, ..] = found.turned.as_slice() {
-                let rises = |pass: &camgen::reading::gcode::TurnedPass| pass.rows[1][0] > pass.rows[0][0];
+                let rises = |pass: &camgen::tool_files::gcode::TurnedPass| pass.rows[1][0] > pass.rows[0][0];
                 let conventional = overrides.contains(&"cut.direction=conventional");
                 assert_eq!([rises(first), rises(second)], [conventional, !conventional], "{overrides:?}");
             }

@@ -1,14 +1,13 @@
 //! The tables of points as they are in their files: interpolated as their heads say, against closed forms and the exact curves.
 
 use crate::common::program::{self, camgen, camgen_in, files};
-use camgen::body::RateTolerance;
-use camgen::body::points::{PointCurve, Points, largest_errors, motion_errors};
+use camgen::body::{PointCurve, Points, RateTolerance};
 use camgen::domains::press::SpecOfPress;
 use camgen::geometry::points::{Interpolant, PointCoordinates, PointInterpolation, PointStep};
 use camgen::motion::EccentricCircle;
 use camgen::pipeline::Cam;
 use camgen::profile::followed::FollowerOnChain;
-use camgen::write::points::read;
+use camgen::tool_files::points::{largest_errors, motion_errors, read};
 use camgen::{Machine, Proven, Request, Spec, Verdict, Writing};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
@@ -306,7 +305,7 @@ fn cubic_tables_keep_velocity_and_acceleration() {
     ];
     for (number_of, cam) in cams.iter().enumerate() {
         let curves = camgen::body::curves(cam.body()).expect("plane");
-        let face = camgen::body::points::radius_of_roller(cam.body()).is_none();
+        let face = camgen::body::radius_of_roller(cam.body()).is_none();
         let [velocity, acceleration] = cam.body().largest_rates();
         let unit = if number_of == 4 { 1.0 } else { 1e3 };
         for points in cubic().filter(|points| !(face && points.curve == PointCurve::Centre)) {

@@ -24,7 +24,8 @@ use camgen::motion::laws::{LAWS, LINE};
 use camgen::pipeline::{Assembly, Cam, Error, Judged, Proven, Spec, Writing};
 use camgen::report::{Report, Verdict};
 use camgen::table::COLUMNS;
-use camgen::write::{FORMATS, FormatSelection, by_name};
+use camgen::tool_files::{formats, formats_by_name};
+use camgen::write::FormatSelection;
 use std::fs;
 
 const LIFTER: &str = include_str!("common/lifter.toml");
@@ -160,24 +161,23 @@ fn names_are_distinct(mut names: Vec<&str>) {
 fn every_format_is_written_for_every_cam_it_fits_and_refused_for_the_others() {
     for kind in commands() {
         let cam = cam_of(kind, &[]);
-        let drawing = cam.draw(Request { flank: true, ..Request::within(TOLERANCE) }).expect("a drawing");
-        let drawn = drawing.drawn().expect("an outline");
-        for format in by_name() {
+        for format in formats_by_name() {
             let directory = tempfile::tempdir().expect("a directory");
             fs::write(directory.path().join("lifter.toml"), LIFTER).expect("written");
             let rest = ["--name", "cam", "--out", "out", "--json", "--format", format.name];
             let run = camgen_in(directory, &[&command_of(kind)[..], &rest].concat());
             let what = format!("{} of a {}: {}", format.name, kind.noun, run.err);
             let out = run.directory.path().join("out");
-            if let Some(why) = (format.unfit)(cam.body()) {
+            if let Some(why) = format.unfit(cam.body()) {
                 assert_eq!(run.code, 2, "{what}");
                 assert!(run.err.contains(why) && run.err.contains(format.name), "{what}");
                 assert!(!out.exists(), "{what}");
                 continue;
             }
             assert_eq!(run.code, 0, "{what}");
-            let mut expected: Vec<String> =
-                (format.endings)(drawn).iter().map(|ending| format!("cam{ending}")).collect();
+            let proven = cam.draw(only(format.name)).expect("a drawing").prove().expect("a proof");
+            let endings = proven.endings(&format).expect("an outline");
+            let mut expected: Vec<String> = endings.iter().map(|ending| format!("cam{ending}")).collect();
             expected.sort();
             assert!(!expected.is_empty(), "{what}");
             assert_eq!(files(&out), expected, "{what}");
@@ -276,9 +276,9 @@ fn every_format_is_written_for_every_analysis_that_has_it_and_refused_for_the_ot
     // The other kinds of `trade` measure for seconds and have the same tables.
     for kind in analyses().filter(|kind| kind.command != "trade" || **kind == shaft::analysis::trade::KIND) {
         let judged = Judged::new(analysis_of(kind));
-        for format in by_name() {
+        for format in formats_by_name() {
             let writing = Writing::to("out", "found").formats(&[format.name]);
-            let endings = format.of_analysis.map_or_else(Vec::new, |of| (of.endings)(judged.analysis()));
+            let endings = format.of_analysis().map_or_else(Vec::new, |of| (of.endings)(judged.analysis()));
             let what = format!("{} of {}", format.name, kind.noun);
             match judged.files(&writing) {
                 Ok(set) => {
@@ -300,13 +300,13 @@ fn every_format_is_written_for_every_analysis_that_has_it_and_refused_for_the_ot
 /// What is asked of the library is told as the program tells it, and the usual formats are those that fit.
 #[test]
 fn formats_are_chosen_by_what_fits() {
-    names_are_distinct(FORMATS.iter().map(|format| format.name).collect());
+    names_are_distinct(formats().map(|format| format.name).collect());
     for kind in kinds() {
         let cam = cam_of(kind, &[]);
         let (chosen, left_out) = Writing::to("out", "cam").chosen(cam.body()).expect("the usual ones");
-        for format in FORMATS {
+        for format in formats() {
             let is_chosen = chosen.iter().any(|other| other.name == format.name);
-            let unfit = (format.unfit)(cam.body());
+            let unfit = format.unfit(cam.body());
             let usual =
                 format.when == FormatSelection::Drawn || (format.when == FormatSelection::Usual && unfit.is_none());
             assert_eq!(is_chosen, usual, "{} of a {}", format.name, kind.noun);
@@ -356,15 +356,29 @@ fn led() -> Proven {
     lifter(LIFTER, &[]).solve().expect("a cam").draw(led).expect("drawn").prove().expect("proved")
 }
 
+/// A request for a drawing with one format.
+fn only(format: &str) -> Request {
+    let every = of_every_tool();
+    Request {
+        flank: true,
+        points: every.points.filter(|_| format == "points"),
+        milling: every.milling.filter(|_| format == "gcode"),
+        formats: formats_by_name().map(|format| format.name).filter(|name| *name == format).collect(),
+        inspection: every.inspection.filter(|_| format == "inspect"),
+        gauge: every.gauge.filter(|_| format == "gauge"),
+        ..Request::within(TOLERANCE)
+    }
+}
+
 /// A request for every file of a tool.
 fn of_every_tool() -> Request {
     Request {
         cutter_radius: Some(0.01),
-        points: Some(camgen::body::points::Points::default()),
-        milling: Some(camgen::body::milling::Milling::default()),
-        servo: true,
-        inspection: Some(camgen::body::inspection::Inspection { ball_radius: 1.5e-3 }),
-        gauge: Some(camgen::body::gauge::Gauge::Flat),
+        points: Some(camgen::body::Points::default()),
+        milling: Some(camgen::body::Milling::default()),
+        formats: formats_by_name().map(|format| format.name).collect(),
+        inspection: Some(camgen::body::Inspection { ball_radius: 1.5e-3 }),
+        gauge: Some(camgen::body::Gauge::Flat),
         ..Request::within(TOLERANCE)
     }
 }

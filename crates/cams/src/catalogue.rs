@@ -6,9 +6,10 @@ use crate::check::Check;
 use crate::domain::{DesignCommand, Domain, Makes, registered};
 use crate::machine::{self, Catalogue, Machine, MachineError, MachineSource};
 use crate::pipeline::Spec;
+use crate::tool_files::tool_files;
 use crate::trade;
-use crate::verify::CHECKS;
-use camgen_kernel::document::{InputFiles, KeySection, Tables, cams};
+use crate::verify::{CHECKS, CheckEntry};
+use camgen_kernel::document::{KeySection, Tables, cams};
 use camgen_kernel::motion::program::rows::TableRows;
 use camgen_kernel::refusal::Refusal;
 use std::sync::LazyLock;
@@ -66,6 +67,7 @@ impl CatalogueBuilder {
             embedded: embedded.copied().collect(),
             parts: domains.iter().filter_map(|domain| domain.read).collect(),
             checks: checks_with(domains).into_iter().map(|check| check.name).collect(),
+            file_checks: file_checks().map(|check| check.name).collect(),
         }
     }
 }
@@ -83,10 +85,23 @@ fn sections(domains: &[&Domain]) -> Vec<&'static KeySection> {
 fn checks_with(domains: &[&Domain]) -> Vec<&'static Check> {
     let mut all: Vec<&'static Check> =
         CHECKS.iter().map(|check| &**check).chain([&compare::DEVIATION, &import::DEVIATION]).collect();
+    for file in tool_files() {
+        let before = all.iter().position(|check| check.name == file.stands_after());
+        all.insert(before.map_or(all.len(), |before| before + 1), file.check());
+    }
     for added in domains.iter().flat_map(|domain| domain.checks) {
         added.put_into(&mut all, |check| check.name);
     }
     all
+}
+
+/// The checks that read what was written.
+fn file_checks() -> impl Iterator<Item = &'static Check> {
+    let of_outlines = CHECKS.iter().filter_map(|entry| match entry {
+        CheckEntry::File(check) => Some(&check.check),
+        CheckEntry::Figure(_) => None,
+    });
+    of_outlines.chain(tool_files().map(|file| file.check()))
 }
 
 /// Every check, in the order of reports.

@@ -2,7 +2,7 @@
 //!
 //! Users take the crate `camgen`, on whose first page all of this is; the modules may change with any version. Each uses only those
 //! before it: [`machine`], [`report`], [`table`], [`load`], [`check`], [`body`], [`analysis`], [`reading`], [`verify`], [`mod@write`],
-//! [`pipeline`], [`mod@trade`], [`domain`], [`catalogue`], [`study`], `engine` (with the feature `html`). What comes before is in
+//! [`tool_files`], [`pipeline`], [`mod@trade`], [`domain`], [`catalogue`], [`study`], `engine` (with the feature `html`). What comes before is in
 //! [`camgen_kernel`], whose modules are here, too.
 //!
 //! A crate with a kind of machine that this one does not know brings [domains](domain) and [registers](register) them; what is linked with
@@ -28,6 +28,8 @@ pub mod reading;
 pub mod verify;
 
 pub mod write;
+
+pub mod tool_files;
 
 pub mod pipeline;
 pub mod trade;

@@ -1,7 +1,7 @@
 //! Flags of the commands that write files.
 
 use super::parse::{bare_cutter, cutter_diameter, cutter_radius, dxf_version, format, samples, start, stem, word};
-use camgen::body::points::PointCurve;
+use camgen::body::PointCurve;
 use camgen::geometry::points::{PointCoordinates, PointInterpolation, PointStep};
 use camgen::machine::Controller;
 use camgen::profile::outline::{SegmentKind, Side};

@@ -1,13 +1,12 @@
 //! The values of flags, as they were typed.
 
-use camgen::body::gauge::Gauge;
-use camgen::body::{Accuracy, RateTolerance};
+use camgen::body::{Accuracy, Gauge, RateTolerance};
 use camgen::document::{LengthOrAngle, NamedChoice, similar};
 use camgen::domains::shaft::mechanics::MOST_ORDER;
 use camgen::machine::{fault_of_stem, valid_rpm};
 use camgen::motion::laws::{self, LAWS, Law};
+use camgen::tool_files::formats_by_name;
 use camgen::units::{self, Dimension};
-use camgen::write::by_name;
 use camgen::write::csv::MOST_ROWS;
 use camgen::write::dxf::Version;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -261,10 +260,10 @@ pub(crate) fn samples(text: &str) -> Result<u32, String> {
 }
 
 pub(crate) fn format(text: &str) -> Result<String, String> {
-    if let Some(format) = by_name().find(|format| format.name.eq_ignore_ascii_case(text)) {
+    if let Some(format) = formats_by_name().find(|format| format.name.eq_ignore_ascii_case(text)) {
         return Ok(format.name.to_owned());
     }
-    let known: Vec<&str> = by_name().map(|format| format.name).collect();
+    let known: Vec<&str> = formats_by_name().map(|format| format.name).collect();
     Err(format!("no such format; {}one of {}", meant(text, &known), known.join(", ")))
 }
 

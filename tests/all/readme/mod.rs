@@ -107,7 +107,7 @@ fn the_readme_is_one_page_and_every_link_leads_to_a_file() {
 fn the_book_names_every_format_column_and_follower() {
     let text = |page: &str| fs::read_to_string(root().join("docs").join(page)).expect("a page");
     let (files, followers) = (text("files.md"), text("followers.md"));
-    for format in camgen::write::FORMATS.iter().filter(|format| format.when != camgen::write::FormatSelection::Drawn) {
+    for format in camgen::tool_files::formats_by_name() {
         assert!(files.contains(&format!("`{}`", format.name)), "docs/files.md lacks the format {}", format.name);
     }
     for (column, _) in camgen::table::COLUMNS {

@@ -53,3 +53,12 @@ impl<'a> Cut<'a> {
         found.is_some_and(|(curves, worst)| worst.least_radius(curves).value <= curves.offset().abs())
     }
 }
+
+/// The width of a groove between these cuts, m.
+#[must_use]
+pub fn groove_width(cuts: &[Cut<'_>]) -> Option<f64> {
+    let [inner, outer] = cuts else { return None };
+    let groove = inner.layer == Layer::GrooveInner && outer.layer == Layer::GrooveOuter;
+    let width = inner.curves?.offset() - outer.curves?.offset();
+    groove.then_some(width)
+}

@@ -1,6 +1,6 @@
 //! The figures of a cam that limits are set for, for every kind of body.
 
-use super::{Body, milling};
+use super::{Body, groove_width};
 use crate::check::contact_stress::{self, ContactKind};
 use crate::check::continuity::RunMotion;
 use crate::check::{
@@ -120,7 +120,7 @@ pub trait Figures: Body {
             curvature::min_convex_radius(&self.least_rolled_radius(), roller(), subject)
         });
         of.add(&cutter_radius::CHECK, |_| {
-            let half_width = milling::groove_width(&self.cuts()).map(|width| 0.5 * width);
+            let half_width = groove_width(&self.cuts()).map(|width| 0.5 * width);
             cutter_radius::measure(self.min_concave_radius(), half_width, subject)
         });
         of.add(&wall::CHECK, |written| self.wall().map(|wall| wall::measure(wall, written, subject)));

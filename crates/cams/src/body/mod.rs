@@ -13,26 +13,18 @@ pub mod figures;
 mod flank;
 pub mod flank_switch;
 mod flight;
-pub mod four_axes;
-pub mod gauge;
 pub mod globoid;
 pub mod groove;
 pub mod in_groove;
-pub mod inspection;
 mod list;
 mod load_as_cut;
 pub mod loaded;
 pub mod mesh;
-pub mod milling;
 pub mod motion_diagram;
 pub mod part;
 pub mod picture;
-pub mod points;
-pub mod polar;
-pub mod programs;
 pub mod rib;
 pub mod roller_bearing;
-pub mod servo;
 pub mod shaft_torque;
 pub mod sheet;
 mod sizing;
@@ -42,10 +34,11 @@ pub mod surface;
 pub mod swept;
 pub mod torque;
 pub mod wedge;
+mod wishes;
 mod worst_places;
 pub mod yoke;
 
-pub use cut::Cut;
+pub use cut::{Cut, groove_width};
 pub use figures::Figures;
 pub use flank::Flank;
 pub use list::{BODIES, MADE_WITH, ProgramBody, SolveProgram, of_motion};
@@ -59,6 +52,7 @@ pub use sizing::size_limits;
 pub use sizing::{broken_limit, no_radius, passing};
 pub use surface::Surface;
 pub use swept::{RoundFace, SweptDrawing, SweptFlanks};
+pub use wishes::{FormatNames, Gauge, Inspection, Milling, PointCurve, Points};
 pub use worst_places::WorstPlaces;
 pub use worst_places::{STRAIGHT, radius_of};
 
@@ -224,19 +218,19 @@ pub struct Request {
     /// Radius of a cutter whose path is needed, m.
     pub cutter_radius: Option<f64>,
     /// The list of places for a measuring machine that is needed.
-    pub inspection: Option<inspection::Inspection>,
+    pub inspection: Option<Inspection>,
     /// The gauge follower whose lift table is needed.
-    pub gauge: Option<gauge::Gauge>,
-    /// Tables for a servo drive are needed.
-    pub servo: bool,
+    pub gauge: Option<Gauge>,
+    /// Formats of files that machines run and that have no options.
+    pub formats: FormatNames,
     /// Largest errors of velocity and acceleration as cut, in place of those of `fit`.
     pub rates: [Option<RateTolerance>; 2],
     /// Refuse a cam whose follower has larger errors, of velocity and of acceleration; else they are only reported.
     pub strict: [bool; 2],
     /// The table of points that is needed.
-    pub points: Option<points::Points>,
+    pub points: Option<Points>,
     /// The program for a milling machine that is needed.
-    pub milling: Option<milling::Milling>,
+    pub milling: Option<Milling>,
     /// The cam angle at which the cut starts, rad; `None` for the middle of the longest dwell at the lowest lift, or the flattest joint.
     pub start: Option<f64>,
     /// The path of the tool to that start, where one is drawn.
@@ -260,7 +254,7 @@ impl Request {
             cutter_radius: None,
             points: None,
             milling: None,
-            servo: false,
+            formats: FormatNames::default(),
             inspection: None,
             gauge: None,
             rates: [None; 2],
@@ -268,6 +262,13 @@ impl Request {
             start: None,
             lead_in: None,
         }
+    }
+
+    /// Without the files that machines run in addition to the outline.
+    #[must_use]
+    pub fn without_tool_files(self) -> Self {
+        let formats = FormatNames::default();
+        Self { points: None, milling: None, formats, inspection: None, gauge: None, ..self }
     }
 
     /// With the tolerances of the motion as numbers for a body.
@@ -318,8 +319,6 @@ pub struct Drawn {
     pub other_cutter_paths: Vec<Result<Outline, OutlineError>>,
     /// What is drawn of a body with flanks that a roller sweeps in space, in the place of parts.
     pub swept: Option<Box<SweptDrawing>>,
-    /// The programs for a milling machine that were requested, one for each part, or why there are none.
-    pub programs: Result<Vec<milling::MillingProgram>, String>,
 }
 
 impl Drawn {
@@ -331,7 +330,6 @@ impl Drawn {
             flank: None,
             cutter_path: None,
             other_cutter_paths: Vec::new(),
-            programs: Ok(Vec::new()),
             swept: None,
         }
     }
@@ -386,6 +384,15 @@ impl DrawingEvidence<'_> {
             other.strip_prefix(path).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
         };
         self.wanted.is_none_or(|all| all.iter().any(is_of))
+    }
+}
+
+/// Radius of the roller of a body, m; `None` under a flat face or a knife edge.
+#[must_use]
+pub fn radius_of_roller(body: &dyn Body) -> Option<f64> {
+    match body.surface() {
+        Some(surface) => Some(surface.sphere()[0]),
+        None => curves(body)?.roller_radius(),
     }
 }
 

@@ -56,7 +56,7 @@ pub(super) fn proven(
     let drawing = assembly.draw(Request {
         rates: [None, Accuracy::Standard.acceleration()],
         strict: [false; 2],
-        flank: formats.iter().any(|format| format.flank),
+        flank: formats.iter().any(|format| format.shows_flank()),
         ..Request::within(Fit::from(tolerance(request)?))
     });
     Ok((drawing.and_then(AssemblyDrawing::prove)?, writing))

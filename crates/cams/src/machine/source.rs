@@ -25,6 +25,8 @@ pub struct Catalogue {
     pub parts: Vec<ReadParts>,
     /// The names of all checks, in the order of reports.
     pub checks: Vec<&'static str>,
+    /// The names of those that read what was written.
+    pub file_checks: Vec<&'static str>,
 }
 
 /// Reads what a domain finds in a machine file, with the cam and the follower where they have no fault.
@@ -174,7 +176,13 @@ impl MachineSource {
 }
 
 impl Catalogue {
-    /// The text of an embedded machine by its name, or of a file; `files` reads it and the files that it names.
+    /// Whether a check of this name reads what was written.
+    #[must_use]
+    pub fn reads_files(&self, check: &str) -> bool {
+        self.file_checks.iter().any(|name| *name == check)
+    }
+
+    /// The text of an embedded machine by its name, or of a file.
     ///
     /// # Errors
     /// A file that cannot be read, or is not a machine file; what is wrong in it shows when a machine is made of it.

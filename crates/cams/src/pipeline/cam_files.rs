@@ -3,6 +3,7 @@
 use super::{Error, FileSet, Proven, ProvenAssembly, Writing};
 use crate::body::Body;
 use crate::report::{LazyReport, Report};
+use crate::tool_files::Listed;
 use crate::verify::WrittenOutline;
 use crate::write::Rendering;
 use camgen_kernel::numeric::parallel;
@@ -96,10 +97,10 @@ impl ProvenAssembly {
 
 /// The names of the files of a cam.
 fn names(proven: &Proven, writing: &Writing) -> Result<Vec<String>, Error> {
-    let drawn = proven.outlined()?;
+    proven.outlined()?;
     let (formats, _) = writing.chosen(proven.body())?;
-    let endings = formats.iter().flat_map(|format| (format.endings)(drawn));
-    Ok(endings.map(|ending| format!("{}{ending}", writing.stem)).collect())
+    let endings: Vec<Vec<String>> = formats.iter().map(|format| proven.endings(format)).collect::<Result<_, _>>()?;
+    Ok(endings.concat().iter().map(|ending| format!("{}{ending}", writing.stem)).collect())
 }
 
 /// The files of the first cam of an assembly, whose report also names those of the other cams.
@@ -110,7 +111,7 @@ fn of_first(whole: &ProvenAssembly, writing: &Writing, other_names: &[String]) -
     }
     let (formats, _) = writing.chosen(proven.body())?;
     let drawn = proven.outlined()?;
-    if let Some(format) = formats.iter().find(|format| format.flank)
+    if let Some(format) = formats.iter().find(|format| format.shows_flank())
         && proven.body().surface().is_some()
         && drawn.flank.is_none()
     {
@@ -132,12 +133,18 @@ fn of_first(whole: &ProvenAssembly, writing: &Writing, other_names: &[String]) -
         live: writing.live.as_ref(),
         ..rendering
     };
-    let filled: Vec<_> = formats.iter().filter(|format| !(format.endings)(rendering.drawn).is_empty()).collect();
+    let mut filled = Vec::with_capacity(formats.len());
+    for format in &formats {
+        // A file that was not requested with the drawing is refused when it is to be written.
+        if matches!(format.source, Listed::Tool(_)) || !proven.endings(format)?.is_empty() {
+            filled.push(format);
+        }
+    }
     // Made by one of several at the same time, it could wait for itself: its sections spread over the threads that write the others.
     if filled.len() > 1 {
         LazyLock::force(&report);
     }
-    let made = parallel::map(&filled, |format| (format.write)(&rendering));
+    let made = parallel::map(&filled, |format| proven.written_in(format, &rendering));
     let bytes: Vec<Vec<Vec<u8>>> = made.into_iter().collect::<Result<_, _>>().map_err(Error::Format)?;
     Ok(FileSet::new(
         writing,

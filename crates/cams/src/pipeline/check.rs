@@ -6,46 +6,18 @@ use crate::body::{Body, Cut, Layer, Request};
 use crate::reading::step::{FaceLoop, FlankShape, SolidForm, StepFile};
 use crate::reading::{self, Chain, Reading, step};
 use crate::report::{Finding, Inputs, Report, Rolled, Section, Verdict};
+use crate::tool_files::ExpectedFile;
+use crate::tool_files::section::{CutSection, section};
 use crate::verify::{self, Evidence, WrittenOutline, WrittenSolid, join_reach, rolling, shell_reach};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::profile::outline::MotionTolerance;
 use camgen_kernel::refusal::Refusal;
-use serde::Serialize;
-
-/// File names give a speed with six digits: speeds that differ by less than half of the last digit are equal.
-const SAME_SPEED: f64 = 5e-6;
-
-/// What a file that is checked should hold, where a cam has more than one file, and how it is read.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct ExpectedFile<'a> {
-    /// Layer of the outline in a DXF file; `None` for `CAM_PROFILE`, or the only closed contour of a file without that layer.
-    pub layer: Option<&'a str>,
-    /// Speed of the section of a conoid, rpm, one of those it was solved for.
-    pub section: Option<f64>,
-    /// Name of the outline, of a cam that has several at one place.
-    pub cut: Option<&'a str>,
-    /// Radius of the cutter whose path the file holds, m.
-    pub cutter: Option<f64>,
-}
 
 /// Whether a DXF file has the path of a cutter and no outline.
 fn is_cutter_path(reading: &Reading) -> bool {
     let has = |layer: Layer| reading.layers.iter().any(|name| name.eq_ignore_ascii_case(layer.name()));
     has(Layer::CutterPath) && !has(Layer::CamProfile)
-}
-
-/// The section of a conoid that a file should hold.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub(super) struct CutSection {
-    pub(super) rpm: f64,
-    z_mm: f64,
-    /// Which of the cuts it is.
-    #[serde(skip)]
-    pub(super) cut: usize,
-    /// Its place in metres.
-    #[serde(skip)]
-    z: f64,
 }
 
 impl Cam {
@@ -112,12 +84,7 @@ impl Cam {
                 return Err(Error::Section(refusal.remedy("give no section")));
             }
             FileKind::Step => return self.check_solid(bytes, &request),
-            FileKind::Program => return self.check_program(bytes, expected, &request),
-            FileKind::Servo => return self.check_servo(bytes, &request),
-            FileKind::Points => return self.check_points(bytes, expected, &request),
-            FileKind::Places => return self.check_places(bytes, expected, &request),
-            FileKind::Gauge => return self.check_gauge(bytes, &request),
-            FileKind::Table => return self.check_table(bytes, &request),
+            FileKind::Tool(file) => return self.check_tool_file(file, bytes, expected, &request),
             FileKind::Dxf | FileKind::Shown(_) => {}
         }
         self.check_drawing(bytes, expected, request)
@@ -133,7 +100,7 @@ impl Cam {
         if expected.layer.is_none() && is_cutter_path(&reading) {
             return self.check_cutter_path(bytes, expected, &request);
         }
-        let section = self.section(expected.section)?;
+        let section = section(self.body(), expected.section)?;
         if section.is_none() && self.is_one_file() {
             let cuts = self.body().cuts();
             let of = |cut: &Cut<'_>| reading::read_with_outline(bytes, reach, Some(cut.layer.name()));
@@ -195,36 +162,6 @@ impl Cam {
     /// for [`Cam::check`].
     pub fn check_section(&self, bytes: &[u8], rpm: f64, request: impl Into<Request>) -> Result<Report, Error> {
         self.check_file(bytes, &ExpectedFile { section: Some(rpm), ..ExpectedFile::default() }, request)
-    }
-
-    /// The requested section, where there are sections.
-    pub(super) fn section(&self, asked: Option<f64>) -> Result<Option<CutSection>, Error> {
-        let noun = self.body().kind().noun;
-        let cuts = self.body().cuts();
-        let of =
-            |(cut, of): (usize, &Cut<'_>)| Some(CutSection { rpm: of.rpm?, z_mm: MILLIMETRES * of.z, cut, z: of.z });
-        let all: Vec<CutSection> = cuts.iter().enumerate().filter_map(of).collect();
-        if all.is_empty() {
-            let what = format!("a {noun} has one outline for all its height, and no sections");
-            let why = asked.map(|_| Error::Section(Refusal::new(what).remedy("give no section")));
-            return why.map_or(Ok(None), Err);
-        }
-        let known: Vec<String> = all.iter().map(|section| section.rpm.to_string()).collect();
-        let known = known.join(", ");
-        match (asked, all.as_slice()) {
-            (None, [only]) => Ok(Some(*only)),
-            (None, _) => {
-                let refusal = Refusal::new(format!("a {noun} of several sections has a file for each"));
-                Err(Error::Section(refusal.remedy(format!("give one of {known} rpm"))))
-            }
-            (Some(rpm), _) => {
-                let found = all.iter().find(|section| (section.rpm - rpm).abs() <= SAME_SPEED * rpm).copied();
-                found.map(Some).ok_or_else(|| {
-                    let refusal = Refusal::new(format!("there is no section for {rpm} rpm"));
-                    Error::Section(refusal.remedy(format!("give one of {known} rpm")))
-                })
-            }
-        }
     }
 
     /// The report on the outlines of a file, from this cut of the body on.

@@ -1,6 +1,7 @@
 //! Everything that can go wrong from a machine file to the files of a cam.
 
 use crate::machine::MachineError;
+use crate::tool_files::FileError;
 use crate::write::files::FilesError;
 use camgen_kernel::refusal::Refusal;
 
@@ -60,4 +61,15 @@ pub enum Error {
     /// Files cannot be written.
     #[error(transparent)]
     Files(#[from] FilesError),
+}
+
+impl From<FileError> for Error {
+    fn from(error: FileError) -> Self {
+        match error {
+            FileError::Read(why) => Self::Read(why),
+            FileError::Section(why) => Self::Section(why),
+            FileError::Cutter(why) => Self::Cutter(why),
+            FileError::Request(why) => Self::Draw(why),
+        }
+    }
 }

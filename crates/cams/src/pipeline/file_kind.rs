@@ -1,37 +1,22 @@
 //! What a file is, by its content: every kind that camgen writes is known, with what can be judged of it.
 
-use crate::body::{Body, gauge, inspection, milling, servo};
-use crate::reading::{
-    self, gauge as read_gauge, gcode, inspection as read_inspection, servo as read_servo, step, table,
-};
-use crate::write::points;
+use crate::body::Body;
+use crate::reading::{self, step};
+use crate::tool_files::{ToolFile, recognised};
 use camgen_kernel::refusal::Refusal;
 
 /// The kinds of files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub enum FileKind {
     /// A drawing as DXF: what is none of the others.
     Dxf,
     /// A solid.
     Step,
-    /// A program for a milling machine.
-    Program,
-    /// A table for a servo drive.
-    Servo,
-    /// A table of points for a control.
-    Points,
-    /// A list of places for a measuring machine.
-    Places,
-    /// The lift table of a gauge follower.
-    Gauge,
-    /// A table of numbers.
-    Table,
+    /// Another file that a machine runs.
+    Tool(&'static dyn ToolFile),
     /// A file for readers or for other programs, from which nothing is cut, measured or moved: what it is.
     Shown(&'static str),
 }
-
-/// Whether bytes are those of a kind of file.
-type Recognises = fn(&[u8]) -> bool;
 
 /// How files begin from which nothing is cut.
 const SHOWN: [(&str, &str); 7] = [
@@ -55,17 +40,13 @@ impl FileKind {
     /// The kind of a file.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Self {
-        let known: [(Recognises, Self); 7] = [
-            (step::is_step, Self::Step),
-            (read_servo::is_servo, Self::Servo),
-            (points::is_points, Self::Points),
-            (read_inspection::is_inspection, Self::Places),
-            (read_gauge::is_gauge, Self::Gauge),
-            (table::is_table, Self::Table),
-            (gcode::is_program, Self::Program),
-        ];
-        let found = known.iter().find(|(is_one, _)| is_one(bytes)).map(|(_, kind)| *kind);
-        found.or_else(|| shown(bytes).map(Self::Shown)).unwrap_or(Self::Dxf)
+        if step::is_step(bytes) {
+            return Self::Step;
+        }
+        if let Some(file) = recognised(bytes) {
+            return Self::Tool(file);
+        }
+        shown(bytes).map_or(Self::Dxf, Self::Shown)
     }
 
     /// Refuses a file from which nothing is cut, or of which there is none for a body.
@@ -74,12 +55,9 @@ impl FileKind {
     /// [`Refusal`] with what the file is.
     pub(super) fn of_body(self, body: &dyn Body) -> Result<(), Refusal> {
         let (what, unfit) = match self {
-            Self::Dxf | Self::Step | Self::Points | Self::Table => return Ok(()),
+            Self::Dxf | Self::Step => return Ok(()),
             Self::Shown(what) => return Err(not_cut(what)),
-            Self::Program => ("a program for a milling machine", milling::unfit(body)),
-            Self::Servo => ("a table for a servo drive", servo::unfit(body)),
-            Self::Places => ("a list of places for a measuring machine", inspection::unfit(body)),
-            Self::Gauge => ("the lift table of a gauge follower", gauge::unfit(body)),
+            Self::Tool(file) => (file.described(), file.unfit(body)),
         };
         unfit.map_or(Ok(()), |why| Err(Refusal::new(format!("{what}, and a {} has none: {why}", body.kind().noun))))
     }
@@ -92,12 +70,7 @@ impl FileKind {
         match Self::of(bytes) {
             Self::Dxf => reading::read(bytes, JOINED).map(drop),
             Self::Step => step::read(bytes).map(drop),
-            Self::Program => gcode::read(bytes).map(drop),
-            Self::Servo => read_servo::read(bytes).map(drop).map_err(Refusal::new),
-            Self::Points => points::read(bytes).map(drop).map_err(Refusal::new),
-            Self::Places => read_inspection::read(bytes).map(drop).map_err(Refusal::new),
-            Self::Gauge => read_gauge::read(bytes).map(drop).map_err(Refusal::new),
-            Self::Table => table::read(bytes).map(drop).map_err(Refusal::new),
+            Self::Tool(file) => file.read(bytes),
             Self::Shown(what) => Err(not_cut(what)),
         }
     }
@@ -134,29 +107,40 @@ fn shown(bytes: &[u8]) -> Option<&'static str> {
 mod tests {
     use super::*;
 
+    /// What a file is in a word: its check, or what else it is.
+    fn known_as(bytes: &[u8]) -> &'static str {
+        match FileKind::of(bytes) {
+            FileKind::Dxf => "dxf",
+            FileKind::Step => "step",
+            FileKind::Tool(file) => file.check().name,
+            FileKind::Shown(what) => what,
+        }
+    }
+
     #[test]
     fn every_kind_is_known_by_its_beginning() {
         for (text, kind) in [
-            ("ISO-10303-21;\n", FileKind::Step),
-            ("%\nO1\nG21G17G90G40\n", FileKind::Program),
-            ("G90 G1 X1 F2\n", FileKind::Program),
-            ("0 BEGIN PGM A MM\n", FileKind::Program),
-            ("cam_deg,lift_mm\n0,1\n", FileKind::Table),
-            ("pass,tool_mm,a_deg\n1,2,3\n", FileKind::Table),
-            ("# units: mm\ncam_deg,radius_mm\n0,1\n", FileKind::Points),
-            ("DMISMN/'A',05.2\n", FileKind::Places),
-            ("1 10 0 0 1 0 0\n", FileKind::Places),
-            ("# a\ncam_deg,distance_mm,lift_mm\n", FileKind::Gauge),
-            ("Tabletype = 3\nBegintable\n", FileKind::Servo),
-            ("%PDF-1.7\n", FileKind::Shown("a sheet (PDF)")),
-            ("<?xml version=\"1.0\"?>\n<svg>", FileKind::Shown("a sheet or a plot (SVG)")),
-            ("<!doctype html>", FileKind::Shown("a page (HTML)")),
-            ("{\"schema\": 1}", FileKind::Shown("a report (JSON)")),
-            ("name = \"A\"\n[motion]\nrpm = 3\n", FileKind::Shown("a design file (TOML)")),
-            ("  0\nSECTION\n  2\nENTITIES\n", FileKind::Dxf),
-            ("999\na comment\n0\nSECTION\n", FileKind::Dxf),
+            ("ISO-10303-21;\n", "step"),
+            ("%\nO1\nG21G17G90G40\n", "program"),
+            ("G90 G1 X1 F2\n", "program"),
+            ("0 BEGIN PGM A MM\n", "program"),
+            ("cam_deg,lift_mm\n0,1\n", "table"),
+            ("pass,tool_mm,a_deg\n1,2,3\n", "table"),
+            ("# units: mm\ncam_deg,radius_mm\n0,1\n", "points"),
+            ("DMISMN/'A',05.2\n", "inspection"),
+            ("1 10 0 0 1 0 0\n", "inspection"),
+            ("# a\ncam_deg,distance_mm,lift_mm\n", "gauge"),
+            ("Tabletype = 3\nBegintable\n", "servo"),
+            ("# G17 G90 G21\ncam_deg,distance_mm,lift_mm\n", "gauge"),
+            ("%PDF-1.7\n", "a sheet (PDF)"),
+            ("<?xml version=\"1.0\"?>\n<svg>", "a sheet or a plot (SVG)"),
+            ("<!doctype html>", "a page (HTML)"),
+            ("{\"schema\": 1}", "a report (JSON)"),
+            ("name = \"A\"\n[motion]\nrpm = 3\n", "a design file (TOML)"),
+            ("  0\nSECTION\n  2\nENTITIES\n", "dxf"),
+            ("999\na comment\n0\nSECTION\n", "dxf"),
         ] {
-            assert_eq!(FileKind::of(text.as_bytes()), kind, "{text}");
+            assert_eq!(known_as(text.as_bytes()), kind, "{text}");
         }
     }
 }

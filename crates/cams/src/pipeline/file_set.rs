@@ -9,7 +9,8 @@ use crate::write::files::{self, OutputDirectory, StagedFiles};
 use crate::write::html::live::LiveDesign;
 use crate::write::record::{WriteInputs, stage_recorded};
 use crate::write::svg;
-use crate::write::{FORMATS, Format, FormatSelection, by_name};
+use crate::tool_files::{Format, formats, formats_by_name};
+use crate::write::FormatSelection;
 use camgen_kernel::document::Input;
 use camgen_kernel::refusal::Refusal;
 use std::path::{Path, PathBuf};
@@ -71,7 +72,7 @@ impl Writing {
     /// # Errors
     /// [`Error::NoSuchFormat`]; [`Error::Unfit`] when a format was requested that the body cannot have; [`Error::Format`] when the table would have too many rows.
     #[expect(clippy::type_complexity, reason = "two lists")]
-    pub fn chosen(&self, body: &dyn Body) -> Result<(Vec<&'static Format>, Vec<(&'static str, &'static str)>), Error> {
+    pub fn chosen(&self, body: &dyn Body) -> Result<(Vec<Format>, Vec<(&'static str, &'static str)>), Error> {
         let (mut chosen, mut left_out) = (Vec::new(), Vec::new());
         let sections = u32::try_from(body.cuts().len()).unwrap_or(u32::MAX);
         if self.samples.saturating_mul(sections) > MOST_ROWS {
@@ -81,14 +82,14 @@ impl Writing {
             );
             return Err(Error::Format(Refusal::new(what).remedy(format!("give --samples {most} at most"))));
         }
-        if let Some(unknown) = self.formats.iter().flatten().find(|name| !by_name().any(|format| format.name == *name))
+        if let Some(unknown) = self.formats.iter().flatten().find(|name| !formats_by_name().any(|format| format.name == *name))
         {
-            let known: Vec<&str> = by_name().map(|format| format.name).collect();
+            let known: Vec<&str> = formats_by_name().map(|format| format.name).collect();
             return Err(Error::NoSuchFormat { name: unknown.clone(), known: known.join(", ") });
         }
-        for format in FORMATS {
+        for format in formats() {
             let asked = self.formats.as_ref().map(|names| names.iter().any(|name| name == format.name));
-            match (format.when, asked, (format.unfit)(body)) {
+            match (format.when, asked, format.unfit(body)) {
                 (FormatSelection::Drawn, _, _) | (_, Some(true), None) | (FormatSelection::Usual, None, None) => {
                     chosen.push(format);
                 }

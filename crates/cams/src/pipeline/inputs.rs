@@ -1,7 +1,6 @@
 //! The inputs that determine a part: the values of its machine, how it is solved, and how it is drawn.
 
-use crate::body::points::{PointCurve, Points};
-use crate::body::{Body, RateTolerance, Request};
+use crate::body::{Body, PointCurve, Points, RateTolerance, Request};
 use crate::machine::UNITS_KEY;
 use crate::report::sha256;
 use camgen_kernel::document::{Input, NamedChoice};

@@ -5,7 +5,8 @@ use crate::analysis::Analysis;
 use crate::machine::UNITS_KEY;
 use crate::report::{Finding, Inputs, LazyReport, Report, failed, passed, worst_first};
 use crate::verify;
-use crate::write::{AnalysisFormat, AnalysisRendering, Format, FormatSelection, by_name};
+use crate::tool_files::{Format, formats_by_name};
+use crate::write::{AnalysisFormat, AnalysisRendering, FormatSelection};
 use camgen_kernel::document::{Input, NamedChoice};
 use camgen_kernel::numeric::parallel;
 use camgen_kernel::units::LengthUnit;
@@ -180,7 +181,7 @@ impl Judged {
     /// The formats of the analysis, and the names of those of its cam, where there is one.
     fn chosen(&self, writing: &Writing) -> Result<(Vec<AnalysisFormat>, Option<Vec<String>>), Error> {
         let has = |of: &AnalysisFormat| !(of.endings)(&self.analysis).is_empty();
-        let own: Vec<&Format> = by_name().filter(|format| format.of_analysis.as_ref().is_some_and(has)).collect();
+        let own: Vec<Format> = formats_by_name().filter(|format| format.of_analysis().as_ref().is_some_and(has)).collect();
         let wanted = |format: &Format| match &writing.formats {
             Some(names) => names.iter().any(|name| name == format.name),
             None => format.when == FormatSelection::Usual,
@@ -191,10 +192,10 @@ impl Judged {
             Some(cams) => {
                 let body = cams.first().body();
                 // What only the analysis has is not asked of the cam.
-                let fits = |format: &&Format| !is_own(format.name) || (format.unfit)(body).is_none();
+                let fits = |format: &Format| !is_own(format.name) || format.unfit(body).is_none();
                 let names = |formats: Option<Vec<String>>| Writing { formats, ..writing.clone() };
                 let asked = writing.formats.as_ref().map(|asked| {
-                    let kept = by_name().filter(fits).map(|format| format.name);
+                    let kept = formats_by_name().filter(fits).map(|format| format.name);
                     let kept: Vec<&str> = kept.collect();
                     asked.iter().filter(|name| !is_own(name) || kept.contains(&name.as_str())).cloned().collect()
                 });
@@ -213,7 +214,7 @@ impl Judged {
             let names: Vec<&str> = own.iter().map(|format| format.name).collect();
             return Err(Error::NoSuchFormat { name: other.clone(), known: names.join(", ") });
         }
-        let own = own.into_iter().filter(|format| wanted(format)).filter_map(|format| format.of_analysis);
+        let own = own.into_iter().filter(|format| wanted(format)).filter_map(|format| format.of_analysis());
         Ok((own.collect(), of_cam))
     }
 }

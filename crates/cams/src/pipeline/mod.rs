@@ -8,18 +8,17 @@ mod assembly;
 mod builder;
 mod cam_files;
 mod check;
+mod check_tool_files;
 mod diagnosis;
 mod error;
 mod file_kind;
 mod file_set;
-mod heads;
 mod inputs;
 mod judged;
 mod pair;
 mod proven;
 mod spec;
 mod stem;
-mod tool_files;
 
 pub use assembly::{Assembly, AssemblyDrawing, AssemblyReport, ProvenAssembly};
 pub use builder::SOURCE as OF_BUILDER;
@@ -27,23 +26,20 @@ pub use builder::{
     ArmSide, Builder, FlatFaceFollower, KnifeEdgeFollower, PlaceChoice, RollerFollower, SwingingFaceFollower,
     SwingingRollerFollower,
 };
-pub use check::ExpectedFile;
 pub use diagnosis::Alternative;
 pub use error::Error;
 pub use file_kind::FileKind;
 pub use file_set::{FileSet, Output, Writing};
 pub use judged::Judged;
 pub use proven::Proven;
+pub use crate::tool_files::ExpectedFile;
 pub use spec::Spec;
 pub use spec::{SolvedBodies, WantedCams};
 
-use crate::body::milling::MillingError;
-use crate::body::points::{self, PointTable, TableError};
-use crate::body::programs;
-use crate::body::servo::{self, ServoTable};
 use crate::body::{self, Body, DrawError, Drawn, Request};
 use crate::machine::MachineValues;
 use crate::report::{Inputs, Report, Section};
+use crate::tool_files::{DrawnCam, PlannedFile, plan};
 use camgen_kernel::document::Input;
 use std::sync::Arc;
 
@@ -117,35 +113,16 @@ impl Cam {
         let inputs = self.inputs_for(&request);
         let request = request.resolved(&*self.body).map_err(Error::Draw)?;
         body::finer_than_the_lift(&*self.body, request.fit.tolerance).map_err(Error::Draw)?;
-        let (drawn, points) = match self.body.draw(&request) {
+        let drawn = match self.body.draw(&request) {
             Ok(drawn) => {
-                let drawn = body::start::started(&*self.body, &request, drawn).map_err(Error::Draw)?;
-                let programs = match programs::programs(self.body(), &request) {
-                    Err(MillingError::Cutter(why)) => Err(why.to_string()),
-                    Err(MillingError::Refused(why)) => return Err(Error::Draw(why.context("no program"))),
-                    Ok(programs) => Ok(programs),
-                };
-                let drawn = Drawn { programs, ..drawn };
-                let points = match points::tables(self.body(), &request, &drawn) {
-                    // The check of the cutter's radius says so, too, and what would pass.
-                    Err(TableError::Cutter(why)) => Err(why.to_string()),
-                    Err(TableError::Refused(why)) => return Err(Error::Draw(why.context("no table of points"))),
-                    Ok(tables) => Ok(tables),
-                };
-                (Ok(drawn), points)
+                Ok(body::start::started(&*self.body, &request, drawn).map_err(Error::Draw)?)
             }
-            Err(DrawError::NoOutline(why)) => (Err(why), Ok(Vec::new())),
+            Err(DrawError::NoOutline(why)) => Err(why),
             Err(DrawError::Refused(why)) => return Err(Error::Draw(why)),
         };
-        let servo = if request.servo {
-            Some(
-                servo::table(self.body(), &request)
-                    .map_err(|why| Error::Draw(why.context("no table for a servo drive")))?,
-            )
-        } else {
-            None
-        };
-        Ok(Drawing { cam: self.clone(), request, inputs, drawn, points, servo })
+        let drawn_cam = DrawnCam { body: self.body(), request: &request, drawn: drawn.as_ref().ok() };
+        let tool_files = plan(&drawn_cam).map_err(Error::Draw)?;
+        Ok(Drawing { cam: self.clone(), request, inputs, drawn, tool_files })
     }
 
     /// Whether it is made from the inputs of a recorded run; how it is drawn does not matter.
@@ -177,10 +154,8 @@ pub struct Drawing {
     inputs: Vec<Input>,
     /// What was drawn, or why there is no outline.
     drawn: Result<Drawn, String>,
-    /// The tables of points that were requested, or why there are none.
-    points: Result<Vec<PointTable>, String>,
-    /// The table for servo drives that was requested.
-    servo: Option<ServoTable>,
+    /// What was requested for machines to run, not yet written.
+    tool_files: Vec<PlannedFile>,
 }
 
 impl Drawing {

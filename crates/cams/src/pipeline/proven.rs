@@ -1,34 +1,20 @@
 //! A drawing with its proof: the bytes of its cut files, and what every check found of them.
 
 use super::{Cam, Drawing, Error, report};
-use crate::body::gauge;
-use crate::body::inspection::{self, InspectionList};
-use crate::body::milling::{self, MillingProgram, TurnedPath};
-use crate::body::points::{PointErrors, PointTable, by_travel, swings};
-use crate::body::servo::ServoTable;
 use crate::body::{Body, DrawingEvidence, Drawn, Request};
 use crate::check::Measure;
-use crate::reading::gauge as read_gauge;
-use crate::reading::gcode::{self as read_gcode, CutterMove, MoveKind};
-use crate::reading::servo as read_servo;
-use crate::report::{
-    AsCutError, Finding, Inputs, LazyReport, PointMeasures, ProgramMeasures, Report, Rolled, Section, passed,
-};
+use crate::report::{Finding, Inputs, LazyReport, Report, Rolled, Section, passed, warning};
 use crate::table::Table;
-use crate::verify::WrittenInspection;
-use crate::verify::{
-    self, Evidence, WrittenOutline, WrittenPath, WrittenPoints, WrittenProgram, WrittenServo, WrittenSwept, rolling,
-};
+use crate::tool_files::{DrawnCam, Format, Listed, ProvedToolFile, ToolFile, prove, tool_files};
+use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, WrittenSwept, rolling};
 use crate::write::Rendering;
 use crate::write::csv;
 use crate::write::dxf::{DxfForm, Version};
-use crate::write::gauge as write_gauge;
-use crate::write::inspection as write_inspection;
-use crate::write::{gcode, points, proof, servo, step};
-use camgen_kernel::document::{Input, NamedChoice};
+use crate::write::{proof, step};
+use camgen_kernel::document::Input;
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::geometry::points::{Interpolant, PointInterpolation};
 use camgen_kernel::profile::outline::{Outline, OutlineError};
+use camgen_kernel::refusal::Refusal;
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -61,20 +47,8 @@ struct ProvenData {
     drawn: Result<Drawn, String>,
     /// The bytes of the cut files, one for each part.
     cut_files: Vec<Vec<u8>>,
-    /// The bytes of the tables of points, one for each part, when they were requested.
-    points: Vec<Vec<u8>>,
-    /// The bytes of the programs for a milling machine, one for each part, when they were requested.
-    programs: Vec<Vec<u8>>,
-    /// The tables for servo drives by their formats, when they were requested.
-    servo: Vec<(&'static str, Vec<u8>)>,
-    /// The lists of places for a measuring machine with their files, when they were requested.
-    inspections: Vec<(InspectionList, Vec<Vec<u8>>)>,
-    /// The lift table of a gauge follower, when it was requested.
-    gauge: Option<Vec<u8>>,
-    /// The figures of those programs, for the report.
-    program_measures: Vec<ProgramMeasures>,
-    /// The figures of those tables, for the report.
-    point_measures: Vec<PointMeasures>,
+    /// What was requested for machines to run, with the findings of its judges.
+    tool_files: Vec<ProvedToolFile>,
     version: Version,
     outlines: Vec<WrittenOutline>,
     rolled: Vec<Rolled>,
@@ -190,31 +164,20 @@ impl Drawing {
         let body = self.cam.body();
         let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
         let cutter_paths = self.written_paths(version);
-        let point_measures = self.points.iter().flatten().map(|table| measures(body, table)).collect();
-        let (points, tables) = written_points(body, &self.request, self.points);
-        let (programs, read_programs) =
-            written_programs(body, &self.request, self.drawn.as_ref().ok(), &hashed.to_string());
-        let (servo, read_servo) = written_servo(body, self.servo.as_ref(), &hashed.to_string());
-        let (inspections, places) = written_inspections(body, &self.request, &hashed.to_string());
-        let gauge =
-            gauge::table(body, &self.request).map(|table| write_gauge::write(body, &table, &hashed.to_string()));
-        let read_gauge = gauge.as_deref().map(read_gauge::read);
-        let program_measures = program_measures(self.drawn.as_ref().ok(), read_programs.as_ref());
-        let findings = verify::run(&Evidence {
+        let evidence = Evidence {
             drawn: self.drawn.as_ref().ok(),
             outlines: &outlines,
             rolled: &rolled,
             cutter_paths: &cutter_paths,
-            points: tables.as_ref(),
-            programs: read_programs.as_ref(),
-            servo: read_servo.as_ref(),
-            inspections: &places,
-            gauge: read_gauge.as_ref(),
             of_others,
             swept: swept.as_ref(),
             strict: self.request.strict,
             ..Evidence::without_files(body, tolerance_mm, self.request.fit.motion)
-        });
+        };
+        let drawn_cam = DrawnCam { body, request: &self.request, drawn: self.drawn.as_ref().ok() };
+        let tool_files = prove(self.tool_files, &drawn_cam, &evidence, &hashed.to_string());
+        let of_tool_files: Vec<Finding> = tool_files.iter().filter_map(ProvedToolFile::finding).cloned().collect();
+        let findings = verify::run(&Evidence { of_tool_files: &of_tool_files, ..evidence });
         let (cam, request, inputs, drawn) = (self.cam, self.request, self.inputs, self.drawn);
         Proven(Arc::new(ProvenData {
             cam,
@@ -223,161 +186,12 @@ impl Drawing {
             hashed,
             drawn,
             cut_files,
-            points,
-            programs,
-            servo,
-            inspections,
-            gauge,
-            program_measures,
-            point_measures,
+            tool_files,
             version,
             outlines,
             rolled,
             findings,
         }))
-    }
-}
-
-/// The tables of points in memory, and the curves that a control makes of their bytes; none when they were not requested.
-#[expect(clippy::type_complexity, reason = "bytes, and what is read in them")]
-fn written_points(
-    body: &dyn Body,
-    request: &Request,
-    tables: Result<Vec<PointTable>, String>,
-) -> (Vec<Vec<u8>>, Option<Result<Vec<WrittenPoints>, String>>) {
-    let tables = match tables {
-        Ok(tables) if tables.is_empty() => return (Vec::new(), None),
-        Ok(tables) => tables,
-        Err(why) => return (Vec::new(), Some(Err(why))),
-    };
-    let files: Vec<Vec<u8>> = tables.iter().map(|table| points::write(body, table)).collect();
-    let read = |(table, bytes): (PointTable, &Vec<u8>)| {
-        let curve = points::read(bytes)
-            .and_then(|read| read.goes_round().map(|()| read))
-            .map(|read| Interpolant::new(&table.turned(&read.rows), read.form, read.between, read.closed));
-        WrittenPoints { table, cutter: request.cutter_radius, curve }
-    };
-    let written = tables.into_iter().zip(&files).map(read).collect();
-    (files, Some(Ok(written)))
-}
-
-/// The programs for a milling machine in memory, and what their control reads in their bytes; none when they were not requested.
-#[expect(clippy::type_complexity, reason = "bytes, and what is read in them")]
-fn written_programs(
-    body: &dyn Body,
-    request: &Request,
-    drawn: Option<&Drawn>,
-    mark: &str,
-) -> (Vec<Vec<u8>>, Option<Result<Vec<WrittenProgram>, String>>) {
-    let programs = match drawn.map(|drawn| &drawn.programs) {
-        Some(Ok(programs)) if !programs.is_empty() => programs,
-        Some(Err(why)) => return (Vec::new(), Some(Err(why.clone()))),
-        _ => return (Vec::new(), None),
-    };
-    let files: Vec<Vec<u8>> = programs.iter().map(|program| gcode::write(body, program, &[mark.to_owned()])).collect();
-    let read = |(program, bytes): (&MillingProgram, &Vec<u8>)| WrittenProgram {
-        cuts: program.cuts.clone(),
-        cutter: program.cutter.map(|radius| MILLIMETRES * radius),
-        kept: request.cutter_radius.filter(|_| program.cutter.is_none()).map(|radius| MILLIMETRES * radius),
-        middle: MILLIMETRES * request.fit.band().0,
-        depth: milling::depth_of(body),
-        program: read_gcode::read_for(bytes, Some(program.controller)).map_err(|why| why.to_string()),
-    };
-    let written = programs.iter().zip(&files).map(read).collect();
-    (files, Some(Ok(written)))
-}
-
-/// The tables for servo drives in memory, and what is read in their bytes; none when they were not requested.
-#[expect(clippy::type_complexity, reason = "bytes, and what is read in them")]
-fn written_servo(
-    body: &dyn Body,
-    table: Option<&ServoTable>,
-    mark: &str,
-) -> (Vec<(&'static str, Vec<u8>)>, Option<Result<Vec<WrittenServo>, String>>) {
-    let Some(table) = table else { return (Vec::new(), None) };
-    let files = servo::write(body, table, mark);
-    let read = files.iter().map(|(format, bytes)| WrittenServo { format, table: read_servo::read(bytes) }).collect();
-    (files, Some(Ok(read)))
-}
-
-/// The lists of places for a measuring machine in memory, and what is read in the bytes of each of their files; none when they were not requested.
-#[expect(clippy::type_complexity, reason = "bytes, and what is read in them")]
-fn written_inspections(
-    body: &dyn Body,
-    request: &Request,
-    mark: &str,
-) -> (Vec<(InspectionList, Vec<Vec<u8>>)>, Vec<WrittenInspection>) {
-    let (mut lists, mut read) = (Vec::new(), Vec::new());
-    for list in inspection::lists(body, request) {
-        let files = write_inspection::write(body, &list, mark);
-        read.extend(files.iter().map(|bytes| WrittenInspection::of(list.cut, bytes)));
-        lists.push((list, files));
-    }
-    (lists, read)
-}
-
-/// The figures of programs as they were read, for the report.
-fn program_measures(drawn: Option<&Drawn>, read: Option<&Result<Vec<WrittenProgram>, String>>) -> Vec<ProgramMeasures> {
-    let (Some(Ok(programs)), Some(Ok(read))) = (drawn.map(|drawn| &drawn.programs), read) else { return Vec::new() };
-    let of = |(program, written): (&MillingProgram, &WrittenProgram)| {
-        let found = written.program.as_ref().ok()?;
-        let moves = &found.moves;
-        if let (Some(path), false) = (&program.turned, found.turned.is_empty()) {
-            return Some(turned_measures(program, path));
-        }
-        let at_feed = || moves.iter().filter(|moved| moved.kind != MoveKind::Rapid);
-        let along: f64 = at_feed().flat_map(CutterMove::segments).map(|segment| segment.length()).sum();
-        let down: f64 = at_feed().map(|moved| (moved.to[2] - moved.from[2]).abs()).sum();
-        let seconds = (along / program.cutting.feed + down / program.cutting.plunge_feed) / MILLIMETRES;
-        Some(ProgramMeasures {
-            controller: program.controller.word(),
-            moves: moves.len(),
-            passes: program.depths.len() * program.passes.len(),
-            depth_mm: program.depths.last().copied().unwrap_or(0.0),
-            length_mm: along + down,
-            minutes: seconds / 60.0,
-        })
-    };
-    programs.iter().zip(read).filter_map(of).collect()
-}
-
-/// The figures of a program that turns the cam under its tool.
-fn turned_measures(program: &MillingProgram, path: &TurnedPath) -> ProgramMeasures {
-    let depths = program.depths.len();
-    let around: f64 = path.rounds.iter().flat_map(|round| &round.lengths).sum();
-    #[expect(clippy::cast_precision_loss, reason = "at most a thousand passes")]
-    let length_mm = depths as f64 * around;
-    ProgramMeasures {
-        controller: program.controller.word(),
-        moves: depths * path.rounds.iter().map(|round| round.rows.len()).sum::<usize>(),
-        passes: depths * path.rounds.len(),
-        depth_mm: program.depths.last().copied().unwrap_or(0.0),
-        length_mm,
-        minutes: length_mm / (MILLIMETRES * program.cutting.feed) / 60.0,
-    }
-}
-
-/// The figures of a table, for the report.
-fn measures(body: &dyn Body, table: &PointTable) -> PointMeasures {
-    let swings = swings(body);
-    let by_travel = by_travel(body);
-    let sizes = AsCutError::sizes(swings, by_travel);
-    let [velocity, acceleration] = match table.errors {
-        PointErrors::Known([velocity, acceleration]) => {
-            [sizes[0] * velocity, sizes[1] * acceleration].map(|error| Some(error).filter(|error| error.is_finite()))
-        }
-        PointErrors::Unknown(_) => [None; 2],
-    };
-    PointMeasures {
-        rpm: table.rpm,
-        rows: table.rows.rows.len(),
-        interpolation: if table.wish.between == PointInterpolation::Linear { "linear" } else { "cubic" },
-        tolerance_mm: table.wish.tolerance,
-        error_mm: table.rows.error,
-        swings,
-        by_travel,
-        velocity_error: velocity,
-        acceleration_error: acceleration,
     }
 }
 
@@ -469,13 +283,69 @@ impl Proven {
         self.report_with(Vec::new(), self.no_outline())
     }
 
+    /// The files of this kind, where they were requested with the drawing.
+    fn tool_file(&self, file: &dyn ToolFile) -> Option<&ProvedToolFile> {
+        self.0.tool_files.iter().find(|proved| proved.file().check().name == file.check().name)
+    }
+
+    /// The cam as its files are written of it.
+    fn drawn_cam(&self) -> DrawnCam<'_> {
+        DrawnCam { body: self.body(), request: &self.0.request, drawn: self.drawn() }
+    }
+
+    /// What its files are judged by.
+    fn evidence(&self) -> Evidence<'_> {
+        let request = &self.0.request;
+        Evidence {
+            drawn: self.drawn(),
+            outlines: &self.0.outlines,
+            rolled: &self.0.rolled,
+            strict: request.strict,
+            ..Evidence::without_files(self.body(), self.tolerance_mm(), request.fit.motion)
+        }
+    }
+
+    /// The endings of the names of the files of a format.
+    ///
+    /// # Errors
+    /// [`Error::NoOutline`] when there is nothing to write.
+    pub fn endings(&self, format: &Format) -> Result<Vec<String>, Error> {
+        let drawn = self.outlined()?;
+        Ok(match format.source {
+            Listed::View(view) => (view.endings)(drawn),
+            Listed::Tool(file) => {
+                let proved = self.tool_file(file);
+                proved.map_or_else(Vec::new, |proved| proved.endings(format.name, &self.drawn_cam()))
+            }
+        })
+    }
+
+    /// The files of a format: of one that a machine runs those that were proved.
+    pub(super) fn written_in(&self, format: &Format, rendering: &Rendering<'_>) -> Result<Vec<Vec<u8>>, Refusal> {
+        let file = match format.source {
+            Listed::View(view) => return (view.write)(rendering),
+            Listed::Tool(file) => file,
+        };
+        let proved = self.tool_file(file).ok_or_else(|| file.not_planned())?;
+        let files = if warning(&self.0.findings).is_some() {
+            proved.files_under(&rendering.report.mark(), format.name, &self.drawn_cam(), &self.evidence())?
+        } else {
+            proved.files(format.name)?
+        };
+        if files.is_empty() {
+            return Err(file.not_planned());
+        }
+        let mut all: Vec<Vec<u8>> = files.iter().map(|file| file.bytes().to_vec()).collect();
+        all.extend(proved.sheets(rendering)?);
+        Ok(all)
+    }
+
     /// The sections of the report with these figures, by their paths; `None` for all.
     pub(super) fn sections(&self, wanted: Option<&[String]>) -> Vec<Section> {
-        let ProvenData { rolled, point_measures, program_measures, .. } = &*self.0;
+        let rolled = &self.0.rolled;
         let found = DrawingEvidence { drawn: self.drawn(), rolled, tolerance_mm: self.tolerance_mm(), wanted };
         let mut sections = self.body().sections(&found);
-        sections.extend(PointMeasures::section(point_measures));
-        sections.extend(ProgramMeasures::section(program_measures));
+        sections.extend(tool_files().filter_map(|file| self.tool_file(file)?.section().cloned()));
         sections
     }
 
@@ -532,11 +402,6 @@ impl Proven {
             drawn,
             outlines: &self.0.outlines,
             cut_files,
-            points: &self.0.points,
-            programs: &self.0.programs,
-            servo: &self.0.servo,
-            inspections: &self.0.inspections,
-            gauge: self.0.gauge.as_deref(),
             fit: self.0.request.fit,
             cutter_radius: self.0.request.cutter_radius,
             dxf_version,

@@ -7,21 +7,16 @@
 
 mod contents;
 mod curve;
-pub mod gauge;
-pub mod gcode;
 mod groups;
-pub mod inspection;
 mod join;
 mod limits;
 pub mod outline;
 mod placement;
 mod record;
-pub mod servo;
 mod shape;
 mod shown;
 mod spline;
 pub mod step;
-pub mod table;
 mod walk;
 
 pub use join::Chain;

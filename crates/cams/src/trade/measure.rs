@@ -1,11 +1,12 @@
 //! Every setting made in rounds: the time of each stage, and the errors of what is made.
 
-use crate::body::points::{self, Points};
+use crate::body::Points;
+use crate::tool_files::points;
 use crate::body::{RateTolerance, Request};
 use crate::pipeline::Cam;
 use crate::report::{Rolled, failed, shown};
 use crate::verify::{WrittenOutline, rolling};
-use crate::write::{self, FORMATS, Rendering, dxf, proof, svg};
+use crate::write::{self, Rendering, View, csv, dxf, proof, step, svg};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::geometry::points::{Interpolant, PointCoordinates, PointInterpolation, PointStep};
@@ -430,9 +431,9 @@ fn points(
     let drawn = whole.drawn().ok_or_else(|| Refusal::new("there is no outline"))?;
     let (placing, tables) = timed(clock, || points::tables(body, &request, drawn).map_err(Refusal::of))?;
     let Some(table) = tables.first() else { return Err(Refusal::new("there is no table of points")) };
-    let (writing, bytes) = timed(clock, || Ok(write::points::write(body, table)))?;
+    let (writing, bytes) = timed(clock, || Ok(points::write(body, table)))?;
     let (checking, (outline, rolled_on)) = timed(clock, || {
-        let read = write::points::read(&bytes).map_err(Refusal::new)?;
+        let read = points::read(&bytes).map_err(Refusal::new)?;
         let curve = Interpolant::new(&read.rows, read.form, read.between, read.closed);
         let contour = Contour::from_edges(curve.edges().unwrap_or_default());
         let outline = WrittenOutline { cut: 0, z: 0.0, contour, others: Vec::new() };
@@ -499,10 +500,10 @@ fn torque_error(law: &TradeLaw, outlines: &[WrittenOutline]) -> Option<f64> {
 /// Times of the formats other than the cut file that the cam can have, and the bytes of all.
 fn formats(clock: TradeClock<'_>, rendering: &Rendering<'_>) -> Result<([Option<f64>; 3], usize), Refusal> {
     let (mut times, mut sizes) = ([None; 3], 0);
-    for (name, time) in ["svg", "step", "csv"].into_iter().zip(&mut times) {
-        let fits = FORMATS.iter().find(|format| format.name == name && (format.unfit)(rendering.body).is_none());
-        if let Some(format) = fits {
-            let (micros, files) = timed(clock, || (format.write)(rendering).map_err(Refusal::of))?;
+    let views: [&View; 3] = [&svg::FORMAT, &step::FORMAT, &csv::FORMAT];
+    for (view, time) in views.into_iter().zip(&mut times) {
+        if (view.unfit)(rendering.body).is_none() {
+            let (micros, files) = timed(clock, || (view.write)(rendering).map_err(Refusal::of))?;
             *time = Some(micros);
             sizes += files.iter().map(Vec::len).sum::<usize>();
         }

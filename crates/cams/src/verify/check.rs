@@ -1,19 +1,12 @@
 //! What a check of a written outline is, the evidence it judges, and how its findings are made.
 
 use super::swept_files::WrittenSwept;
-use crate::body::points::PointTable;
 use crate::body::{Body, Cut, Drawn};
 use crate::check::{Check, CheckExplanation, CheckScope, Measure};
-use crate::reading::gauge::GaugeRows;
-use crate::reading::gcode::CutterProgram;
-use crate::reading::inspection::{self, ReadPlace};
-use crate::reading::servo::ServoRows;
 use crate::reading::step::{SolidForm, StepFile};
-use crate::reading::table::NumberTable;
 use crate::reading::{Chain, Reading};
 use crate::report::{Finding, Place, Rolled};
 use camgen_kernel::geometry::contour::Contour;
-use camgen_kernel::geometry::points::Interpolant;
 use camgen_kernel::profile::Worst;
 use camgen_kernel::profile::outline::MotionTolerance;
 use nalgebra::Vector2;
@@ -47,65 +40,6 @@ pub struct WrittenPath {
     pub lead_ins: Vec<Chain>,
 }
 
-/// A table of points as a control would read it from the written file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct WrittenPoints {
-    /// The table it was made from: which curve it gives, and approximately where its rows lie on it.
-    pub table: PointTable,
-    /// Radius of the cutter, m, where a cutter is given.
-    pub cutter: Option<f64>,
-    /// The curve through the rows as read, by the interpolation that the file states; or why there is no such curve.
-    pub curve: Result<Interpolant, String>,
-}
-
-/// A program for a milling machine as its control would read it from the written file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct WrittenProgram {
-    /// Along which of the cuts of its body its passes run.
-    pub cuts: Vec<usize>,
-    /// Radius of the cutter whose centre is moved, mm; `None` where the control keeps its cutter on the profile.
-    pub cutter: Option<f64>,
-    /// Radius of the cutter that the control keeps on the profile, mm, if it is given.
-    pub kept: Option<f64>,
-    /// How far the middle of the tolerance band lies inwards of the exact profile, mm.
-    pub middle: f64,
-    /// How deep is cut, mm; `None` where it is not known.
-    pub depth: Option<f64>,
-    /// What the control does, or why it does nothing.
-    pub program: Result<CutterProgram, String>,
-}
-
-/// A table for a servo drive as it would be read from the written file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct WrittenServo {
-    /// What messages call it.
-    pub format: &'static str,
-    /// Its rows, or why there are none.
-    pub table: Result<ServoRows, String>,
-}
-
-/// A list of places for a measuring machine as it would be read from the written file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct WrittenInspection {
-    /// On which of the cuts of its body they are.
-    pub cut: usize,
-    /// Radius of the ball, mm; 0 in a form without it.
-    pub ball_radius: f64,
-    /// The places, or why there are none.
-    pub places: Result<Vec<ReadPlace>, String>,
-}
-
-impl WrittenInspection {
-    /// A file in any of the forms, of a cut.
-    #[must_use]
-    pub fn of(cut: usize, bytes: &[u8]) -> Self {
-        let places = inspection::read(bytes);
-        let first = places.as_ref().ok().and_then(|places| places.first());
-        let ball_radius = first.map_or(0.0, |place| (place.ball - place.point).norm());
-        Self { cut, ball_radius, places }
-    }
-}
-
 /// The solid of a STEP file as read, and what its boundary was recognised as.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WrittenSolid {
@@ -130,20 +64,10 @@ pub struct Evidence<'a> {
     pub foreign: &'a [Reading],
     /// The paths of a cutter as read back, when one was requested, one for each flank.
     pub cutter_paths: &'a [WrittenPath],
-    /// The tables of points as read back, when they were requested, or why there are none.
-    pub points: Option<&'a Result<Vec<WrittenPoints>, String>>,
-    /// The programs for a milling machine as read back, when they were requested, or why there are none.
-    pub programs: Option<&'a Result<Vec<WrittenProgram>, String>>,
-    /// The tables for servo drives as read back, when they were requested, or why there are none.
-    pub servo: Option<&'a Result<Vec<WrittenServo>, String>>,
-    /// The lists of places for a measuring machine as read back, when they were requested.
-    pub inspections: &'a [WrittenInspection],
-    /// The lift table of a gauge follower as read back, when it was requested, or why there is none.
-    pub gauge: Option<&'a Result<GaugeRows, String>>,
-    /// A table of numbers that somebody else may have written, or why there is none.
-    pub table: Option<&'a Result<NumberTable, String>>,
     /// Measures that rest on other cams of its assembly.
     pub of_others: &'a [Measure],
+    /// What the judges of other files of the cam found.
+    pub of_tool_files: &'a [Finding],
     /// What was read from a STEP file that somebody else may have written.
     pub solid: Option<&'a WrittenSolid>,
     /// What was read of the files of a body with flanks that a roller sweeps in space.
@@ -167,13 +91,8 @@ impl<'a> Evidence<'a> {
             rolled: &[],
             foreign: &[],
             cutter_paths: &[],
-            points: None,
-            programs: None,
-            servo: None,
-            inspections: &[],
-            gauge: None,
-            table: None,
             of_others: &[],
+            of_tool_files: &[],
             solid: None,
             swept: None,
             tolerance_mm,
@@ -250,6 +169,6 @@ pub(super) fn at(body: &dyn Body, worst: &Worst, finding: Finding, more: Option<
 }
 
 /// The place on the cam of a point of the drawing (mm).
-pub(super) fn place(body: &dyn Body, point: Vector2<f64>) -> Place {
+pub(crate) fn place(body: &dyn Body, point: Vector2<f64>) -> Place {
     body.place(body.parameter_at(point * 1e-3))
 }

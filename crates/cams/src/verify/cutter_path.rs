@@ -77,20 +77,20 @@ fn along(evidence: &Evidence<'_>, path: &WrittenPath) -> Option<Finding> {
 }
 
 /// What a cutter leaves along a path.
-pub(super) struct LeftBehind {
+pub(crate) struct LeftBehind {
     /// Largest distance from the exact profile, mm, in both directions.
-    pub(super) distance: f64,
+    pub(crate) distance: f64,
     /// Where, mm.
-    pub(super) at: Vector2<f64>,
+    pub(crate) at: Vector2<f64>,
     /// Whether it keeps the tolerance, on its side.
-    pub(super) kept: bool,
+    pub(crate) kept: bool,
     /// That it does not go round the profile, and where.
-    pub(super) fault: Option<String>,
+    pub(crate) fault: Option<String>,
 }
 
 /// What a cutter of a radius leaves along a counter-clockwise path about a cut; `middle` is how far the middle of the tolerance band lies
 /// inwards of the exact profile, all in mm. `None` where the cut has no exact profile.
-pub(super) fn left_behind(
+pub(crate) fn left_behind(
     evidence: &Evidence<'_>,
     cut: usize,
     (radius, middle): (f64, f64),
@@ -114,7 +114,7 @@ pub(super) fn left_behind(
 }
 
 /// What a cutter of this radius (mm) leaves on the left of its path; `None` where the path is not of arcs and lines.
-pub(super) fn moved_inwards(path: &Contour, radius: f64) -> Option<Contour> {
+pub(crate) fn moved_inwards(path: &Contour, radius: f64) -> Option<Contour> {
     let segments: Vec<Segment> = path.segments()?;
     let before = segments.iter().cycle().skip(segments.len().saturating_sub(1));
     let left = |tangent: Vector2<f64>| Vector2::new(-tangent.y, tangent.x) * radius;

@@ -2,8 +2,8 @@
 
 use super::check::CheckEntry::{self, Figure, File};
 use super::{
-    balance, bore, cutter_path, felt, file, flank, gauge, groove_width, inspection, lead_in, milling, outline,
-    plate_ends, points, rolling, servo, solid, sphere, swept, table, tangency,
+    balance, bore, cutter_path, felt, file, flank, groove_width, lead_in, outline,
+    plate_ends, rolling, solid, sphere, swept, tangency,
 };
 use crate::body::barrel::measures as barrel;
 use crate::body::closure;
@@ -39,12 +39,6 @@ pub const CHECKS: &[CheckEntry] = &[
     Figure(&face_width::CHECK),
     Figure(&cutter_radius::CHECK),
     File(&cutter_path::CHECK),
-    File(&milling::CHECK),
-    File(&points::CHECK),
-    File(&servo::CHECK),
-    File(&inspection::CHECK),
-    File(&gauge::CHECK),
-    File(&table::CHECK),
     Figure(&wall::CHECK),
     Figure(&size::CHECK),
     Figure(&pivot_clearance::CHECK),

@@ -7,42 +7,32 @@ mod balance;
 mod bore;
 mod check;
 mod cutter_path;
-mod cutting;
 mod felt;
 mod felt_sections;
 mod file;
 mod flank;
-mod gauge;
 mod groove_width;
-mod inspection;
 mod lead_in;
 mod list;
-mod milling;
 mod outline;
 mod patches;
 mod plate_ends;
-mod points;
-mod program;
 pub mod rolling;
-mod safe_start;
-mod servo;
 mod solid;
 mod sphere;
 mod swept;
 mod swept_files;
-mod table;
 mod tangency;
-mod turned;
 mod walls;
 
+pub(crate) use check::place;
 pub use check::{
-    CheckEntry, Evidence, FileCheck, WrittenInspection, WrittenOutline, WrittenPath, WrittenPoints, WrittenProgram,
-    WrittenServo, WrittenSolid,
+    CheckEntry, Evidence, FileCheck, WrittenOutline, WrittenPath, WrittenSolid,
 };
+pub(crate) use cutter_path::{left_behind, moved_inwards};
 pub use file::join_reach;
 pub(crate) use lead_in::is_lead_in;
 pub use list::CHECKS;
-pub(crate) use milling::left_by;
 pub use solid::shell_reach;
 pub use swept_files::WrittenSwept;
 
@@ -84,21 +74,10 @@ pub fn run(evidence: &Evidence<'_>) -> Vec<Finding> {
     let figures = measures.found();
     let mut findings: Vec<Finding> = CHECKS.iter().filter_map(rule).collect();
     findings.extend(figures.iter().chain(of_others).map(Measure::finding));
+    findings.extend(evidence.of_tool_files.iter().cloned());
     let order = &evidence.body.machine().catalogue().checks;
     findings.sort_by_key(|finding| order.iter().position(|name| *name == finding.check).unwrap_or(order.len()));
     worst_first(findings)
-}
-
-/// Whether a check of this name looks at a file and not at the cam.
-#[must_use]
-pub fn is_of_file(name: &str) -> bool {
-    CHECKS.iter().any(|check| check.name == name && matches!(check.on, CheckScope::File | CheckScope::ToolFile))
-}
-
-/// Whether a check of this name reads what was written.
-#[must_use]
-pub fn reads_files(name: &str) -> bool {
-    CHECKS.iter().any(|check| check.name == name && matches!(check, CheckEntry::File(_)))
 }
 
 /// Judges the measures of an analysis, each by its check: failures first.

@@ -2,7 +2,7 @@
 //! A cell without a value is `NaN`.
 
 use super::number::shortest;
-use super::{AnalysisFormat, Format, FormatSelection, fits_all};
+use super::{AnalysisFormat, View, FormatSelection, fits_all};
 use crate::body::{Body, torque};
 use crate::table::{self, Row, Table};
 use crate::verify::WrittenOutline;
@@ -16,7 +16,7 @@ use std::borrow::Cow;
 pub const MOST_ROWS: u32 = 200_000;
 
 /// The point table.
-pub const FORMAT: Format = Format {
+pub const FORMAT: View = View {
     name: "csv",
     when: FormatSelection::Usual,
     flank: false,
@@ -42,7 +42,7 @@ pub fn table(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutl
 }
 
 /// The further tables of a body.
-pub const FURTHER: Format = Format {
+pub const FURTHER: View = View {
     name: "further tables",
     when: FormatSelection::Drawn,
     flank: false,

@@ -1,6 +1,6 @@
 //! The motion diagram as SVG: a sheet of its own.
 
-use super::{Format, FormatSelection, Rendering, svg};
+use super::{View, FormatSelection, Rendering, svg};
 use crate::body::Body;
 use crate::body::motion_diagram::motion_diagram;
 use crate::report::motion_diagram;
@@ -8,7 +8,7 @@ use crate::report::sheet::Sheet;
 use camgen_kernel::refusal::Refusal;
 
 /// The motion diagram.
-pub const FORMAT: Format = Format {
+pub const FORMAT: View = View {
     name: "diagram",
     when: FormatSelection::Asked,
     flank: false,

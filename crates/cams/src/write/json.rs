@@ -1,11 +1,11 @@
 //! The report as JSON.
 
-use super::{AnalysisFormat, Format, FormatSelection, fits_all};
+use super::{AnalysisFormat, View, FormatSelection, fits_all};
 use camgen_kernel::refusal::Refusal;
 use serde::Serialize;
 
 /// The report.
-pub const FORMAT: Format = Format {
+pub const FORMAT: View = View {
     name: "json",
     when: FormatSelection::Asked,
     flank: false,

@@ -1,6 +1,6 @@
 //! Drawing to bytes, bytes to files. Writers only format: no trigonometry, no offsets, no clock.
 //!
-//! One table of formats, walked for every kind of cam: a new format is one file and one line in [`FORMATS`].
+//! A view is one file here, and a line in the list of all formats ([`LISTED`](crate::tool_files::LISTED)).
 
 pub mod csv;
 pub mod diagram;
@@ -9,12 +9,9 @@ pub mod dxf;
 mod error;
 pub mod files;
 mod finite;
-pub mod gauge;
-pub mod gcode;
 pub mod growing;
 #[cfg(feature = "html")]
 pub mod html;
-pub mod inspection;
 mod interrupted;
 pub mod json;
 mod known;
@@ -24,12 +21,10 @@ mod part;
 mod path_data;
 #[cfg(feature = "pdf")]
 pub mod pdf;
-pub mod points;
 pub mod proof;
 pub mod record;
 #[cfg(feature = "second-reader")]
 mod second_reader;
-pub mod servo;
 pub mod step;
 pub mod step_assembly;
 pub mod stl;
@@ -38,7 +33,6 @@ mod template;
 pub mod toml;
 
 use crate::analysis::Analysis;
-use crate::body::inspection::InspectionList;
 use crate::body::{Body, Drawn, Part};
 use crate::report::{Finding, Report};
 use crate::verify::WrittenOutline;
@@ -59,16 +53,6 @@ pub struct Rendering<'a> {
     pub outlines: &'a [WrittenOutline],
     /// The cut files, written and proved, one for each part of the drawing.
     pub cut_files: &'a [Vec<u8>],
-    /// The tables of points, written and proved, one for each part of the drawing; empty when they were not requested.
-    pub points: &'a [Vec<u8>],
-    /// The programs for a milling machine, written and proved, one for each part of the drawing; empty when they were not requested.
-    pub programs: &'a [Vec<u8>],
-    /// The tables for servo drives by the names of their formats, written and proved; empty when they were not requested.
-    pub servo: &'a [(&'static str, Vec<u8>)],
-    /// The lists of places for a measuring machine, each with its files, written and proved; empty when they were not requested.
-    pub inspections: &'a [(InspectionList, Vec<Vec<u8>>)],
-    /// The lift table of a gauge follower, written and proved, where it was requested.
-    pub gauge: Option<&'a [u8]>,
     /// The tolerance of the outlines, and on which side of the exact curves they lie.
     pub fit: Fit,
     /// Radius of the cutter whose path was drawn, m.
@@ -121,9 +105,9 @@ pub enum FormatSelection {
     Drawn,
 }
 
-/// A format: its name, the cams it fits, and its files. Each computes only what it shows.
+/// A view: a file that is looked at or read by other programs, and from which nothing is cut, measured or moved. Each computes only what it shows.
 #[derive(Debug)]
-pub struct Format {
+pub struct View {
     /// Its name on the command line.
     pub name: &'static str,
     /// When it is written.
@@ -140,40 +124,9 @@ pub struct Format {
     pub of_analysis: Option<AnalysisFormat>,
 }
 
-/// Every format, in the order in which files are listed.
-pub const FORMATS: &[Format] = &[
-    dxf::FORMAT,
-    svg::FORMAT,
-    step::FORMAT,
-    csv::FORMAT,
-    json::FORMAT,
-    #[cfg(feature = "html")]
-    html::FORMAT,
-    #[cfg(feature = "pdf")]
-    pdf::FORMAT,
-    stl::FORMAT,
-    points::FORMAT,
-    diagram::FORMAT,
-    gcode::FORMAT,
-    servo::CSV,
-    servo::XYVA,
-    servo::TWINCAT,
-    servo::ISG,
-    inspection::FORMAT,
-    gauge::FORMAT,
-    toml::FORMAT,
-    dxf::CUTTER_PATH,
-    csv::FURTHER,
-];
-
-/// The formats that can be requested.
-pub fn by_name() -> impl Iterator<Item = &'static Format> {
-    FORMATS.iter().filter(|format| format.when != FormatSelection::Drawn)
-}
-
 /// The endings of the files of every part: a section has the speed it is for before the ending, one of several outlines its
 /// name.
-fn of_parts(drawn: &Drawn, ending: &str) -> Vec<String> {
+pub(crate) fn endings_of_parts(drawn: &Drawn, ending: &str) -> Vec<String> {
     let speeds: Vec<f64> = drawn.parts.iter().filter_map(|part| part.rpm).collect();
     let mut speeds = number::names(&speeds).into_iter();
     let mut of_part = |part: &Part| match part.rpm.and_then(|_| speeds.next()) {
@@ -185,9 +138,9 @@ fn of_parts(drawn: &Drawn, ending: &str) -> Vec<String> {
 }
 
 /// The endings of files of every outline: of several of a part each has its name before the ending.
-fn of_outlines(drawn: &Drawn, ending: &str) -> Vec<String> {
+pub(crate) fn endings_of_outlines(drawn: &Drawn, ending: &str) -> Vec<String> {
     if drawn.parts.iter().all(|part| part.track.as_ref().is_none_or(|track| track.others.is_empty())) {
-        return of_parts(drawn, ending);
+        return endings_of_parts(drawn, ending);
     }
     drawn.outlines().map(|(_, layer, _)| format!("-{}{ending}", layer.word())).collect()
 }

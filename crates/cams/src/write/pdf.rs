@@ -1,6 +1,6 @@
 //! The review sheet as PDF: the SVG of the sheet on a page of its size, with the font in the file.
 
-use super::{AnalysisFormat, Format, FormatSelection, Rendering, diagram, fits_all, svg};
+use super::{AnalysisFormat, View, FormatSelection, Rendering, diagram, fits_all, svg};
 use crate::report::sheet::Sheet;
 use crate::report::sheet::font::FONT;
 use camgen_kernel::refusal::Refusal;
@@ -12,7 +12,7 @@ use krilla_svg::{SurfaceExt, SvgSettings};
 use std::sync::Arc;
 
 /// The review sheet, for printing.
-pub const FORMAT: Format = Format {
+pub const FORMAT: View = View {
     name: "pdf",
     when: FormatSelection::Asked,
     flank: false,

@@ -4,7 +4,7 @@
 //! are of a kind that CAD systems accept only with a message, and its reals have ten digits: camgen writes these itself.
 
 use super::number::shortest;
-use super::{Format, FormatSelection, Rendering};
+use super::{View, FormatSelection, Rendering};
 use camgen_kernel::geometry::solid::{
     CheckedSolid, EdgeCurve, FaceSurface, SolidVertex, SplineCurve, SplineSurface, TruckBoundary, flank_solid,
     not_closed,
@@ -19,7 +19,7 @@ use truck_stepio::out::{
 use truck_topology::compress::{CompressedEdge, CompressedFace, CompressedShell, CompressedSolid};
 
 /// The solid.
-pub const FORMAT: Format = Format {
+pub const FORMAT: View = View {
     name: "step",
     when: FormatSelection::Usual,
     flank: true,

@@ -1,13 +1,13 @@
 //! The conoid as a binary STL file in millimetres, for a first print: triangles on the exact surface.
 
-use super::{Format, FormatSelection};
+use super::{View, FormatSelection};
 use crate::body::Flank;
 use crate::body::mesh::Mesh;
 use camgen_kernel::geometry::MILLIMETRES;
 use nalgebra::Vector3;
 
 /// Triangles on the flank of a conoid.
-pub const FORMAT: Format = Format {
+pub const FORMAT: View = View {
     name: "stl",
     when: FormatSelection::Asked,
     flank: true,

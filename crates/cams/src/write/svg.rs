@@ -3,11 +3,11 @@
 
 use super::path_data::PathData;
 use super::template;
-use super::{AnalysisFormat, Format, FormatSelection, Rendering, fits_all};
+use super::{AnalysisFormat, View, FormatSelection, Rendering, fits_all};
 use crate::body;
+use crate::machine::Catalogue;
 use crate::report::sheet::{ShapeGroup, Sheet, SheetExtras, SheetShape, TextAnchor, compose, font};
 use crate::report::{Finding, Verdict, shown};
-use crate::verify;
 use camgen_kernel::geometry::contour::{Contour, Segment};
 use camgen_kernel::geometry::{Entity, MILLIMETRES};
 use camgen_kernel::profile::outline::Fit;
@@ -16,7 +16,7 @@ use camgen_kernel::units::LengthUnit;
 use svg::node::{self, Node, element};
 
 /// The review sheet.
-pub const FORMAT: Format = Format {
+pub const FORMAT: View = View {
     name: "svg",
     when: FormatSelection::Usual,
     flank: false,
@@ -48,22 +48,22 @@ pub(super) fn numbered(cam: &Rendering<'_>, number: &'static str) -> Result<Shee
     let second = cam.other_cams.first().and_then(|(body, outlines)| Some((*body, &outlines.first()?.contour)));
     let traces = outline.map_or_else(Vec::new, |outline| body::traces((cam.body, outline), second));
     let file_deviates = deviation_words(&cam.fit, cam.report.units);
-    let (checks, passed_otherwise) = listed_checks(&cam.report.checks);
+    let (checks, passed_otherwise) = listed_checks(&cam.report.checks, cam.body.machine().catalogue());
     let extras =
         SheetExtras { file_deviates: &file_deviates, number, traces: &traces, checks: &checks, passed_otherwise };
     Ok(compose(&view, cam.report, &extras))
 }
 
 /// The findings that a sheet lists, and how many others passed: figures about the bytes of the files are for the report, where they passed.
-pub(super) fn listed_checks(all: &[Finding]) -> (Vec<Finding>, usize) {
-    let is_listed = |finding: &&Finding| finding.verdict != Verdict::Pass || !verify::reads_files(&finding.check);
+pub(crate) fn listed_checks(all: &[Finding], catalogue: &Catalogue) -> (Vec<Finding>, usize) {
+    let is_listed = |finding: &&Finding| finding.verdict != Verdict::Pass || !catalogue.reads_files(&finding.check);
     let checks: Vec<Finding> = all.iter().filter(is_listed).cloned().collect();
     let passed_otherwise = all.len() - checks.len();
     (checks, passed_otherwise)
 }
 
 /// How far the profile of the file may lie from the exact one, in words.
-pub(super) fn deviation_words(fit: &Fit, units: LengthUnit) -> String {
+pub(crate) fn deviation_words(fit: &Fit, units: LengthUnit) -> String {
     let (middle, half) = fit.band();
     let [low, high] = [middle - half, middle + half].map(|limit| shown(units.of_mm(MILLIMETRES * limit)));
     let unit = units.symbol();
@@ -100,7 +100,7 @@ pub fn write(sheet: &Sheet, template: &str) -> Result<Vec<u8>, Refusal> {
 
 /// As [`write`], with a comment before the root, whatever the template; with `with_lengths` every text states its length, so that a viewer with
 /// another font keeps it.
-pub(super) fn fill(sheet: &Sheet, template: &str, with_lengths: bool, comment: &str) -> Result<Vec<u8>, Refusal> {
+pub(crate) fn fill(sheet: &Sheet, template: &str, with_lengths: bool, comment: &str) -> Result<Vec<u8>, Refusal> {
     let size = sheet.extents.size();
     let dashes = |parts: &[f64]| parts.iter().map(|n| number(n * sheet.stroke)).collect::<Vec<_>>().join(" ");
     let drawing =

@@ -1,9 +1,9 @@
 //! What an analysis describes as a table of a machine file, to paste there.
 
-use super::{AnalysisFormat, Format, FormatSelection};
+use super::{AnalysisFormat, View, FormatSelection};
 
 /// A table of a machine file.
-pub const FORMAT: Format = Format {
+pub const FORMAT: View = View {
     name: "toml",
     when: FormatSelection::Asked,
     flank: false,

@@ -8,7 +8,7 @@ mod objects;
 mod tables;
 mod tags;
 
-use super::{Format, FormatSelection, fits_all, of_outlines, of_parts};
+use super::{View, FormatSelection, fits_all, endings_of_outlines, endings_of_parts};
 use crate::body::Layer;
 use crate::report::{shown, warning};
 use camgen_kernel::geometry::contour::{Contour, Extents};
@@ -21,7 +21,7 @@ use std::borrow::Cow;
 use tags::{DxfTags, handle};
 
 /// The cut files, as they were proved: one for each section; the files of a cam that breaks a limit say so in their first line.
-pub const FORMAT: Format = Format {
+pub const FORMAT: View = View {
     name: "dxf",
     when: FormatSelection::Usual,
     flank: false,
@@ -32,7 +32,7 @@ pub const FORMAT: Format = Format {
     endings: |drawn| {
         let developed =
             drawn.swept.iter().filter(|swept| !swept.developed.is_empty()).map(|_| "-unrolled.dxf".to_owned());
-        of_parts(drawn, ".dxf").into_iter().chain(developed).collect()
+        endings_of_parts(drawn, ".dxf").into_iter().chain(developed).collect()
     },
     write: |cam| {
         let warning = warning(cam.findings).unwrap_or_default();
@@ -42,7 +42,7 @@ pub const FORMAT: Format = Format {
 };
 
 /// The path of a cutter's centre.
-pub const CUTTER_PATH: Format = Format {
+pub const CUTTER_PATH: View = View {
     name: "cutter path",
     when: FormatSelection::Drawn,
     flank: false,
@@ -50,7 +50,7 @@ pub const CUTTER_PATH: Format = Format {
     endings: |drawn| match drawn.cutter_paths().count() {
         0 => Vec::new(),
         1 => vec!["-cutter.dxf".into()],
-        _ => of_outlines(drawn, "-cutter.dxf"),
+        _ => endings_of_outlines(drawn, "-cutter.dxf"),
     },
     write: |cam| {
         let path = |outline: &Result<Outline, OutlineError>| match outline {

@@ -58,7 +58,7 @@ pub(super) fn of(cam: &Rendering<'_>) -> Value {
     let mechanism = body.mechanism(&drawn, steps);
     let table = csv::table(body, cam.other_cams.first().map(|(body, _)| *body), cam.outlines, steps);
     let roller =
-        crate::body::points::radius_of_roller(body).map(|radius| radius * camgen_kernel::geometry::MILLIMETRES);
+        crate::body::radius_of_roller(body).map(|radius| radius * camgen_kernel::geometry::MILLIMETRES);
     let mut page = report_page(report);
     page["pictureNotes"] = json!(mechanism.notes);
     page["views"] =

@@ -10,13 +10,13 @@ pub mod live;
 mod panels;
 mod units;
 
-use super::{AnalysisFormat, Format, FormatSelection, Rendering, fits_all};
+use super::{AnalysisFormat, View, FormatSelection, Rendering, fits_all};
 use crate::report::{Finding, Report};
 use camgen_kernel::refusal::Refusal;
 use serde_json::{Value, json};
 
 /// The interactive report.
-pub const FORMAT: Format = Format {
+pub const FORMAT: View = View {
     name: "html",
     when: FormatSelection::Asked,
     flank: false,

@@ -1,0 +1,470 @@
+//! What the control of a milling machine makes of a written program, compared with the exact cam.
+//!
+//! The moves are as they are read back from the bytes. Between the upper face and the depth every level pass must close round a flank of the
+//! part: what the cutter leaves along it is followed along the exact profile, as for the path of a cutter (`cutter_path`). Each flank must be
+//! cut to the full depth, lead-ins and lead-outs must keep clear of the metal, and no rapid move may go below the upper face.
+
+use super::cutting::{SAME_DEPTH, as_designed, leaves_its_path, not_too_deep_at_once};
+use super::program::{JudgedProgram, ProgramFault, WrittenProgram, remarks};
+use super::turned;
+use crate::body::{Cut, Layer, groove_width};
+use crate::check::{Check, CheckExplanation, CheckScope};
+use crate::machine::MillingDirection;
+use super::super::read::{CutterMove, CutterProgram, CutterSide, MoveKind};
+use crate::report::{Bound, Finding, Verdict, shown};
+use crate::verify::{Evidence, left_behind, moved_inwards, place};
+use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::geometry::contour::{Contour, Edge, Segment};
+use camgen_kernel::geometry::edge_tree::EdgeTree;
+use camgen_kernel::geometry::lead_in;
+use nalgebra::Vector2;
+
+pub(in super::super) const CHECK: Check = Check {
+    name: "program",
+    on: CheckScope::ToolFile,
+    unit: "mm",
+    about: "The largest distance between the exact profile and what the cutter leaves along the passes of the program as its control reads \
+            it, in both directions; also how deep a lead-in or lead-out cuts into the cam. Every flank must be cut to its depth, and no rapid \
+            move may go below the upper face.",
+    explained: CheckExplanation {
+        bound: Bound::AtMost,
+        formula: "max distance between the parallel of each pass at the cutter's radius and the exact profile",
+        usual: "the tolerance, on the side of --side",
+        change: "a finer --tolerance, more cut.decimals, or another --start",
+    },
+};
+
+/// Places nearer than this are one, mm: far below the numbers of a program.
+const SAME_PLACE: f64 = 1e-7;
+/// Depths of lead-ins and lead-outs are found to within this share of the tolerance.
+const FINE_SHARE: f64 = 0.1;
+
+/// The finding where there is no program.
+pub(in super::super) fn no_program(evidence: &Evidence<'_>, why: String) -> Finding {
+    failure(evidence, ProgramFault::new(why))
+}
+
+fn failure(evidence: &Evidence<'_>, fault: ProgramFault) -> Finding {
+    let found = CHECK.found(fault.value, Some(evidence.tolerance_mm), Verdict::Fail);
+    let place = fault.at.map_or(found.place.clone(), |at| place(evidence.body, at));
+    Finding { place, note: Some(fault.why), ..found }
+}
+
+/// The finding on the programs of a cam.
+pub(in super::super) fn judge(evidence: &Evidence<'_>, programs: &[WrittenProgram]) -> Option<Finding> {
+    let limit = evidence.tolerance_mm;
+    let mut worst: Option<JudgedProgram> = None;
+    for written in programs {
+        match judged(evidence, written).and_then(|found| as_designed(evidence, written).map(|()| found)) {
+            Err(fault) => return Some(failure(evidence, fault)),
+            Ok(next) if worst.as_ref().is_none_or(|worst| next.value > worst.value) => worst = Some(next),
+            Ok(_) => {}
+        }
+    }
+    let worst = worst?;
+    let found = CHECK.found(worst.value, Some(limit), Verdict::Pass);
+    Some(Finding { place: place(evidence.body, worst.at), note: Some(worst.note), ..found })
+}
+
+/// Whether radius compensation is on for at least half of the level cutting moves.
+pub(in super::super) fn keeps_its_cutter(program: &CutterProgram) -> bool {
+    let level = |moved: &&CutterMove| {
+        moved.kind != MoveKind::Rapid && moved.from[2] < 0.0 && moved.is_level() && !moved.is_upright()
+    };
+    let cuts = program.moves.iter().filter(level).count();
+    let kept = program.moves.iter().filter(level).filter(|moved| moved.side != CutterSide::Centre).count();
+    // A cam turned under its tool has passes instead of moves, without compensation.
+    program.turned.is_empty() && 2 * kept >= cuts
+}
+
+/// A pass: moves at one depth, without those before and behind it.
+struct LevelPass<'m> {
+    /// mm below the upper face.
+    depth: f64,
+    moves: &'m [CutterMove],
+    /// The side of the cutter as it goes down.
+    side_before: CutterSide,
+}
+
+/// The passes of a program, in the order of its moves.
+fn passes(program: &CutterProgram) -> Result<Vec<LevelPass<'_>>, ProgramFault> {
+    let mut passes = Vec::new();
+    let mut first = None;
+    for (index, moved) in program.moves.iter().enumerate() {
+        let deepest = moved.from[2].min(moved.to[2]);
+        let cuts = deepest < -SAME_PLACE;
+        let line = moved.line;
+        if moved.kind == MoveKind::Rapid {
+            let leaves = moved.is_upright() && moved.to[2] > moved.from[2];
+            if cuts && !leaves {
+                return Err(ProgramFault::new(format!("a rapid move in line {line} goes below the upper face")));
+            }
+        } else if cuts && !moved.is_level() && !moved.is_upright() {
+            return Err(ProgramFault::new(format!("a move in line {line} changes place and depth at once")));
+        }
+        let plunges = cuts && moved.is_upright() && moved.to[2] < moved.from[2] && moved.kind != MoveKind::Rapid;
+        let goes_on = |next: &CutterMove| {
+            let down = next.is_upright() && next.to[2] < next.from[2];
+            next.kind != MoveKind::Rapid && (down || (next.is_level() && !next.is_upright()))
+        };
+        if plunges && !program.moves.get(index + 1).is_some_and(goes_on) {
+            return Err(ProgramFault::new(format!("the cutter goes down in line {line}, and no pass begins there")));
+        }
+        let level = cuts && moved.is_level() && moved.kind != MoveKind::Rapid;
+        match (level, first) {
+            (true, None) => first = Some(index),
+            (false, Some(start)) => {
+                passes.extend(pass(program, start, index));
+                first = None;
+            }
+            _ => {}
+        }
+    }
+    passes.extend(first.and_then(|start| pass(program, start, program.moves.len())));
+    if passes.is_empty() { Err(ProgramFault::new("the program cuts nothing")) } else { Ok(passes) }
+}
+
+fn pass(program: &CutterProgram, start: usize, end: usize) -> Option<LevelPass<'_>> {
+    let moves = program.moves.get(start..end)?;
+    let before = start.checked_sub(1).and_then(|before| program.moves.get(before));
+    let side_before = before.map_or(CutterSide::Centre, |moved| moved.side);
+    Some(LevelPass { depth: -moves.first()?.to[2], moves, side_before })
+}
+
+/// What the first pass of a program leaves, counter-clockwise; `None` where it does not close, or the way round it leaves nothing.
+pub(in super::super) fn left_by(written: &WrittenProgram) -> Option<Contour> {
+    let passes = passes(written.program.as_ref().ok()?).ok()?;
+    let pass = ClosedPass::of(passes.first()?).ok()?;
+    match written.cutter {
+        Some(radius) => moved_inwards(&pass.contour, radius),
+        None => Some(pass.contour),
+    }
+}
+
+/// The moves of a pass that close, and those before and behind them.
+struct ClosedPass<'m> {
+    way_in: &'m [CutterMove],
+    round: &'m [CutterMove],
+    way_out: &'m [CutterMove],
+    contour: Contour,
+    /// Whether the loop runs counter-clockwise.
+    left: bool,
+    /// The side of the cutter as it goes down.
+    side_before: CutterSide,
+}
+
+impl<'m> ClosedPass<'m> {
+    fn of(pass: &LevelPass<'m>) -> Result<Self, ProgramFault> {
+        let moves = pass.moves;
+        let line = moves.first().map_or(0, |moved| moved.line);
+        let meets = |start: usize, end: usize| {
+            let (start, end) = (moves.get(start)?.start(), moves.get(end)?.end());
+            Some((start - end).norm() < SAME_PLACE)
+        };
+        let closing = |start: usize| (start..moves.len()).rev().find(|end| meets(start, *end) == Some(true));
+        let found = (0..moves.len()).find_map(|start| Some((start, closing(start)?)));
+        let open = || ProgramFault::new(format!("the pass from line {line} on does not close round the cam"));
+        let (start, end) = found.ok_or_else(open)?;
+        let (way_in, rest) = moves.split_at_checked(start).ok_or_else(open)?;
+        let (round, way_out) = rest.split_at_checked(end + 1 - start).ok_or_else(open)?;
+        let edges: Vec<Segment> = round.iter().flat_map(CutterMove::segments).collect();
+        let contour = Contour::from_edges(edges.into_iter().map(Edge::Segment));
+        let left = contour.area_and_centroid().0 > 0.0;
+        let contour = if left { contour } else { contour.reversed() };
+        Ok(Self { way_in, round, way_out, contour, left, side_before: pass.side_before })
+    }
+
+    /// The edges of its lead-in and lead-out.
+    fn ways(&self) -> impl Iterator<Item = Edge> + '_ {
+        self.way_in.iter().chain(self.way_out).flat_map(CutterMove::segments).map(Edge::Segment)
+    }
+
+    /// Half of the largest difference of the radii of an arc, mm: by so much controls may differ in what they make of it.
+    fn uncertain(&self) -> f64 {
+        self.round.iter().map(|moved| 0.5 * moved.radii_differ()).fold(0.0, f64::max)
+    }
+}
+
+/// The result for a program.
+fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedProgram, ProgramFault> {
+    let program = written.program.as_ref().map_err(|why| ProgramFault::new(why.clone()))?;
+    if !program.turned.is_empty() {
+        return turned::judged(evidence, written, program);
+    }
+    let (cuts, limit) = (evidence.body.cuts(), evidence.tolerance_mm);
+    fits_between(&cuts, written)?;
+    let passes = passes(program)?;
+    let mut worst = (0.0, Vector2::zeros());
+    let mut deepest: Vec<f64> = vec![0.0; cuts.len()];
+    let mut paths: Vec<(Contour, bool)> = Vec::new();
+    let mut closed = Vec::with_capacity(passes.len());
+    for pass in &passes {
+        let found = ClosedPass::of(pass)?;
+        let hollow = along(evidence, written, &found, (&mut worst, &mut deepest, pass.depth))?;
+        sides(written, &found, hollow)?;
+        if !slotted(&cuts, written) {
+            sense(evidence, &found, hollow)?;
+        }
+        if !paths.iter().any(|(known, _)| *known == found.contour) {
+            paths.push((found.contour.clone(), hollow));
+        }
+        closed.push(found);
+    }
+    let metal: Vec<EdgeTree> = paths
+        .iter()
+        .map(|(contour, hollow)| if *hollow { EdgeTree::new(&contour.reversed()) } else { EdgeTree::new(contour) })
+        .collect();
+    let trees = if slotted(&cuts, written) { &[][..] } else { metal.as_slice() };
+    for way in closed.iter().flat_map(ClosedPass::ways) {
+        let deep = trees.iter().map(|tree| lead_in::depth(tree, &way, FINE_SHARE * limit)).fold(0.0, f64::max);
+        if deep > limit {
+            let why = format!("a lead-in or lead-out cuts {} mm into the cam", shown(deep));
+            return Err(ProgramFault { why, value: deep, at: Some(way.start()) });
+        }
+    }
+    let room = if written.cutter.is_none() { cleared(&closed, &metal, (written.kept, limit))? } else { String::new() };
+    deep_enough(&cuts, written, &deepest)?;
+    if program.side_at_end != CutterSide::Centre {
+        return Err(ProgramFault::new("the program ends while the control keeps the cutter beside its path"));
+    }
+    let blocks = program.moves.len();
+    let how = match written.cutter {
+        Some(radius) => format!("the centre of a cutter Ø{} mm", shown(2.0 * radius)),
+        None => "the profile, along which the control keeps its cutter".to_owned(),
+    };
+    let unknown = room + &remarks(evidence.body, written) + &leaves_its_path(program, limit);
+    let (depth, passes) = (passes.iter().map(|pass| pass.depth).fold(0.0, f64::max), passes.len());
+    let noun = if passes == 1 { "pass" } else { "passes" };
+    let note =
+        format!("{how}, {blocks} moves in {passes} {noun} to {} mm, as the control reads them{unknown}", shown(depth));
+    Ok(JudgedProgram { value: worst.0, at: worst.1, note })
+}
+
+/// Radii of cutters up to which their way is judged where none is given, mm, and halvings in which the largest one is found.
+const LARGEST_KEPT: f64 = 25.0;
+const RADIUS_HALVINGS: u32 = 20;
+/// The least radius of a cutter that can be meant, mm.
+const LEAST_KEPT: f64 = 0.05;
+
+/// What a note says of the room of a cutter while the control takes up its radius; a fault if a given one, or any, cuts into the metal there.
+fn cleared(
+    closed: &[ClosedPass<'_>],
+    metal: &[EdgeTree],
+    (radius, limit): (Option<f64>, f64),
+) -> Result<String, ProgramFault> {
+    let ways: Vec<TakingUp> = closed.iter().flat_map(|pass| [pass.taking_up(), pass.ending()]).collect();
+    let deepest = |radius: f64| {
+        let depths = ways.iter().map(|way| (way.depth(metal, (radius, FINE_SHARE * limit)), way.at()));
+        depths.fold((0.0, None), |worst, next| if next.0 > worst.0 { next } else { worst })
+    };
+    if let Some(radius) = radius {
+        let (deep, at) = deepest(radius);
+        if deep <= limit {
+            return Ok(String::new());
+        }
+        let (diameter, depth) = (shown(2.0 * radius), shown(deep));
+        let why = format!(
+            "a cutter Ø{diameter} mm cuts {depth} mm into the cam as the control takes up its radius or ends it"
+        );
+        return Err(ProgramFault { why, value: deep, at });
+    }
+    if deepest(LARGEST_KEPT).0 <= limit {
+        return Ok(String::new());
+    }
+    let (mut clear, mut wide) = (0.0, LARGEST_KEPT);
+    for _ in 0..RADIUS_HALVINGS {
+        let middle = 0.5 * (clear + wide);
+        *(if deepest(middle).0 <= limit { &mut clear } else { &mut wide }) = middle;
+    }
+    if clear < LEAST_KEPT {
+        let why = "every cutter cuts into the cam as the control takes up its radius or ends it".to_owned();
+        return Err(ProgramFault { why, value: f64::INFINITY, at: deepest(wide).1 });
+    }
+    let largest = (TENTHS * clear).floor() / TENTHS;
+    Ok(format!(
+        "; a cutter of a radius up to {} mm is clear of the cam there, --cutter-diameter judges another",
+        shown(largest)
+    ))
+}
+
+/// Radii are named in tenths of a millimetre.
+const TENTHS: f64 = 10.0;
+
+/// The way of a cutter at the end of a pass on which the control takes up its radius, in the sense towards the profile.
+struct TakingUp {
+    /// Before the control does so: of the centre itself.
+    plain: Vec<Segment>,
+    /// From there on.
+    kept: Vec<Segment>,
+    /// 1 if the cutter is on the left of this way, −1 if on the right.
+    side: f64,
+    /// Whether the radius was taken up before the cutter went down.
+    is_taken_up: bool,
+    /// The end on the profile.
+    end: Vector2<f64>,
+}
+
+impl TakingUp {
+    fn depth(&self, metal: &[EdgeTree], (radius, fine): (f64, f64)) -> f64 {
+        let mut centre = self.plain.clone();
+        if !self.is_taken_up {
+            centre.extend(lead_in::path_of_centre(&self.kept, self.side, radius));
+        }
+        if self.plain.is_empty() && self.kept.is_empty() && !self.is_taken_up {
+            // The cutter goes down on the profile.
+            centre.push(Segment { start: self.end, end: self.end, bulge: 0.0 });
+        }
+        lead_in::depth_along(metal, &centre, radius, fine)
+    }
+
+    fn at(&self) -> Option<Vector2<f64>> {
+        self.plain.iter().chain(&self.kept).map(|segment| segment.start).next()
+    }
+}
+
+impl ClosedPass<'_> {
+    /// The way in.
+    fn taking_up(&self) -> TakingUp {
+        let is_plain = |moved: &&CutterMove| moved.side == CutterSide::Centre;
+        let plain = self.way_in.iter().take_while(is_plain).count();
+        let (plain, kept) = self.way_in.split_at_checked(plain).unwrap_or_default();
+        TakingUp {
+            plain: plain.iter().flat_map(CutterMove::segments).collect(),
+            kept: kept.iter().flat_map(CutterMove::segments).collect(),
+            side: self.side(),
+            is_taken_up: self.side_before != CutterSide::Centre,
+            end: self.round.first().map_or_else(Vector2::zeros, CutterMove::start),
+        }
+    }
+
+    /// The way out, in the sense towards the profile.
+    fn ending(&self) -> TakingUp {
+        let kept = self.way_out.iter().take_while(|moved| moved.side != CutterSide::Centre).count();
+        // The move that ends the compensation leads from beside the profile to the path itself.
+        let ending = (kept + 1).min(self.way_out.len());
+        let (kept_moves, plain) = self.way_out.split_at_checked(ending).unwrap_or_default();
+        let segments = |moves: &[CutterMove]| -> Vec<Segment> { moves.iter().flat_map(CutterMove::segments).collect() };
+        TakingUp {
+            plain: lead_in::reversed(&segments(plain)),
+            kept: lead_in::reversed(&segments(kept_moves)),
+            side: -self.side(),
+            is_taken_up: kept == self.way_out.len(),
+            end: self.round.first().map_or_else(Vector2::zeros, CutterMove::start),
+        }
+    }
+
+    /// 1 if the control keeps the cutter on the left of the pass, −1 if on the right.
+    fn side(&self) -> f64 {
+        if self.round.first().is_some_and(|moved| moved.side == CutterSide::Left) { 1.0 } else { -1.0 }
+    }
+}
+
+/// A pass along the flanks that it cuts: at least one, and none wrongly; whether the metal lies around it.
+fn along(
+    evidence: &Evidence<'_>,
+    written: &WrittenProgram,
+    pass: &ClosedPass<'_>,
+    (worst, deepest, depth): (&mut (f64, Vector2<f64>), &mut [f64], f64),
+) -> Result<bool, ProgramFault> {
+    let (cuts, uncertain) = (evidence.body.cuts(), pass.uncertain());
+    let limit = evidence.tolerance_mm - uncertain;
+    let radius = written.cutter.unwrap_or(0.0);
+    let mut nearest: Option<ProgramFault> = None;
+    let mut found = None;
+    for (index, cut) in written.cuts.iter().filter_map(|index| Some((*index, cuts.get(*index)?))) {
+        let left = left_behind(evidence, index, (radius, written.middle), &pass.contour).map_err(ProgramFault::new)?;
+        let Some(left) = left else { return Err(ProgramFault::new("the cam has no profile here")) };
+        if left.kept && left.distance <= limit {
+            let value = left.distance + uncertain;
+            if value > worst.0 {
+                *worst = (value, left.at);
+            }
+            if let Some(own) = deepest.get_mut(index) {
+                let line = pass.round.first().map_or(0, |moved| moved.line);
+                not_too_deep_at_once(evidence, line, (*own, depth))?;
+                *own = own.max(depth);
+            }
+            found = Some(cut.is_hollow());
+        } else if nearest.as_ref().is_none_or(|other| left.distance < other.value) {
+            let line = pass.round.first().map_or(0, |moved| moved.line);
+            let off = shown(left.distance + uncertain);
+            let fault = left.fault.map_or_else(String::new, |fault| format!("; {fault}"));
+            let why = format!("the pass from line {line} on leaves another cam, off by {off} mm{fault}");
+            nearest = Some(ProgramFault { why, value: left.distance + uncertain, at: Some(left.at) });
+        }
+    }
+    found.ok_or_else(|| nearest.unwrap_or_else(|| ProgramFault::new("the cam has no such flank")))
+}
+
+/// The side on which the control keeps its cutter: none where the path is that of the centre, else that without metal, all the way round.
+fn sides(written: &WrittenProgram, pass: &ClosedPass<'_>, hollow: bool) -> Result<(), ProgramFault> {
+    // Counter-clockwise the metal is on the left, unless it lies around.
+    let wanted = match (written.cutter, pass.left == hollow) {
+        (Some(_), _) => CutterSide::Centre,
+        (None, true) => CutterSide::Left,
+        (None, false) => CutterSide::Right,
+    };
+    let word = |side: CutterSide| match side {
+        CutterSide::Centre => "on its path (G40)",
+        CutterSide::Left => "on the left of its path (G41)",
+        CutterSide::Right => "on the right of its path (G42)",
+    };
+    match pass.round.iter().find(|moved| moved.side != wanted) {
+        None => Ok(()),
+        Some(moved) => {
+            let (is, wanted) = (word(moved.side), word(wanted));
+            Err(ProgramFault::new(format!("in line {} the cutter is {is}; it must be {wanted}", moved.line)))
+        }
+    }
+}
+
+/// The sense of milling must be that of the design: a cutter that climbs has the metal on its right.
+fn sense(evidence: &Evidence<'_>, pass: &ClosedPass<'_>, hollow: bool) -> Result<(), ProgramFault> {
+    let is = if pass.left == hollow { MillingDirection::Climb } else { MillingDirection::Conventional };
+    let wanted = evidence.body.machine().cutting().direction;
+    if is == wanted {
+        return Ok(());
+    }
+    let word = |sense: MillingDirection| match sense {
+        MillingDirection::Climb => "climb",
+        MillingDirection::Conventional => "conventional",
+    };
+    let line = pass.round.first().map_or(0, |moved| moved.line);
+    let (is, wanted) = (word(is), word(wanted));
+    Err(ProgramFault::new(format!("the pass from line {line} on is {is} milling; cut.direction is {wanted}")))
+}
+
+/// Whether the cutter is as wide as the groove: it touches both flanks wherever it is on its path.
+fn slotted(cuts: &[Cut<'_>], written: &WrittenProgram) -> bool {
+    let width = groove_width(cuts).map(|width| MILLIMETRES * width);
+    width.zip(written.cutter).is_some_and(|(width, cutter)| (width - 2.0 * cutter).abs() < SAME_PLACE)
+}
+
+/// A cutter in a groove must not be wider than it.
+fn fits_between(cuts: &[Cut<'_>], written: &WrittenProgram) -> Result<(), ProgramFault> {
+    let width = groove_width(cuts).map(|width| MILLIMETRES * width);
+    match width.zip(written.cutter) {
+        Some((width, cutter)) if 2.0 * cutter > width + SAME_PLACE => {
+            let (cutter, width) = (shown(2.0 * cutter), shown(width));
+            Err(ProgramFault::new(format!("a cutter Ø{cutter} mm is wider than the groove of {width} mm")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Every flank must be cut to the depth, and no deeper.
+fn deep_enough(cuts: &[Cut<'_>], written: &WrittenProgram, deepest: &[f64]) -> Result<(), ProgramFault> {
+    let Some(depth) = written.depth else { return Ok(()) };
+    for index in &written.cuts {
+        let (Some(cut), Some(found)) = (cuts.get(*index), deepest.get(*index)) else { continue };
+        if (found - depth).abs() > SAME_DEPTH {
+            let which = match cut.layer {
+                Layer::CamProfile => "the profile".to_owned(),
+                layer => format!("the {} flank", layer.word()),
+            };
+            let (found, depth) = (shown(*found), shown(depth));
+            return Err(ProgramFault::new(format!("{which} is cut {found} mm deep, and must be {depth} mm deep")));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,236 @@
+//! What a file that a machine runs is to the rest of the program.
+
+use crate::body::{Body, Drawn, Request};
+use crate::check::Check;
+use crate::report::{Finding, Section, Verdict};
+use crate::verify::Evidence;
+use crate::write::{FormatSelection, Rendering};
+use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::geometry::contour::Contour;
+use camgen_kernel::refusal::Refusal;
+use std::fmt::Debug;
+
+/// A kind of file that a machine runs.
+pub trait ToolFile: Debug + Sync {
+    /// Its check.
+    fn check(&self) -> &'static Check;
+
+    /// The name of the check behind which its own stands in reports.
+    fn stands_after(&self) -> &'static str;
+
+    /// What a report on one calls it: "table for a servo drive".
+    fn noun(&self) -> &'static str;
+
+    /// What a refusal calls one: "a table for a servo drive".
+    fn described(&self) -> &'static str;
+
+    /// The formats that it is written in; none of a file that is only read.
+    fn formats(&self) -> &'static [ToolFormat];
+
+    /// Why a cam has none, if it has none.
+    fn unfit(&self, _body: &dyn Body) -> Option<&'static str> {
+        None
+    }
+
+    /// Whether bytes are such a file, by what stands in them.
+    fn recognises(&self, bytes: &[u8]) -> bool;
+
+    /// Whether what it is recognised by stands in no other file.
+    fn is_certain(&self) -> bool {
+        true
+    }
+
+    /// Reads a file, whatever the cam.
+    ///
+    /// # Errors
+    /// [`Refusal`] when it cannot be read.
+    fn read(&self, bytes: &[u8]) -> Result<(), Refusal>;
+
+    /// What is to be written of a cam; `None` where it was not requested.
+    ///
+    /// # Errors
+    /// [`Refusal`] when it was requested and the cam has no such file.
+    fn plan(&self, _cam: &DrawnCam<'_>) -> Result<Option<Box<dyn Plan>>, Refusal> {
+        Ok(None)
+    }
+
+    /// Why a file cannot be written that was not planned.
+    fn not_planned(&self) -> Refusal {
+        Refusal::new(format!("no {} was requested with the drawing", self.noun()))
+    }
+
+    /// Judges a file that somebody else may have written.
+    ///
+    /// # Errors
+    /// [`FileError`] when it cannot be compared with the cam at all.
+    fn judge(&self, cam: &SolvedCam<'_>, file: &ExpectedFile<'_>, bytes: &[u8]) -> Result<JudgedFile, FileError>;
+}
+
+/// What is to be written of a cam, before it has a mark.
+pub trait Plan: Debug + Send + Sync {
+    /// The files of all formats, in the order in which they are listed.
+    fn write(&self, cam: &DrawnCam<'_>, mark: &str) -> Vec<WrittenFile>;
+
+    /// Reads the written files again and judges them.
+    fn judge(&self, evidence: &Evidence<'_>, request: &Request, files: &[WrittenFile]) -> JudgedFile;
+
+    /// Whether the mark in the file of a cam that breaks a limit says so.
+    fn warns(&self) -> bool {
+        false
+    }
+
+    /// The endings of the names of sheets for people that are written with the files.
+    fn sheet_endings(&self, _cam: &DrawnCam<'_>) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Those sheets.
+    ///
+    /// # Errors
+    /// [`Refusal`] when one cannot be drawn.
+    fn sheets(&self, _cam: &Rendering<'_>) -> Result<Vec<Vec<u8>>, Refusal> {
+        Ok(Vec::new())
+    }
+}
+
+/// A format of a file that a machine runs. It has no writer of its own: its files are those that were proved.
+#[derive(Debug, Clone, Copy)]
+pub struct ToolFormat {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// When it is written.
+    pub when: FormatSelection,
+}
+
+impl ToolFormat {
+    /// A format that is written when it is requested.
+    #[must_use]
+    pub const fn asked(name: &'static str) -> Self {
+        Self { name, when: FormatSelection::Asked }
+    }
+}
+
+/// A file in memory, not yet proved.
+#[derive(Debug, Clone)]
+pub struct WrittenFile {
+    /// The name of its format.
+    pub format: &'static str,
+    /// What is added to the stem of its name.
+    pub ending: String,
+    /// Its bytes, or why there is none.
+    pub bytes: Result<Vec<u8>, Refusal>,
+}
+
+/// A cam with its drawing, of which files are planned and written.
+#[derive(Clone, Copy)]
+pub struct DrawnCam<'a> {
+    /// The solved cam.
+    pub body: &'a dyn Body,
+    /// What was requested of it.
+    pub request: &'a Request,
+    /// What was drawn; `None` of a cam without an outline.
+    pub drawn: Option<&'a Drawn>,
+}
+
+/// A solved cam with which a file is compared that somebody else may have written.
+#[derive(Clone, Copy)]
+pub struct SolvedCam<'a> {
+    /// The cam.
+    pub body: &'a dyn Body,
+    /// How exactly the file must be of it.
+    pub request: &'a Request,
+}
+
+impl<'a> SolvedCam<'a> {
+    /// The tolerance of its outlines, mm.
+    #[must_use]
+    pub fn tolerance_mm(&self) -> f64 {
+        MILLIMETRES * self.request.fit.tolerance
+    }
+
+    /// The evidence of a cam of which nothing was written.
+    ///
+    /// # Errors
+    /// [`FileError::Request`] when the tolerances do not fit its follower.
+    pub fn evidence(&self) -> Result<Evidence<'a>, FileError> {
+        let motion = self.request.resolved(self.body).map_err(FileError::Request)?.fit.motion;
+        let evidence = Evidence::without_files(self.body, self.tolerance_mm(), motion);
+        Ok(Evidence { strict: self.request.strict, ..evidence })
+    }
+}
+
+/// What a file that is checked should hold, where a cam has more than one file, and how it is read.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ExpectedFile<'a> {
+    /// Layer of the outline in a DXF file; `None` for `CAM_PROFILE`, or the only closed contour of a file without that layer.
+    pub layer: Option<&'a str>,
+    /// Speed of the section of a conoid, rpm, one of those it was solved for.
+    pub section: Option<f64>,
+    /// Name of the outline, of a cam that has several at one place.
+    pub cut: Option<&'a str>,
+    /// Radius of the cutter whose path the file holds, m.
+    pub cutter: Option<f64>,
+}
+
+/// What was found of a file, or of the files that were planned together.
+#[derive(Debug, Clone, Default)]
+pub struct JudgedFile {
+    /// What its check found.
+    pub finding: Option<Finding>,
+    /// The figures of the file for the report.
+    pub section: Option<Section>,
+    /// The outline that it cuts, where a diagnosis may explain what is wrong with it.
+    pub outline: Option<Contour>,
+}
+
+impl From<Option<Finding>> for JudgedFile {
+    fn from(finding: Option<Finding>) -> Self {
+        Self { finding, ..Self::default() }
+    }
+}
+
+/// Why a file cannot be compared with a cam.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FileError {
+    /// It cannot be read.
+    #[error(transparent)]
+    Read(Refusal),
+    /// The section that it should hold is not given, or there is no such section.
+    #[error(transparent)]
+    Section(Refusal),
+    /// The radius of its cutter is not given.
+    #[error(transparent)]
+    Cutter(Refusal),
+    /// The requested tolerances do not fit the cam.
+    #[error(transparent)]
+    Request(Refusal),
+}
+
+/// What is found of a file that belongs to one of the cuts of a cam: of the cut that is named, or of the first that it fits; where it fits none,
+/// of the first.
+///
+/// # Errors
+/// As `judge`.
+pub(super) fn best_of_cuts(
+    cam: &SolvedCam<'_>,
+    file: &ExpectedFile<'_>,
+    judge: impl Fn(usize) -> Result<Option<Finding>, FileError>,
+) -> Result<JudgedFile, FileError> {
+    let cuts = cam.body.cuts();
+    let named = file.cut.and_then(|name| cuts.iter().position(|cut| cut.name == name));
+    let wanted = named.map_or(0..cuts.len(), |named| named..named + 1);
+    let first = judge(wanted.start)?;
+    for cut in wanted.skip(1).filter(|_| has_failed(first.as_ref())) {
+        let next = judge(cut)?;
+        if !has_failed(next.as_ref()) {
+            return Ok(next.into());
+        }
+    }
+    Ok(first.into())
+}
+
+/// Whether a finding is a failure.
+fn has_failed(finding: Option<&Finding>) -> bool {
+    finding.is_some_and(|finding| finding.verdict == Verdict::Fail)
+}
