@@ -14,9 +14,9 @@ use camgen::motion::laws::{LAWS, LawTask};
 use camgen::pipeline::Spec;
 use camgen::profile::outline::MotionTolerance;
 use camgen::table::Table;
+use camgen::tool_files::dxf::{self, Version, proof};
 use camgen::verify::{self, Evidence, rolling};
-use camgen::write::dxf::{self, Version};
-use camgen::write::{csv, proof, step, svg};
+use camgen::write::{csv, step, svg};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 

@@ -173,8 +173,8 @@ pub use camgen_kernel::{document, follower, geometry, motion, numeric, profile, 
 pub use camgen_cams::engine;
 #[doc(inline)]
 pub use camgen_cams::{
-    analysis, body, catalogue, check, domain, load, machine, pipeline, reading, report, study, table, tool_files, trade,
-    verify, write,
+    analysis, body, catalogue, check, domain, load, machine, pipeline, reading, report, study, table, tool_files,
+    trade, verify, write,
 };
 
 /// The domains of printing machines. To be linked with them is to know their machines: they register themselves.

@@ -13,9 +13,9 @@ use camgen::motion::Quantity;
 use camgen::pipeline::{Assembly, AssemblyDrawing, ExpectedFile, FileSet, ProvenAssembly, Writing};
 use camgen::profile::outline::Fit;
 use camgen::report::{Finding, Report, Speeds};
-use camgen::tool_files::{gcode, inspection, points, requested};
+use camgen::tool_files::{dxf, gcode, inspection, points, requested};
 use camgen::verify;
-use camgen::write::{csv, dxf, json};
+use camgen::write::{csv, json};
 use camgen::{Accuracy, Request, Side};
 use numpy::ndarray::Array3;
 use numpy::{IntoPyArray, PyArray2, PyArray3};
@@ -337,9 +337,9 @@ fn with_tables(
     let has = |name: &str| formats.into_iter().flatten().any(|format| format == name);
     let ball = quantity("ball_diameter", ball, "m", parse::cutter_diameter)?;
     for (parameter, given, format) in [
-        ("controller", controller.is_some(), gcode::FORMAT.name),
-        ("ball_diameter", ball.is_some(), inspection::FORMAT.name),
-        ("points_of", points.iter().any(Option::is_some), points::FORMAT.name),
+        ("controller", controller.is_some(), gcode::FORMAT),
+        ("ball_diameter", ball.is_some(), inspection::FORMAT),
+        ("points_of", points.iter().any(Option::is_some), points::FORMAT),
     ] {
         if given && !has(format) {
             let remedy = format!("formats=[{format:?}]");
@@ -347,7 +347,7 @@ fn with_tables(
         }
     }
     let [curve, form, step, between] = points;
-    let points = has(points::FORMAT.name).then_some(Points {
+    let points = has(points::FORMAT).then_some(Points {
         curve: word("points_of", curve)?.unwrap_or(body::PointCurve::Profile),
         form: word("points_as", form)?,
         step: word("points_step", step)?,
@@ -355,9 +355,9 @@ fn with_tables(
     });
     let ball_radius = ball.unwrap_or(USUAL_BALL_RADIUS);
     Ok(Request {
-        milling: has(gcode::FORMAT.name).then_some(Milling { controller: word("controller", controller)? }),
+        milling: has(gcode::FORMAT).then_some(Milling { controller: word("controller", controller)? }),
         formats: requested(formats.unwrap_or_default()),
-        inspection: has(inspection::FORMAT.name).then_some(Inspection { ball_radius }),
+        inspection: has(inspection::FORMAT).then_some(Inspection { ball_radius }),
         points,
         ..request
     })

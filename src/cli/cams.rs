@@ -143,7 +143,7 @@ impl CutterArgs {
 impl PointsArgs {
     /// The requested table, if there is one.
     fn requested(&self, formats: Option<&[String]>) -> Result<Option<Points>, Failure> {
-        if !formats.is_some_and(|formats| formats.iter().any(|format| format == points::FORMAT.name)) {
+        if !formats.is_some_and(|formats| formats.iter().any(|format| format == points::FORMAT)) {
             let given = [
                 self.points_of.is_some(),
                 self.points_as.is_some(),
@@ -167,7 +167,7 @@ impl PointsArgs {
 /// Rows of the table of a cam.
 const USUAL_ROWS: u32 = 720;
 /// Formats whose rows are as many as the tolerance, or the turn, needs, and those with rows by --samples.
-const COUNTED_ELSEWHERE: [&str; 3] = [points::FORMAT.name, inspection::FORMAT.name, gauge::FORMAT.name];
+const COUNTED_ELSEWHERE: [&str; 3] = [points::FORMAT, inspection::FORMAT, gauge::FORMAT];
 const SAMPLED: [&str; 2] = ["csv", "html"];
 
 /// Radius of the ball of a common probe, m.
@@ -191,14 +191,14 @@ impl FileArgs {
     fn request(&self, common: &CommonArgs) -> Result<Request, Failure> {
         self.sampled()?;
         let points = self.points.requested(self.format.as_deref())?;
-        let milled = self.format.iter().flatten().any(|format| format == gcode::FORMAT.name);
+        let milled = self.format.iter().flatten().any(|format| format == gcode::FORMAT);
         if self.controller.is_some() && !milled {
             return Err(Failure("--controller belongs to --format gcode".into()));
         }
         let milling = milled.then_some(Milling { controller: self.controller });
         let formats = requested(self.format.as_deref().unwrap_or_default());
-        let inspected = self.format.iter().flatten().any(|format| format == inspection::FORMAT.name);
-        let gauged = self.format.iter().flatten().any(|format| format == gauge::FORMAT.name);
+        let inspected = self.format.iter().flatten().any(|format| format == inspection::FORMAT);
+        let gauged = self.format.iter().flatten().any(|format| format == gauge::FORMAT);
         if self.ball_diameter.is_some() && !inspected && !gauged {
             return Err(Failure("--ball-diameter belongs to --format inspect and gauge".into()));
         }

@@ -7,7 +7,7 @@ use camgen::body::{Accuracy, Request};
 use camgen::engine::{self, TextChange};
 use camgen::pipeline::Cam;
 use camgen::profile::outline::Fit;
-use camgen::write::dxf::Version;
+use camgen::tool_files::dxf::Version;
 use camgen::write::html::live::LiveDesign;
 
 /// What is made live.

@@ -33,7 +33,8 @@ pub(super) fn run(files: &[PathBuf], command: impl Fn() -> Result<Outcome, Failu
             print_message(&format!("error: {failure}"));
         }
         // The tables that the machine file names are known once it has been read. One that is new is looked at from now on.
-        let found: Vec<PathBuf> = input_files::files().named().into_iter().filter(|file| !files.contains(file)).collect();
+        let found: Vec<PathBuf> =
+            input_files::files().named().into_iter().filter(|file| !files.contains(file)).collect();
         let seen = if found == named {
             before
         } else {

@@ -10,7 +10,7 @@ use camgen::geometry::contour::{Contour, Vertex};
 use camgen::machine::Machine;
 use camgen::pipeline::{Cam, Spec};
 use camgen::report::Report;
-use camgen::write::dxf::{self, Version};
+use camgen::tool_files::dxf::{self, Version};
 use nalgebra::Vector2;
 use serde_json::Value;
 

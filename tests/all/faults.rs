@@ -4,7 +4,7 @@ use assert_cmd::Command;
 use camgen::body::Layer;
 use camgen::geometry::Entity;
 use camgen::geometry::contour::{Contour, Vertex};
-use camgen::write::dxf::{self, Version};
+use camgen::tool_files::dxf::{self, Version};
 use nalgebra::Vector2;
 use serde_json::Value;
 use std::fs;

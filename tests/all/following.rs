@@ -11,7 +11,7 @@ use camgen::geometry::{CurvePoint, Entity};
 use camgen::machine::Machine;
 use camgen::pipeline::{Cam, Spec};
 use camgen::report::Verdict;
-use camgen::write::dxf::{self, Version};
+use camgen::tool_files::dxf::{self, Version};
 use nalgebra::Vector2;
 
 fn machine(overrides: &[&str]) -> Machine {

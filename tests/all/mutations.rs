@@ -7,7 +7,7 @@ use camgen::domains::press::SpecOfPress;
 use camgen::geometry::contour::Edge;
 use camgen::profile::outline::{Fit, SegmentKind};
 use camgen::reading::{self, MOST_SEGMENTS, step};
-use camgen::write::dxf::Version;
+use camgen::tool_files::dxf::Version;
 use camgen::{Machine, Request, Spec, Writing};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};

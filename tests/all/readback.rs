@@ -8,7 +8,7 @@ use camgen::geometry::Entity;
 use camgen::geometry::contour::{Contour, Vertex};
 use camgen::machine::Machine;
 use camgen::report::Verdict;
-use camgen::write::dxf::{self, Version};
+use camgen::tool_files::dxf::{self, Version};
 use camgen::{Cam, ExpectedFile, Report, Spec};
 use serde_json::Value;
 use std::fs;

@@ -7,7 +7,7 @@ use camgen::geometry::contour::{Contour, Segment, Vertex};
 use camgen::machine::Machine;
 use camgen::pipeline::{Cam, Error, Spec};
 use camgen::report::{Report, Verdict};
-use camgen::write::dxf::{self, Version};
+use camgen::tool_files::dxf::{self, Version};
 use nalgebra::Vector2;
 use std::fmt::Write as _;
 use std::sync::OnceLock;

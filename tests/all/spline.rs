@@ -12,8 +12,8 @@ use camgen::pipeline::{Cam, Spec};
 use camgen::profile::outline::{Fit, SegmentKind, Side};
 use camgen::reading;
 use camgen::report::Verdict;
-use camgen::write::dxf::Version;
-use camgen::write::proof;
+use camgen::tool_files::dxf::Version;
+use camgen::tool_files::dxf::proof;
 use nalgebra::Vector2;
 
 fn machine(overrides: &[&str]) -> Machine {

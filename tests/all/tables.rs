@@ -256,7 +256,8 @@ fn analysis_of(kind: &Kind) -> analysis::Analysis {
             let options = analysis::import::ImportOptions { name: "lift".into(), spline: true, ..Default::default() };
             let frame = analysis::import::frame(&options).expect("a follower");
             let table = [format!("motion.table={}", path.display())];
-            let rows = camgen::catalogue::lift_table(&frame, &table, &camgen::document::InputFiles::default()).expect("rows");
+            let rows =
+                camgen::catalogue::lift_table(&frame, &table, &camgen::document::InputFiles::default()).expect("rows");
             analysis::import::analysis(&analysis::import::ImportSource::Table(rows), &options).expect("a design")
         }
         "trade" => {

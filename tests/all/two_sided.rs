@@ -8,7 +8,7 @@ use camgen::geometry::{CurvePoint, Entity};
 use camgen::machine::Machine;
 use camgen::pipeline::{Cam, Spec};
 use camgen::report::{Finding, Report, Verdict};
-use camgen::write::dxf::{self, Version};
+use camgen::tool_files::dxf::{self, Version};
 use nalgebra::Vector2;
 use std::f64::consts::{PI, TAU};
 

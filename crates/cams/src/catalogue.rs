@@ -9,7 +9,7 @@ use crate::pipeline::Spec;
 use crate::tool_files::tool_files;
 use crate::trade;
 use crate::verify::{CHECKS, CheckEntry};
-use camgen_kernel::document::{KeySection, Tables, cams};
+use camgen_kernel::document::{InputFiles, KeySection, Tables, cams};
 use camgen_kernel::motion::program::rows::TableRows;
 use camgen_kernel::refusal::Refusal;
 use std::sync::LazyLock;

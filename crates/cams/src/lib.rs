@@ -69,4 +69,4 @@ pub use report::{Finding, LazyReport, Place, Report, Rolled, Section, Speeds, Ve
 #[doc(inline)]
 pub use table::Table;
 #[doc(inline)]
-pub use write::dxf::Version;
+pub use tool_files::dxf::Version;

@@ -5,8 +5,8 @@ use camgen::body::PointCurve;
 use camgen::geometry::points::{PointCoordinates, PointInterpolation, PointStep};
 use camgen::machine::Controller;
 use camgen::profile::outline::{SegmentKind, Side};
+use camgen::tool_files::dxf::Version;
 use camgen::units::LengthUnit;
-use camgen::write::dxf::Version;
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 

@@ -5,10 +5,10 @@ use camgen::document::{LengthOrAngle, NamedChoice, similar};
 use camgen::domains::shaft::mechanics::MOST_ORDER;
 use camgen::machine::{fault_of_stem, valid_rpm};
 use camgen::motion::laws::{self, LAWS, Law};
+use camgen::tool_files::dxf::Version;
 use camgen::tool_files::formats_by_name;
 use camgen::units::{self, Dimension};
 use camgen::write::csv::MOST_ROWS;
-use camgen::write::dxf::Version;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use std::f64::consts::{PI, TAU};
 

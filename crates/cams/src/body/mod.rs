@@ -325,13 +325,7 @@ impl Drawn {
     /// Parts alone.
     #[must_use]
     pub fn of(parts: Vec<Part>) -> Self {
-        Self {
-            parts,
-            flank: None,
-            cutter_path: None,
-            other_cutter_paths: Vec::new(),
-            swept: None,
-        }
+        Self { parts, flank: None, cutter_path: None, other_cutter_paths: Vec::new(), swept: None }
     }
 
     /// The outlines of all parts, each with its part, in the order of the cuts of the body.

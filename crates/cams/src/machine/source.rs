@@ -182,7 +182,7 @@ impl Catalogue {
         self.file_checks.iter().any(|name| *name == check)
     }
 
-    /// The text of an embedded machine by its name, or of a file.
+    /// The text of an embedded machine by its name, or of a file; `files` reads it and the files that it names.
     ///
     /// # Errors
     /// A file that cannot be read, or is not a machine file; what is wrong in it shows when a machine is made of it.

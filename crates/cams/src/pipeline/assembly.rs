@@ -5,9 +5,9 @@ use crate::body::{Body, Request};
 use crate::check::Measure;
 use crate::report::{Finding, LazyReport, Report, Section, Verdict, failed};
 use crate::table::Table;
+use crate::tool_files::dxf::Version;
 use crate::verify::WrittenOutline;
 use crate::write::csv;
-use crate::write::dxf::Version;
 use camgen_kernel::numeric::parallel;
 use std::fmt;
 use std::sync::Arc;
@@ -163,7 +163,7 @@ impl AssemblyDrawing {
         let on_first = (first.body(), written.outlines());
         let measures =
             joint_report.as_ref().map_or_else(Vec::new, |joint_report| joint_report.measures(on_first, &others));
-        let first = first.judged(version, written, &measures);
+        let first = first.judged(written, &measures);
         Ok(ProvenAssembly { first, name, others, joint_report })
     }
 }

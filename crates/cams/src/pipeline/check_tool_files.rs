@@ -121,5 +121,7 @@ impl Cam {
 
 /// Whether a finding is on the file and not on the cam.
 fn is_of_file(finding: &Finding) -> bool {
-    CHECKS.iter().any(|check| check.name == finding.check && matches!(check.on, CheckScope::File | CheckScope::ToolFile))
+    CHECKS
+        .iter()
+        .any(|check| check.name == finding.check && matches!(check.on, CheckScope::File | CheckScope::ToolFile))
 }

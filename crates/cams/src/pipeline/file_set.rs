@@ -3,14 +3,14 @@
 use super::Error;
 use crate::body::Body;
 use crate::report::{LazyReport, Report};
+use crate::tool_files::{Format, formats, formats_by_name};
+use crate::write::FormatSelection;
 use crate::write::csv::MOST_ROWS;
 use crate::write::files::{self, OutputDirectory, StagedFiles};
 #[cfg(feature = "live")]
 use crate::write::html::live::LiveDesign;
 use crate::write::record::{WriteInputs, stage_recorded};
 use crate::write::svg;
-use crate::tool_files::{Format, formats, formats_by_name};
-use crate::write::FormatSelection;
 use camgen_kernel::document::Input;
 use camgen_kernel::refusal::Refusal;
 use std::path::{Path, PathBuf};
@@ -82,7 +82,8 @@ impl Writing {
             );
             return Err(Error::Format(Refusal::new(what).remedy(format!("give --samples {most} at most"))));
         }
-        if let Some(unknown) = self.formats.iter().flatten().find(|name| !formats_by_name().any(|format| format.name == *name))
+        if let Some(unknown) =
+            self.formats.iter().flatten().find(|name| !formats_by_name().any(|format| format.name == *name))
         {
             let known: Vec<&str> = formats_by_name().map(|format| format.name).collect();
             return Err(Error::NoSuchFormat { name: unknown.clone(), known: known.join(", ") });

@@ -4,8 +4,8 @@ use super::{Error, FileSet, ProvenAssembly, Writing};
 use crate::analysis::Analysis;
 use crate::machine::UNITS_KEY;
 use crate::report::{Finding, Inputs, LazyReport, Report, failed, passed, worst_first};
-use crate::verify;
 use crate::tool_files::{Format, formats_by_name};
+use crate::verify;
 use crate::write::{AnalysisFormat, AnalysisRendering, FormatSelection};
 use camgen_kernel::document::{Input, NamedChoice};
 use camgen_kernel::numeric::parallel;
@@ -181,7 +181,8 @@ impl Judged {
     /// The formats of the analysis, and the names of those of its cam, where there is one.
     fn chosen(&self, writing: &Writing) -> Result<(Vec<AnalysisFormat>, Option<Vec<String>>), Error> {
         let has = |of: &AnalysisFormat| !(of.endings)(&self.analysis).is_empty();
-        let own: Vec<Format> = formats_by_name().filter(|format| format.of_analysis().as_ref().is_some_and(has)).collect();
+        let own: Vec<Format> =
+            formats_by_name().filter(|format| format.of_analysis().as_ref().is_some_and(has)).collect();
         let wanted = |format: &Format| match &writing.formats {
             Some(names) => names.iter().any(|name| name == format.name),
             None => format.when == FormatSelection::Usual,

@@ -20,6 +20,7 @@ mod proven;
 mod spec;
 mod stem;
 
+pub use crate::tool_files::ExpectedFile;
 pub use assembly::{Assembly, AssemblyDrawing, AssemblyReport, ProvenAssembly};
 pub use builder::SOURCE as OF_BUILDER;
 pub use builder::{
@@ -32,7 +33,6 @@ pub use file_kind::FileKind;
 pub use file_set::{FileSet, Output, Writing};
 pub use judged::Judged;
 pub use proven::Proven;
-pub use crate::tool_files::ExpectedFile;
 pub use spec::Spec;
 pub use spec::{SolvedBodies, WantedCams};
 
@@ -114,9 +114,7 @@ impl Cam {
         let request = request.resolved(&*self.body).map_err(Error::Draw)?;
         body::finer_than_the_lift(&*self.body, request.fit.tolerance).map_err(Error::Draw)?;
         let drawn = match self.body.draw(&request) {
-            Ok(drawn) => {
-                Ok(body::start::started(&*self.body, &request, drawn).map_err(Error::Draw)?)
-            }
+            Ok(drawn) => Ok(body::start::started(&*self.body, &request, drawn).map_err(Error::Draw)?),
             Err(DrawError::NoOutline(why)) => Err(why),
             Err(DrawError::Refused(why)) => return Err(Error::Draw(why)),
         };

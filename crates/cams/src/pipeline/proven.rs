@@ -5,15 +5,13 @@ use crate::body::{Body, DrawingEvidence, Drawn, Request};
 use crate::check::Measure;
 use crate::report::{Finding, Inputs, LazyReport, Report, Rolled, Section, passed, warning};
 use crate::table::Table;
-use crate::tool_files::{DrawnCam, Format, Listed, ProvedToolFile, ToolFile, prove, tool_files};
-use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, WrittenSwept, rolling};
+use crate::tool_files::dxf::{DxfForm, ProvedCuts, Version};
+use crate::tool_files::{DrawnCam, Format, Listed, ProvedFile, ProvedToolFile, ToolFile, prove, tool_files};
+use crate::verify::{self, Evidence, WrittenOutline, rolling};
 use crate::write::Rendering;
 use crate::write::csv;
-use crate::write::dxf::{DxfForm, Version};
-use crate::write::{proof, step};
 use camgen_kernel::document::Input;
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::profile::outline::{Outline, OutlineError};
 use camgen_kernel::refusal::Refusal;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -45,30 +43,12 @@ struct ProvenData {
     /// Their hash.
     hashed: Inputs,
     drawn: Result<Drawn, String>,
-    /// The bytes of the cut files, one for each part.
-    cut_files: Vec<Vec<u8>>,
+    /// The files to cut from, and what was read of them.
+    cuts: ProvedCuts,
     /// What was requested for machines to run, with the findings of its judges.
     tool_files: Vec<ProvedToolFile>,
-    version: Version,
-    outlines: Vec<WrittenOutline>,
     rolled: Vec<Rolled>,
     findings: Vec<Finding>,
-}
-
-/// The cut files of a drawing in memory, and what is in them.
-pub(super) struct WrittenCuts {
-    swept: Option<WrittenSwept>,
-    cut_files: Vec<Vec<u8>>,
-    outlines: Vec<WrittenOutline>,
-    rolled: Vec<Rolled>,
-    inputs: Inputs,
-}
-
-impl WrittenCuts {
-    /// The outlines as read back.
-    pub(super) fn outlines(&self) -> &[WrittenOutline] {
-        &self.outlines
-    }
 }
 
 impl Drawing {
@@ -103,95 +83,42 @@ impl Drawing {
     /// As [`Drawing::prove`].
     pub fn prove_as(self, version: Version) -> Result<Proven, Error> {
         let written = self.written(version)?;
-        Ok(self.judged(version, written, &[]))
+        Ok(self.judged(written, &[]))
     }
 
-    /// The cut files in memory as they are read back, and what rolling on the first shows.
-    pub(super) fn written(&self, version: Version) -> Result<WrittenCuts, Error> {
-        let body = self.cam.body();
-        let inputs = Inputs::of(&self.inputs);
-        let mark = inputs.to_string();
-        let form = DxfForm { version, units: body.machine().units() };
-        let (mut cut_files, mut outlines) = (Vec::new(), Vec::new());
-        for part in self.drawn.iter().flat_map(|drawn| &drawn.parts) {
-            // The proof is of the bytes that would be cut, not of the drawing they were made from.
-            let written = proof::write_marked(part, form, &mark).map_err(Error::Proof)?;
-            cut_files.push(written.bytes);
-            for contour in written.outlines {
-                let (cut, others) = (outlines.len(), written.others.clone());
-                outlines.push(WrittenOutline { cut, z: part.z, contour, others });
-            }
-        }
-        let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
-        let mut swept = None;
-        for drawing in self.drawn.iter().filter_map(|drawn| drawn.swept.as_deref()) {
-            let solid = step::write(&drawing.solid, "", None);
-            let mut read = WrittenSwept::of_solid(body, &solid, tolerance_mm).map_err(Error::Proof)?;
-            if !drawing.developed.is_empty() {
-                let unrolled = proof::developed(&drawing.developed, form, &mark).map_err(Error::Proof)?;
-                read = read.with(WrittenSwept::of_unrolled(body, &unrolled, proof::JOIN).map_err(Error::Proof)?);
-                cut_files.push(unrolled);
-            }
-            swept = Some(read);
-        }
-        let rolled = rolling::roll_all(body, &outlines, tolerance_mm);
-        Ok(WrittenCuts { swept, cut_files, outlines, rolled, inputs })
+    /// The files to cut from in memory, as they are read back.
+    pub(super) fn written(&self, version: Version) -> Result<ProvedCuts, Error> {
+        let form = DxfForm { version, units: self.body().machine().units() };
+        let mark = Inputs::of(&self.inputs).to_string();
+        ProvedCuts::of_drawing(&self.drawn_cam(), form, &mark).map_err(Error::Proof)
     }
 
-    /// The paths of a cutter as another program would read them.
-    fn written_paths(&self, version: Version) -> Vec<WrittenPath> {
-        let (middle, _) = self.request.fit.band();
-        let form = DxfForm { version, units: self.cam.body().machine().units() };
-        let paths = self.drawn.iter().flat_map(Drawn::cutter_paths).enumerate();
-        let written_path = |(cut, outline): (usize, &Result<Outline, OutlineError>)| {
-            let read = match outline {
-                Ok(outline) => proof::cutter_path(outline, form).map_err(|error| error.to_string()),
-                Err(error) => Err(error.to_string()),
-            };
-            let (contour, lead_ins) = match read {
-                Ok((contour, lead_ins)) => (Ok(contour), lead_ins),
-                Err(why) => (Err(why), Vec::new()),
-            };
-            let radius = self.request.cutter_radius?;
-            Some(WrittenPath { cut, radius: MILLIMETRES * radius, middle: MILLIMETRES * middle, contour, lead_ins })
-        };
-        paths.filter_map(written_path).collect()
+    /// The cam as its files are written of it.
+    fn drawn_cam(&self) -> DrawnCam<'_> {
+        DrawnCam { body: self.body(), request: &self.request, drawn: self.drawn() }
     }
 
     /// Every check, of what was written, with the cams that are cut with it.
-    pub(super) fn judged(self, version: Version, written: WrittenCuts, of_others: &[Measure]) -> Proven {
-        let WrittenCuts { swept, cut_files, outlines, rolled, inputs: hashed } = written;
+    pub(super) fn judged(self, cuts: ProvedCuts, of_others: &[Measure]) -> Proven {
         let body = self.cam.body();
+        let hashed = Inputs::of(&self.inputs);
         let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
-        let cutter_paths = self.written_paths(version);
+        let rolled = rolling::roll_all(body, cuts.outlines(), tolerance_mm);
         let evidence = Evidence {
-            drawn: self.drawn.as_ref().ok(),
-            outlines: &outlines,
+            drawn: self.drawn(),
+            outlines: cuts.outlines(),
             rolled: &rolled,
-            cutter_paths: &cutter_paths,
+            cutter_paths: cuts.written_paths(),
             of_others,
-            swept: swept.as_ref(),
+            swept: cuts.swept(),
             strict: self.request.strict,
             ..Evidence::without_files(body, tolerance_mm, self.request.fit.motion)
         };
-        let drawn_cam = DrawnCam { body, request: &self.request, drawn: self.drawn.as_ref().ok() };
-        let tool_files = prove(self.tool_files, &drawn_cam, &evidence, &hashed.to_string());
+        let tool_files = prove(self.tool_files.clone(), &self.drawn_cam(), &evidence, &hashed.to_string());
         let of_tool_files: Vec<Finding> = tool_files.iter().filter_map(ProvedToolFile::finding).cloned().collect();
         let findings = verify::run(&Evidence { of_tool_files: &of_tool_files, ..evidence });
-        let (cam, request, inputs, drawn) = (self.cam, self.request, self.inputs, self.drawn);
-        Proven(Arc::new(ProvenData {
-            cam,
-            request,
-            inputs,
-            hashed,
-            drawn,
-            cut_files,
-            tool_files,
-            version,
-            outlines,
-            rolled,
-            findings,
-        }))
+        let Drawing { cam, request, inputs, drawn, .. } = self;
+        Proven(Arc::new(ProvenData { cam, request, inputs, hashed, drawn, cuts, tool_files, rolled, findings }))
     }
 }
 
@@ -248,13 +175,13 @@ impl Proven {
     /// The bytes of the cut files, as they were proved.
     #[must_use]
     pub fn cut_files(&self) -> &[Vec<u8>] {
-        &self.0.cut_files
+        self.0.cuts.cuts()
     }
 
     /// The outlines as another program would find them in the cut files.
     #[must_use]
     pub fn outlines(&self) -> &[WrittenOutline] {
-        &self.0.outlines
+        self.0.cuts.outlines()
     }
 
     /// What rolling the follower on the written outline has shown, of a plane cam.
@@ -298,7 +225,7 @@ impl Proven {
         let request = &self.0.request;
         Evidence {
             drawn: self.drawn(),
-            outlines: &self.0.outlines,
+            outlines: self.outlines(),
             rolled: &self.0.rolled,
             strict: request.strict,
             ..Evidence::without_files(self.body(), self.tolerance_mm(), request.fit.motion)
@@ -313,6 +240,7 @@ impl Proven {
         let drawn = self.outlined()?;
         Ok(match format.source {
             Listed::View(view) => (view.endings)(drawn),
+            Listed::Cut(cut) => (cut.endings)(drawn),
             Listed::Tool(file) => {
                 let proved = self.tool_file(file);
                 proved.map_or_else(Vec::new, |proved| proved.endings(format.name, &self.drawn_cam()))
@@ -324,6 +252,7 @@ impl Proven {
     pub(super) fn written_in(&self, format: &Format, rendering: &Rendering<'_>) -> Result<Vec<Vec<u8>>, Refusal> {
         let file = match format.source {
             Listed::View(view) => return (view.write)(rendering),
+            Listed::Cut(cut) => return Ok(bytes_of(&(cut.files)(&self.0.cuts, rendering)?)),
             Listed::Tool(file) => file,
         };
         let proved = self.tool_file(file).ok_or_else(|| file.not_planned())?;
@@ -335,7 +264,7 @@ impl Proven {
         if files.is_empty() {
             return Err(file.not_planned());
         }
-        let mut all: Vec<Vec<u8>> = files.iter().map(|file| file.bytes().to_vec()).collect();
+        let mut all = bytes_of(&files);
         all.extend(proved.sheets(rendering)?);
         Ok(all)
     }
@@ -381,7 +310,7 @@ impl Proven {
     /// ```
     #[must_use]
     pub fn table(&self, samples: u32) -> Table {
-        csv::table(self.body(), None, &self.0.outlines, samples)
+        csv::table(self.body(), None, self.outlines(), samples)
     }
 
     /// The cam as the formats see it, with a report and the template of the sheet.
@@ -395,16 +324,14 @@ impl Proven {
         template: &'a str,
     ) -> Result<Rendering<'a>, Error> {
         let drawn = self.outlined()?;
-        let (body, cut_files, dxf_version) = (self.0.cam.body(), &self.0.cut_files, self.0.version);
+        let body = self.0.cam.body();
         Ok(Rendering {
             body,
             other_cams: &[],
             drawn,
-            outlines: &self.0.outlines,
-            cut_files,
+            outlines: self.outlines(),
             fit: self.0.request.fit,
             cutter_radius: self.0.request.cutter_radius,
-            dxf_version,
             findings: &self.0.findings,
             report,
             samples,
@@ -414,4 +341,9 @@ impl Proven {
             created: None,
         })
     }
+}
+
+/// The bytes of files.
+fn bytes_of(files: &[ProvedFile]) -> Vec<Vec<u8>> {
+    files.iter().map(|file| file.bytes().to_vec()).collect()
 }

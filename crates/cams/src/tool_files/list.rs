@@ -1,12 +1,13 @@
 //! The list of all formats: of files that machines run, and of views.
 
+use super::dxf::{self, CutFormat};
 use super::gauge::GaugeFile;
 use super::gcode::ProgramFile;
 use super::inspection::InspectionFile;
 use super::points::PointFile;
 use super::servo::ServoFile;
 use super::table::TableFile;
-use super::tool_file::{ToolFile, ToolFormat};
+use super::tool_file::ToolFile;
 use crate::body::{Body, FormatNames};
 use crate::write::{self, AnalysisFormat, FormatSelection, View};
 
@@ -15,15 +16,17 @@ use crate::write::{self, AnalysisFormat, FormatSelection, View};
 pub enum Listed {
     /// A view, which has its own writer.
     View(&'static View),
-    /// A file that a machine runs, which is proved before it is written.
+    /// Files to cut from, which are proved by rolling the follower on them.
+    Cut(&'static CutFormat),
+    /// Another file that a machine runs, with a judge of its own.
     Tool(&'static dyn ToolFile),
 }
 
-use Listed::{Tool, View as Shown};
+use Listed::{Cut, Tool, View as Shown};
 
 /// Every kind of file, in the order in which files are listed.
 pub const LISTED: &[Listed] = &[
-    Shown(&write::dxf::FORMAT),
+    Cut(&dxf::OUTLINES),
     Shown(&write::svg::FORMAT),
     Shown(&write::step::FORMAT),
     Shown(&write::csv::FORMAT),
@@ -41,7 +44,7 @@ pub const LISTED: &[Listed] = &[
     Tool(&GaugeFile),
     Tool(&TableFile),
     Shown(&write::toml::FORMAT),
-    Shown(&write::dxf::CUTTER_PATH),
+    Cut(&dxf::CUTTER_PATHS),
     Shown(&write::csv::FURTHER),
 ];
 
@@ -49,7 +52,7 @@ pub const LISTED: &[Listed] = &[
 pub fn tool_files() -> impl Iterator<Item = &'static dyn ToolFile> {
     LISTED.iter().filter_map(|listed| match listed {
         Tool(file) => Some(*file),
-        Shown(_) => None,
+        Shown(_) | Cut(_) => None,
     })
 }
 
@@ -76,6 +79,7 @@ impl Format {
     pub fn unfit(&self, body: &dyn Body) -> Option<&'static str> {
         match self.source {
             Shown(view) => (view.unfit)(body),
+            Cut(cut) => (cut.unfit)(body),
             Tool(file) => file.unfit(body),
         }
     }
@@ -91,27 +95,30 @@ impl Format {
     pub fn of_analysis(&self) -> Option<AnalysisFormat> {
         match self.source {
             Shown(view) => view.of_analysis,
-            Tool(_) => None,
+            Cut(_) | Tool(_) => None,
         }
     }
 }
 
 /// Every format, in the order in which files are listed.
 pub fn formats() -> impl Iterator<Item = Format> {
-    LISTED.iter().flat_map(|&source| {
-        let (view, tool): (Option<&View>, &[ToolFormat]) = match source {
-            Shown(view) => (Some(view), &[]),
-            Tool(file) => (None, file.formats()),
-        };
-        let of_view = view.map(|view| Format { name: view.name, when: view.when, source });
-        of_view.into_iter().chain(tool.iter().map(move |format| Format { name: format.name, when: format.when, source }))
-    })
+    let mut all = Vec::new();
+    for &source in LISTED {
+        match source {
+            Shown(view) => all.push(Format { name: view.name, when: view.when, source }),
+            Cut(cut) => all.push(Format { name: cut.name, when: cut.when, source }),
+            Tool(file) => {
+                all.extend(file.formats().iter().map(|&name| Format { name, when: FormatSelection::Asked, source }))
+            }
+        }
+    }
+    all.into_iter()
 }
 
 /// Those of the named formats that a machine runs, for a request.
 #[must_use]
 pub fn requested(names: &[String]) -> FormatNames {
-    let run = tool_files().flat_map(ToolFile::formats).map(|format| format.name);
+    let run = tool_files().flat_map(ToolFile::formats).copied();
     run.filter(|name| names.iter().any(|asked| asked == name)).collect()
 }
 

@@ -6,6 +6,7 @@
 //!
 //! A new one is a folder here and a line in [`LISTED`].
 
+pub mod dxf;
 pub mod gauge;
 pub mod gcode;
 mod head;
@@ -20,4 +21,4 @@ mod tool_file;
 
 pub use list::{Format, LISTED, Listed, formats, formats_by_name, recognised, requested, tool_files};
 pub use proof::{PlannedFile, ProvedFile, ProvedToolFile, plan, prove};
-pub use tool_file::{DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, ToolFormat, WrittenFile};
+pub use tool_file::{DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, WrittenFile};

@@ -15,7 +15,7 @@ pub struct PlannedFile {
     plan: Arc<dyn Plan>,
 }
 
-/// A file as its judge has read it. There is no other way to one than [`prove`].
+/// A file as its judge has read it: only what is proved here and in `dxf` becomes one.
 #[derive(Debug, Clone)]
 pub struct ProvedFile {
     ending: String,
@@ -23,6 +23,11 @@ pub struct ProvedFile {
 }
 
 impl ProvedFile {
+    /// A file whose bytes were read back by the caller.
+    pub(super) fn read_back(ending: String, bytes: Vec<u8>) -> Self {
+        Self { ending, bytes }
+    }
+
     /// What is added to the stem of its name.
     #[must_use]
     pub fn ending(&self) -> &str {
@@ -52,9 +57,8 @@ pub fn plan(cam: &DrawnCam<'_>) -> Result<Vec<PlannedFile>, Refusal> {
     let order = &cam.body.machine().catalogue().checks;
     let mut files: Vec<&'static dyn ToolFile> = tool_files().collect();
     files.sort_by_key(|file| order.iter().position(|name| *name == file.check().name).unwrap_or(order.len()));
-    let planned = |file: &'static dyn ToolFile| {
-        Ok(file.plan(cam)?.map(|plan| PlannedFile { file, plan: Arc::from(plan) }))
-    };
+    let planned =
+        |file: &'static dyn ToolFile| Ok(file.plan(cam)?.map(|plan| PlannedFile { file, plan: Arc::from(plan) }));
     files.into_iter().filter_map(|file| planned(file).transpose()).collect()
 }
 
@@ -77,7 +81,7 @@ pub fn prove(
 /// The files of a format that were judged.
 fn proved(written: &[WrittenFile], format: &str) -> Result<Vec<ProvedFile>, Refusal> {
     let own = written.iter().filter(|written| written.format == format);
-    own.map(|written| Ok(ProvedFile { ending: written.ending.clone(), bytes: written.bytes.clone()? })).collect()
+    own.map(|written| Ok(ProvedFile::read_back(written.ending.clone(), written.bytes.clone()?))).collect()
 }
 
 impl ProvedToolFile {
@@ -135,7 +139,9 @@ impl ProvedToolFile {
         let again = plan.judge(evidence, cam.request, &written).finding;
         let verdict = |finding: Option<&Finding>| finding.map(|finding| finding.verdict);
         if verdict(again.as_ref()) != verdict(self.finding()) {
-            return Err(Refusal::new("the file under its warning is another than was proved").remedy("please report this"));
+            return Err(
+                Refusal::new("the file under its warning is another than was proved").remedy("please report this")
+            );
         }
         proved(&written, format)
     }

@@ -4,7 +4,7 @@ use crate::body::{Body, Drawn, Request};
 use crate::check::Check;
 use crate::report::{Finding, Section, Verdict};
 use crate::verify::Evidence;
-use crate::write::{FormatSelection, Rendering};
+use crate::write::Rendering;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::refusal::Refusal;
@@ -24,8 +24,9 @@ pub trait ToolFile: Debug + Sync {
     /// What a refusal calls one: "a table for a servo drive".
     fn described(&self) -> &'static str;
 
-    /// The formats that it is written in; none of a file that is only read.
-    fn formats(&self) -> &'static [ToolFormat];
+    /// The names of the formats that it is written in when they are requested; none of a file that is only read. They have no writer: their files
+    /// are those that were proved.
+    fn formats(&self) -> &'static [&'static str];
 
     /// Why a cam has none, if it has none.
     fn unfit(&self, _body: &dyn Body) -> Option<&'static str> {
@@ -90,23 +91,6 @@ pub trait Plan: Debug + Send + Sync {
     /// [`Refusal`] when one cannot be drawn.
     fn sheets(&self, _cam: &Rendering<'_>) -> Result<Vec<Vec<u8>>, Refusal> {
         Ok(Vec::new())
-    }
-}
-
-/// A format of a file that a machine runs. It has no writer of its own: its files are those that were proved.
-#[derive(Debug, Clone, Copy)]
-pub struct ToolFormat {
-    /// Its name on the command line.
-    pub name: &'static str,
-    /// When it is written.
-    pub when: FormatSelection,
-}
-
-impl ToolFormat {
-    /// A format that is written when it is requested.
-    #[must_use]
-    pub const fn asked(name: &'static str) -> Self {
-        Self { name, when: FormatSelection::Asked }
     }
 }
 

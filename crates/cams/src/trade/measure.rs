@@ -1,12 +1,13 @@
 //! Every setting made in rounds: the time of each stage, and the errors of what is made.
 
 use crate::body::Points;
-use crate::tool_files::points;
 use crate::body::{RateTolerance, Request};
 use crate::pipeline::Cam;
 use crate::report::{Rolled, failed, shown};
+use crate::tool_files::dxf::{self, proof};
+use crate::tool_files::points;
 use crate::verify::{WrittenOutline, rolling};
-use crate::write::{self, Rendering, View, csv, dxf, proof, step, svg};
+use crate::write::{Rendering, View, csv, step, svg};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::geometry::points::{Interpolant, PointCoordinates, PointInterpolation, PointStep};
@@ -489,7 +490,7 @@ fn rolled(row: TradeRow, law: &TradeLaw, rolled: Option<&Rolled>) -> TradeRow {
 
 /// Largest roller force times velocity error over the rows of the table, N·m; `None` of a plate, which turns nothing.
 fn torque_error(law: &TradeLaw, outlines: &[WrittenOutline]) -> Option<f64> {
-    let table = write::csv::table(law.cam.body(), None, outlines, SAMPLES);
+    let table = csv::table(law.cam.body(), None, outlines, SAMPLES);
     let column = |name: &str| table.columns.iter().position(|column| *column == name);
     let [force, motion, cut] = ["roller_force_n", "velocity_mm_per_rad", "velocity_cut_mm_per_rad"].map(column);
     let (force, motion, cut) = (force?, motion?, cut?);

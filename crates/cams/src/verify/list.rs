@@ -2,8 +2,8 @@
 
 use super::check::CheckEntry::{self, Figure, File};
 use super::{
-    balance, bore, cutter_path, felt, file, flank, groove_width, lead_in, outline,
-    plate_ends, rolling, solid, sphere, swept, tangency,
+    balance, bore, cutter_path, felt, file, flank, groove_width, lead_in, outline, plate_ends, rolling, solid, sphere,
+    swept, tangency,
 };
 use crate::body::barrel::measures as barrel;
 use crate::body::closure;

@@ -26,9 +26,7 @@ mod tangency;
 mod walls;
 
 pub(crate) use check::place;
-pub use check::{
-    CheckEntry, Evidence, FileCheck, WrittenOutline, WrittenPath, WrittenSolid,
-};
+pub use check::{CheckEntry, Evidence, FileCheck, WrittenOutline, WrittenPath, WrittenSolid};
 pub(crate) use cutter_path::{left_behind, moved_inwards};
 pub use file::join_reach;
 pub(crate) use lead_in::is_lead_in;

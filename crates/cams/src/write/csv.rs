@@ -2,7 +2,7 @@
 //! A cell without a value is `NaN`.
 
 use super::number::shortest;
-use super::{AnalysisFormat, View, FormatSelection, fits_all};
+use super::{AnalysisFormat, FormatSelection, View, fits_all};
 use crate::body::{Body, torque};
 use crate::table::{self, Row, Table};
 use crate::verify::WrittenOutline;

@@ -1,6 +1,6 @@
 //! The motion diagram as SVG: a sheet of its own.
 
-use super::{View, FormatSelection, Rendering, svg};
+use super::{FormatSelection, Rendering, View, svg};
 use crate::body::Body;
 use crate::body::motion_diagram::motion_diagram;
 use crate::report::motion_diagram;

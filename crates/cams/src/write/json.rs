@@ -1,6 +1,6 @@
 //! The report as JSON.
 
-use super::{AnalysisFormat, View, FormatSelection, fits_all};
+use super::{AnalysisFormat, FormatSelection, View, fits_all};
 use camgen_kernel::refusal::Refusal;
 use serde::Serialize;
 

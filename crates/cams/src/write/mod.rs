@@ -5,7 +5,6 @@
 pub mod csv;
 pub mod diagram;
 mod directory;
-pub mod dxf;
 mod error;
 pub mod files;
 mod finite;
@@ -21,10 +20,7 @@ mod part;
 mod path_data;
 #[cfg(feature = "pdf")]
 pub mod pdf;
-pub mod proof;
 pub mod record;
-#[cfg(feature = "second-reader")]
-mod second_reader;
 pub mod step;
 pub mod step_assembly;
 pub mod stl;
@@ -51,14 +47,10 @@ pub struct Rendering<'a> {
     pub drawn: &'a Drawn,
     /// Its outlines as read back.
     pub outlines: &'a [WrittenOutline],
-    /// The cut files, written and proved, one for each part of the drawing.
-    pub cut_files: &'a [Vec<u8>],
     /// The tolerance of the outlines, and on which side of the exact curves they lie.
     pub fit: Fit,
     /// Radius of the cutter whose path was drawn, m.
     pub cutter_radius: Option<f64>,
-    /// Version of the cut files.
-    pub dxf_version: dxf::Version,
     /// The findings of every check.
     pub findings: &'a [Finding],
     /// Its report, the names of the files in it.

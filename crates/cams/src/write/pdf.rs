@@ -1,6 +1,6 @@
 //! The review sheet as PDF: the SVG of the sheet on a page of its size, with the font in the file.
 
-use super::{AnalysisFormat, View, FormatSelection, Rendering, diagram, fits_all, svg};
+use super::{AnalysisFormat, FormatSelection, Rendering, View, diagram, fits_all, svg};
 use crate::report::sheet::Sheet;
 use crate::report::sheet::font::FONT;
 use camgen_kernel::refusal::Refusal;

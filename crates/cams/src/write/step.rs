@@ -4,7 +4,7 @@
 //! are of a kind that CAD systems accept only with a message, and its reals have ten digits: camgen writes these itself.
 
 use super::number::shortest;
-use super::{View, FormatSelection, Rendering};
+use super::{FormatSelection, Rendering, View};
 use camgen_kernel::geometry::solid::{
     CheckedSolid, EdgeCurve, FaceSurface, SolidVertex, SplineCurve, SplineSurface, TruckBoundary, flank_solid,
     not_closed,

@@ -1,6 +1,6 @@
 //! The conoid as a binary STL file in millimetres, for a first print: triangles on the exact surface.
 
-use super::{View, FormatSelection};
+use super::{FormatSelection, View};
 use crate::body::Flank;
 use crate::body::mesh::Mesh;
 use camgen_kernel::geometry::MILLIMETRES;

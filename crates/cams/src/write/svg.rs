@@ -3,7 +3,7 @@
 
 use super::path_data::PathData;
 use super::template;
-use super::{AnalysisFormat, View, FormatSelection, Rendering, fits_all};
+use super::{AnalysisFormat, FormatSelection, Rendering, View, fits_all};
 use crate::body;
 use crate::machine::Catalogue;
 use crate::report::sheet::{ShapeGroup, Sheet, SheetExtras, SheetShape, TextAnchor, compose, font};

@@ -1,6 +1,6 @@
 //! What an analysis describes as a table of a machine file, to paste there.
 
-use super::{AnalysisFormat, View, FormatSelection};
+use super::{AnalysisFormat, FormatSelection, View};
 
 /// A table of a machine file.
 pub const FORMAT: View = View {

@@ -48,7 +48,7 @@ struct FollowedDisc<'a> {
 impl FollowedDisc<'_> {
     /// The tension at a cam angle: the spring's force there times the slope of the outline. `None` without contact.
     fn tension_at(&self, angle: f64) -> Option<RollTension> {
-        let jet = self.followed.at(angle)?;
+        let jet = self.followed.jet_at(angle)?;
         let holding = self.disc.holding();
         let pose = holding.stand_at(angle).ok()?;
         let of_law = Jet { s: jet.s + self.disc.origin().unwrap_or(0.0), ..jet };

@@ -8,16 +8,14 @@ mod write;
 pub use plan::{GaugeTable, table};
 pub use read::{GaugeRows, read};
 
-use super::tool_file::{
-    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, ToolFormat, WrittenFile,
-};
+use super::tool_file::{DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, WrittenFile};
 use crate::body::{Body, Request};
 use crate::check::Check;
 use crate::verify::Evidence;
 use camgen_kernel::refusal::Refusal;
 
 /// The table.
-pub const FORMAT: ToolFormat = ToolFormat::asked("gauge");
+pub const FORMAT: &str = "gauge";
 
 /// The lift table of a gauge follower.
 #[derive(Debug)]
@@ -40,7 +38,7 @@ impl ToolFile for GaugeFile {
         "the lift table of a gauge follower"
     }
 
-    fn formats(&self) -> &'static [ToolFormat] {
+    fn formats(&self) -> &'static [&'static str] {
         &[FORMAT]
     }
 
@@ -75,7 +73,7 @@ impl ToolFile for GaugeFile {
 impl Plan for GaugeTable {
     fn write(&self, cam: &DrawnCam<'_>, mark: &str) -> Vec<WrittenFile> {
         let bytes = Ok(write::write(cam.body, self, mark));
-        vec![WrittenFile { format: FORMAT.name, ending: "-gauge.csv".to_owned(), bytes }]
+        vec![WrittenFile { format: FORMAT, ending: "-gauge.csv".to_owned(), bytes }]
     }
 
     fn judge(&self, evidence: &Evidence<'_>, _request: &Request, files: &[WrittenFile]) -> JudgedFile {

@@ -9,9 +9,7 @@ pub use plan::four_axes;
 pub use plan::milling::{self, MillingProgram};
 pub use read::{CutterMove, CutterProgram, CutterSide, MoveKind, TurnedPass, read};
 
-use super::tool_file::{
-    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, ToolFormat, WrittenFile,
-};
+use super::tool_file::{DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, WrittenFile};
 use crate::body::{Body, Cut, Request};
 use crate::check::Check;
 use crate::machine::Controller;
@@ -25,7 +23,7 @@ use judge::WrittenProgram;
 use milling::{MillingError, TurnedPath, depth_of, widest_cutter};
 
 /// The programs: one for each part, with all of its flanks.
-pub const FORMAT: ToolFormat = ToolFormat::asked("gcode");
+pub const FORMAT: &str = "gcode";
 
 /// A program for a milling machine.
 #[derive(Debug)]
@@ -48,7 +46,7 @@ impl ToolFile for ProgramFile {
         "a program for a milling machine"
     }
 
-    fn formats(&self) -> &'static [ToolFormat] {
+    fn formats(&self) -> &'static [&'static str] {
         &[FORMAT]
     }
 
@@ -127,7 +125,7 @@ impl Plan for PlannedPrograms {
             Ok(programs) => programs,
             Err(why) => {
                 let bytes = Err(Refusal::new(why.clone()));
-                return vec![WrittenFile { format: FORMAT.name, ending: String::new(), bytes }];
+                return vec![WrittenFile { format: FORMAT, ending: String::new(), bytes }];
             }
         };
         let ending = programs.first().map_or(Controller::default(), |program| program.controller).ending();
@@ -139,7 +137,7 @@ impl Plan for PlannedPrograms {
         let mut written = Vec::with_capacity(programs.len());
         for (program, ending) in programs.iter().zip(endings) {
             let bytes = Ok(write::write(cam.body, program, &[mark.to_owned()]));
-            written.push(WrittenFile { format: FORMAT.name, ending, bytes });
+            written.push(WrittenFile { format: FORMAT, ending, bytes });
         }
         written
     }
@@ -152,9 +150,8 @@ impl Plan for PlannedPrograms {
         let (mut written, mut measures) = (Vec::new(), Vec::new());
         for (program, file) in programs.iter().zip(files) {
             let bytes = file.bytes.as_ref().map_err(ToString::to_string);
-            let read = bytes.and_then(|bytes| {
-                read::read_for(bytes, Some(program.controller)).map_err(|why| why.to_string())
-            });
+            let read =
+                bytes.and_then(|bytes| read::read_for(bytes, Some(program.controller)).map_err(|why| why.to_string()));
             measures.extend(read.as_ref().ok().map(|read| measured(program, read)));
             written.push(WrittenProgram {
                 cuts: program.cuts.clone(),

@@ -10,7 +10,7 @@ pub(super) use judge::angle_of_place;
 pub use read::{ReadPlace, read};
 
 use super::tool_file::{
-    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, ToolFormat, WrittenFile, best_of_cuts,
+    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, WrittenFile, best_of_cuts,
 };
 use crate::body::{Body, Request};
 use crate::check::Check;
@@ -21,7 +21,7 @@ use judge::WrittenInspection;
 use plan::InspectionList;
 
 /// The lists of every outline, and the sheet of each.
-pub const FORMAT: ToolFormat = ToolFormat::asked("inspect");
+pub const FORMAT: &str = "inspect";
 
 /// Lists of places for a measuring machine.
 #[derive(Debug)]
@@ -44,7 +44,7 @@ impl ToolFile for InspectionFile {
         "a list of places for a measuring machine"
     }
 
-    fn formats(&self) -> &'static [ToolFormat] {
+    fn formats(&self) -> &'static [&'static str] {
         &[FORMAT]
     }
 
@@ -88,7 +88,7 @@ impl Plan for PlannedLists {
             let mut endings = cam.drawn.map_or_else(Vec::new, |drawn| endings_of_outlines(drawn, ending)).into_iter();
             for bytes in lists.iter().filter_map(|files| files.get(form)) {
                 let ending = endings.next().unwrap_or_default();
-                written.push(WrittenFile { format: FORMAT.name, ending, bytes: Ok(bytes.clone()) });
+                written.push(WrittenFile { format: FORMAT, ending, bytes: Ok(bytes.clone()) });
             }
         }
         written

@@ -47,9 +47,8 @@ impl<'t> ForeignTable<'t> {
             return Ok(Some(finding));
         }
         let table = self.with_figures(evidence.body, written, finding.value);
-        let contradicted = table.and_then(|table| {
-            contradiction(evidence.body, &self.text, &table, self.rows.units, evidence.tolerance_mm)
-        });
+        let contradicted = table
+            .and_then(|table| contradiction(evidence.body, &self.text, &table, self.rows.units, evidence.tolerance_mm));
         Ok(Some(contradicted.map_or(finding, |why| no_table(evidence.tolerance_mm, why))))
     }
 

@@ -14,7 +14,7 @@ pub use write::write;
 
 use super::section::section;
 use super::tool_file::{
-    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, ToolFormat, WrittenFile, best_of_cuts,
+    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, WrittenFile, best_of_cuts,
 };
 use crate::body::Request;
 use crate::check::Check;
@@ -26,7 +26,7 @@ use camgen_kernel::refusal::Refusal;
 use foreign::ForeignTable;
 
 /// The table of every section.
-pub const FORMAT: ToolFormat = ToolFormat::asked("points");
+pub const FORMAT: &str = "points";
 
 /// A table of points.
 #[derive(Debug)]
@@ -49,7 +49,7 @@ impl ToolFile for PointFile {
         "a table of points"
     }
 
-    fn formats(&self) -> &'static [ToolFormat] {
+    fn formats(&self) -> &'static [&'static str] {
         &[FORMAT]
     }
 
@@ -94,9 +94,7 @@ impl Plan for PlannedTables {
     fn write(&self, cam: &DrawnCam<'_>, _mark: &str) -> Vec<WrittenFile> {
         let endings = cam.drawn.map_or_else(Vec::new, |drawn| endings_of_outlines(drawn, "-points.csv"));
         let named = self.0.iter().flatten().zip(endings);
-        named
-            .map(|(table, ending)| WrittenFile { format: FORMAT.name, ending, bytes: Ok(write(cam.body, table)) })
-            .collect()
+        named.map(|(table, ending)| WrittenFile { format: FORMAT, ending, bytes: Ok(write(cam.body, table)) }).collect()
     }
 
     fn judge(&self, evidence: &Evidence<'_>, request: &Request, files: &[WrittenFile]) -> JudgedFile {

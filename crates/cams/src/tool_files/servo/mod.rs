@@ -7,9 +7,7 @@ mod write;
 
 pub use read::{ServoRows, read};
 
-use super::tool_file::{
-    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, ToolFormat, WrittenFile,
-};
+use super::tool_file::{DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, WrittenFile};
 use crate::body::{Body, Request};
 use crate::check::Check;
 use crate::verify::Evidence;
@@ -19,7 +17,7 @@ use plan::ServoTable;
 use write::{CSV, FORMATS, ISG, TWINCAT, XYVA};
 
 /// The names of the formats.
-pub const NAMES: [&str; 4] = [CSV.name, XYVA.name, TWINCAT.name, ISG.name];
+pub const NAMES: [&str; 4] = [CSV, XYVA, TWINCAT, ISG];
 
 /// Tables for a servo drive.
 #[derive(Debug)]
@@ -42,7 +40,7 @@ impl ToolFile for ServoFile {
         "a table for a servo drive"
     }
 
-    fn formats(&self) -> &'static [ToolFormat] {
+    fn formats(&self) -> &'static [&'static str] {
         &FORMATS
     }
 
@@ -59,7 +57,7 @@ impl ToolFile for ServoFile {
     }
 
     fn plan(&self, cam: &DrawnCam<'_>) -> Result<Option<Box<dyn Plan>>, Refusal> {
-        if !FORMATS.iter().any(|format| cam.request.formats.contains(format.name)) {
+        if !FORMATS.iter().any(|format| cam.request.formats.contains(format)) {
             return Ok(None);
         }
         let table = plan::table(cam.body, cam.request).map_err(|why| why.context("no table for a servo drive"))?;

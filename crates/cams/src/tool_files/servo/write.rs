@@ -1,6 +1,6 @@
 //! Tables for servo drives: a CSV file, a cam of CODESYS SoftMotion, and a motion function of TwinCAT. All have the same nodes.
 
-use super::super::tool_file::{ToolFormat, WrittenFile};
+use super::super::tool_file::WrittenFile;
 use super::plan::{ServoTable, advance};
 use crate::body::{Body, LoadAsCut};
 use crate::write::number::{plain, shortest};
@@ -14,16 +14,16 @@ const TEN_THOUSANDTHS: f64 = 1e4;
 const ISG_DECIMALS: usize = 6;
 
 /// Rows of master, slave, velocity and acceleration.
-pub(super) const CSV: ToolFormat = ToolFormat::asked("servo-csv");
+pub(super) const CSV: &str = "servo-csv";
 /// The declaration of an `MC_CAM_REF` of CODESYS SoftMotion with its `SMC_CAMXYVA` points.
-pub(super) const XYVA: ToolFormat = ToolFormat::asked("servo-xyva");
+pub(super) const XYVA: &str = "servo-xyva";
 /// The declaration of the `MC_MotionFunctionPoint` points of a cam of TwinCAT.
-pub(super) const TWINCAT: ToolFormat = ToolFormat::asked("servo-twincat");
+pub(super) const TWINCAT: &str = "servo-twincat";
 /// The table of a cam of the controls of ISG and of TwinCAT CNC, in their ASCII form.
-pub(super) const ISG: ToolFormat = ToolFormat::asked("servo-isg");
+pub(super) const ISG: &str = "servo-isg";
 
 /// All of them.
-pub(super) const FORMATS: [ToolFormat; 4] = [CSV, XYVA, TWINCAT, ISG];
+pub(super) const FORMATS: [&str; 4] = [CSV, XYVA, TWINCAT, ISG];
 
 /// A table in each of the formats, under a mark.
 pub(super) fn write(body: &dyn Body, table: &ServoTable, mark: &str) -> Vec<WrittenFile> {
@@ -33,8 +33,8 @@ pub(super) fn write(body: &dyn Body, table: &ServoTable, mark: &str) -> Vec<Writ
     let nodes: Vec<[f64; 4]> =
         table.nodes.iter().map(|[x, y, v, a]| [*x, units.of_mm(*y), units.of_mm(*v), units.of_mm(*a)]).collect();
     let scaled = ServoTable { nodes, ..table.clone() };
-    let file = |format: ToolFormat, ending: &str, text: String| WrittenFile {
-        format: format.name,
+    let file = |format: &'static str, ending: &str, text: String| WrittenFile {
+        format,
         ending: ending.to_owned(),
         bytes: Ok(text.into_bytes()),
     };
@@ -46,7 +46,7 @@ pub(super) fn write(body: &dyn Body, table: &ServoTable, mark: &str) -> Vec<Writ
         file(CSV, "-servo.csv", csv(&scaled, units, &head)),
         file(XYVA, "-xyva.st", xyva(body, &scaled, &head)),
         file(TWINCAT, "-twincat.st", twincat(body, &scaled, &head)),
-        WrittenFile { format: ISG.name, ending: "-isg.txt".to_owned(), bytes: equal_parts },
+        WrittenFile { format: ISG, ending: "-isg.txt".to_owned(), bytes: equal_parts },
     ]
 }
 

@@ -5,7 +5,7 @@ mod read;
 
 pub use read::{NumberTable, read};
 
-use super::tool_file::{ExpectedFile, FileError, JudgedFile, SolvedCam, ToolFile, ToolFormat};
+use super::tool_file::{ExpectedFile, FileError, JudgedFile, SolvedCam, ToolFile};
 use crate::check::Check;
 use camgen_kernel::refusal::Refusal;
 
@@ -30,7 +30,7 @@ impl ToolFile for TableFile {
         "a table"
     }
 
-    fn formats(&self) -> &'static [ToolFormat] {
+    fn formats(&self) -> &'static [&'static str] {
         &[]
     }
 

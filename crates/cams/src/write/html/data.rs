@@ -57,8 +57,7 @@ pub(super) fn of(cam: &Rendering<'_>) -> Value {
     let steps = cam.samples.clamp(1, STEPS).min((ROWS / sections).max(FEWEST));
     let mechanism = body.mechanism(&drawn, steps);
     let table = csv::table(body, cam.other_cams.first().map(|(body, _)| *body), cam.outlines, steps);
-    let roller =
-        crate::body::radius_of_roller(body).map(|radius| radius * camgen_kernel::geometry::MILLIMETRES);
+    let roller = crate::body::radius_of_roller(body).map(|radius| radius * camgen_kernel::geometry::MILLIMETRES);
     let mut page = report_page(report);
     page["pictureNotes"] = json!(mechanism.notes);
     page["views"] =

@@ -10,7 +10,7 @@ pub mod live;
 mod panels;
 mod units;
 
-use super::{AnalysisFormat, View, FormatSelection, Rendering, fits_all};
+use super::{AnalysisFormat, FormatSelection, Rendering, View, fits_all};
 use crate::report::{Finding, Report};
 use camgen_kernel::refusal::Refusal;
 use serde_json::{Value, json};

@@ -1,10 +1,10 @@
 //! Whether a program cuts with what its design says: the tool and the radius that the control takes, the spindle, the feeds, and how exactly the control keeps to
 //! its path.
 
+use super::super::read::{CutterProgram, CuttingState, Spindle, ToolLength, TurnedPass};
 use super::program::{ProgramFault, WrittenProgram};
 use super::safe_start::early_move;
 use crate::machine::{Controller, CuttingData};
-use super::super::read::{CutterProgram, CuttingState, Spindle, ToolLength, TurnedPass};
 use crate::report::shown;
 use crate::verify::Evidence;
 use camgen_kernel::geometry::MILLIMETRES;

@@ -4,13 +4,13 @@
 //! part: what the cutter leaves along it is followed along the exact profile, as for the path of a cutter (`cutter_path`). Each flank must be
 //! cut to the full depth, lead-ins and lead-outs must keep clear of the metal, and no rapid move may go below the upper face.
 
+use super::super::read::{CutterMove, CutterProgram, CutterSide, MoveKind};
 use super::cutting::{SAME_DEPTH, as_designed, leaves_its_path, not_too_deep_at_once};
 use super::program::{JudgedProgram, ProgramFault, WrittenProgram, remarks};
 use super::turned;
 use crate::body::{Cut, Layer, groove_width};
 use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::machine::MillingDirection;
-use super::super::read::{CutterMove, CutterProgram, CutterSide, MoveKind};
 use crate::report::{Bound, Finding, Verdict, shown};
 use crate::verify::{Evidence, left_behind, moved_inwards, place};
 use camgen_kernel::geometry::MILLIMETRES;

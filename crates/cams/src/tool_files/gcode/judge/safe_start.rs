@@ -1,7 +1,7 @@
 //! Checks that a program states all words before the moves that rely on them: a control keeps words of the previous program.
 
-use crate::machine::{Controller, CuttingData};
 use super::super::read::{CutterProgram, Unstated};
+use crate::machine::{Controller, CuttingData};
 use crate::report::shown;
 
 /// Lower than this, mm, Z of the machine is not at its top: programs for HEIDENHAIN retract to -1 mm.

@@ -4,13 +4,13 @@
 //! barrel the tool is compared at places between the rows, across the groove on its floor and on its outside; moves to a pass and away from it must stay between the
 //! flanks.
 
+use super::super::plan::four_axes::rounds;
+use super::super::read::{CutterProgram, StandingMove, TurnedPass};
 use super::cutting::{SAME_DEPTH, not_too_deep_at_once};
 use super::program::{JudgedProgram, ProgramFault, WrittenProgram, remarks};
-use super::super::plan::four_axes::rounds;
+use crate::body::swept::{FlankSide, TurnedCam};
 use crate::body::{Body, PointCurve};
-use crate::body::swept::{TurnedCam, TurnedFlank};
 use crate::machine::Rotation;
-use super::super::read::{CutterProgram, StandingMove, TurnedPass};
 use crate::report::shown;
 use crate::tool_files::points::traced;
 use crate::verify::Evidence;

@@ -5,7 +5,7 @@
 
 use super::milling::{MillingError, MillingProgram, TurnedPath, TurnedRound, depths, smoothing};
 use super::polar::{LEAST_SHARE, MOST_ROWS, without_time};
-use crate::body::swept::{TurnedCam, TurnedFlank};
+use crate::body::swept::{FlankSide, TurnedCam};
 use crate::body::{Body, Milling, Request};
 use crate::machine::{Controller, MillingDirection};
 use crate::report::shown;

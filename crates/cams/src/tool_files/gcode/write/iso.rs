@@ -1,7 +1,7 @@
 //! A program in words of a letter and a number, for LinuxCNC, FANUC and SINUMERIK.
 
-use super::{by_hand, feed};
 use super::super::plan::milling::{MillingPass, MillingProgram};
+use super::{by_hand, feed};
 use crate::machine::Controller;
 use crate::write::number::{plain, short};
 use camgen_kernel::geometry::MILLIMETRES;

@@ -1,8 +1,8 @@
 //! A program in the dialogue of HEIDENHAIN controls (Klartext): numbered blocks, centres in absolute coordinates.
 
+use super::super::plan::milling::{MillingPass, MillingProgram};
 use super::iso::SMOOTHING_DECIMALS;
 use super::{by_hand, feed};
-use super::super::plan::milling::{MillingPass, MillingProgram};
 use crate::write::number::{plain, short};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::blocks::Block;

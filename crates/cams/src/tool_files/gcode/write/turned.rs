@@ -1,8 +1,8 @@
 //! A program for a cam that is turned under its tool: C or A turns it, X and Y move the tool, each block with its own time (G93).
 
+use super::super::plan::milling::{TurnedPath, TurnedRound};
 use super::MINUTE;
 use super::iso::IsoText;
-use super::super::plan::milling::{TurnedPath, TurnedRound};
 use crate::write::number::{plain, short};
 use camgen_kernel::geometry::MILLIMETRES;
 

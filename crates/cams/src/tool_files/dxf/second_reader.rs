@@ -97,8 +97,8 @@ fn same_run(run: &CurveRun, found: &EntityType) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::write::{Version, write};
     use super::*;
-    use crate::write::dxf::{Version, write};
     use camgen_kernel::geometry::contour::Bend;
 
     /// A chain of the dxf crate is the one that was drawn when it has every vertex, no other, and is closed.

@@ -3,9 +3,9 @@
 //! `reading` reads it, and its outline is proved. With the feature `second-reader` the dxf crate, which shares no code with `reading`, reads
 //! it as well and must find exactly the entities that were drawn.
 
-use super::dxf::{self, DxfForm, Version};
 #[cfg(feature = "second-reader")]
 use super::second_reader;
+use super::write::{self as dxf, DxfForm, Version};
 use crate::body::{Layer, Part};
 use crate::reading::{self, Chain, Reading};
 use camgen_kernel::geometry::Entity;

@@ -8,65 +8,15 @@ mod objects;
 mod tables;
 mod tags;
 
-use super::{View, FormatSelection, fits_all, endings_of_outlines, endings_of_parts};
 use crate::body::Layer;
-use crate::report::{shown, warning};
+use camgen_kernel::geometry::Entity;
 use camgen_kernel::geometry::contour::{Contour, Extents};
 use camgen_kernel::geometry::cubics::{CurveRun, runs};
-use camgen_kernel::geometry::{Entity, MILLIMETRES};
-use camgen_kernel::profile::outline::{Outline, OutlineError};
+use camgen_kernel::profile::outline::Outline;
 use camgen_kernel::units::LengthUnit;
 use nalgebra::Vector2;
 use std::borrow::Cow;
 use tags::{DxfTags, handle};
-
-/// The cut files, as they were proved: one for each section; the files of a cam that breaks a limit say so in their first line.
-pub const FORMAT: View = View {
-    name: "dxf",
-    when: FormatSelection::Usual,
-    flank: false,
-    unfit: |body| {
-        let hollow = body.swept().is_some_and(|flanks| flanks.developed().is_empty());
-        hollow.then_some("the outside of this cam cannot be developed; its STEP file has the solid")
-    },
-    endings: |drawn| {
-        let developed =
-            drawn.swept.iter().filter(|swept| !swept.developed.is_empty()).map(|_| "-unrolled.dxf".to_owned());
-        endings_of_parts(drawn, ".dxf").into_iter().chain(developed).collect()
-    },
-    write: |cam| {
-        let warning = warning(cam.findings).unwrap_or_default();
-        Ok(cam.cut_files.iter().map(|file| marked(file.clone(), &warning)).collect())
-    },
-    of_analysis: None,
-};
-
-/// The path of a cutter's centre.
-pub const CUTTER_PATH: View = View {
-    name: "cutter path",
-    when: FormatSelection::Drawn,
-    flank: false,
-    unfit: fits_all,
-    endings: |drawn| match drawn.cutter_paths().count() {
-        0 => Vec::new(),
-        1 => vec!["-cutter.dxf".into()],
-        _ => endings_of_outlines(drawn, "-cutter.dxf"),
-    },
-    write: |cam| {
-        let path = |outline: &Result<Outline, OutlineError>| match outline {
-            Ok(outline) => {
-                let units = cam.body.machine().units();
-                let diameter = cam.cutter_radius.map_or(f64::NAN, |radius| units.of_mm(2.0 * MILLIMETRES * radius));
-                let (mark, unit) = (cam.report.mark(), units.symbol());
-                let comment = format!("{mark}; path of the centre of a cutter of diameter {} {unit}", shown(diameter));
-                Ok(marked(cutter_path(outline, DxfForm { version: cam.dxf_version, units }), &comment))
-            }
-            Err(error) => Err(error.clone().into()),
-        };
-        cam.drawn.cutter_paths().map(path).collect()
-    },
-    of_analysis: None,
-};
 
 /// The file of a cutter's path.
 #[must_use]
