@@ -166,7 +166,7 @@
 #![forbid(unsafe_code)]
 
 #[doc(inline)]
-pub use camgen_kernel::{document, follower, geometry, motion, numeric, profile, refusal, units};
+pub use camgen_kernel::{document, follower, geometry, motion, numeric, profile, refusal, text, units};
 
 #[cfg(feature = "html")]
 #[doc(inline)]

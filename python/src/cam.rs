@@ -66,7 +66,7 @@ pub(crate) fn findings<'py>(py: Python<'py>, found: &[Finding]) -> PyResult<Boun
         arguments.set_item("x_mm", found.place.x_mm)?;
         arguments.set_item("verdict", found.verdict.word().to_lowercase())?;
         arguments.set_item("about", found.about)?;
-        arguments.set_item("note", found.note.as_deref())?;
+        arguments.set_item("note", found.note.as_ref().map(ToString::to_string))?;
         class.call((), Some(&arguments))
     };
     let all = found.iter().map(one).collect::<PyResult<Vec<_>>>()?;

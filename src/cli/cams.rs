@@ -351,11 +351,13 @@ fn cut(
 
 /// The checks that another disc fails: the report is that of the first.
 fn failures_of_others(proven: &ProvenAssembly) {
+    let units = proven.first().body().machine().units();
     for (name, failed) in proven.failures_of_others() {
         for finding in failed {
-            let limit = finding.limit_words().map_or_else(String::new, |limit| format!(", {limit}"));
-            let note = finding.note.as_ref().map_or_else(String::new, |note| format!("; {note}"));
-            let (check, value, place) = (&finding.check, finding.value_words(), finding.place);
+            let limit = finding.limit_words(units).map_or_else(String::new, |limit| format!(", {limit}"));
+            let note = finding.note.as_ref().map_or_else(String::new, |note| format!("; {}", note.in_unit(units)));
+            let (check, value) = (&finding.check, finding.shown_value(units));
+            let place = finding.place.text().in_unit(units);
             print_message(&format!("the {name} disc fails {check}: {value}{limit}, at {place}{note}"));
         }
     }

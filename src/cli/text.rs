@@ -4,7 +4,7 @@
 mod glossary;
 
 use camgen::document::plain;
-use camgen::report::{Finding, Place, Report, Section, Verdict};
+use camgen::report::{Finding, Place, Report, ReportLine, Section, Verdict};
 use camgen::units::LengthUnit;
 use std::io::IsTerminal;
 
@@ -50,23 +50,22 @@ pub(super) fn check_report(file: &str, report: &Report, page: Page) -> String {
 }
 
 fn written(first: &str, report: &Report, page: Page) -> String {
-    let report = &*report.for_people();
     let mut lines = vec![plain(first).into_owned()];
-    lines.extend(report.sections.iter().flat_map(|of| section(of, page)).map(|line| plain(&line).into_owned()));
+    lines.extend(
+        report.sections.iter().flat_map(|of| section(of, report.units, page)).map(|line| plain(&line).into_owned()),
+    );
     if !report.checks.is_empty() {
         lines.push("  checks".into());
     }
     lines.extend(checks(&report.checks, report.units, page));
-    let entries = |entries: &[String]| -> Vec<String> {
-        entries.iter().map(|entry| wrapped(&format!("    {}", plain(entry)), 6, page)).collect()
-    };
     let terms = glossary::of(&lines.join("\n"));
+    let notes: Vec<String> = report.notes.iter().map(|note| note.in_unit(report.units)).collect();
     let lists =
-        [("notes", &report.notes), ("files", &report.files), ("terms", &terms), ("not modelled", &report.not_modelled)];
-    for (name, list) in lists {
-        if !list.is_empty() {
+        [("notes", &notes), ("files", &report.files), ("terms", &terms), ("not modelled", &report.not_modelled)];
+    for (name, entries) in lists {
+        if !entries.is_empty() {
             lines.push(format!("  {name}"));
-            lines.extend(entries(list));
+            lines.extend(entries.iter().map(|entry| wrapped(&format!("    {}", plain(entry)), 6, page)));
         }
     }
     lines.push(format!("  inputs   {}, camgen {}", report.inputs.hash, report.inputs.camgen));
@@ -75,22 +74,23 @@ fn written(first: &str, report: &Report, page: Page) -> String {
 }
 
 /// The lines of a section, the first with its name.
-fn section(section: &Section, page: Page) -> Vec<String> {
+fn section(section: &Section, units: LengthUnit, page: Page) -> Vec<String> {
     // A long name gets a line of its own.
     let alone = section.key.chars().count() > LABEL;
     let label = |index: usize| if index == 0 && !alone { &*section.key } else { "" };
-    let line = |(index, words)| wrapped(&format!("  {:<LABEL$} {words}", label(index)), LABEL + 3, page);
+    let line = |(index, words): (usize, &ReportLine)| {
+        wrapped(&format!("  {:<LABEL$} {}", label(index), words.text.in_unit(units)), LABEL + 3, page)
+    };
     let head = (alone && !section.words.is_empty()).then(|| format!("  {}", section.key));
     head.into_iter().chain(section.words.iter().enumerate().map(line)).collect()
 }
 
 /// The cells of a check: its name, the value without and the unit with its sign, the limit, the place.
 fn cells(finding: &Finding, units: LengthUnit) -> [String; 5] {
-    let value = finding.value_words();
-    let (number, unit) = value.split_once(' ').unwrap_or((&value, ""));
-    let place = if finding.place == Place::default() { String::new() } else { finding.place.words(units) };
-    let limit = finding.limit_words().unwrap_or_default();
-    [finding.check.to_string(), number.to_owned(), unit.to_owned(), limit, place]
+    let value = finding.shown_value(units);
+    let place = if finding.place == Place::default() { String::new() } else { finding.place.text().in_unit(units) };
+    let limit = finding.limit_words(units).unwrap_or_default();
+    [finding.check.to_string(), value.number, value.unit.into_owned(), limit, place]
 }
 
 /// A line for each check, in columns, and one below where there is more to say.
@@ -104,7 +104,9 @@ fn checks(findings: &[Finding], units: LengthUnit, page: Page) -> Vec<String> {
         let [check, value, of, bound, place] = row;
         let line = format!("{check:<name$}  {value:>number$} {of:<unit$}  {bound:<limit$}  {place}");
         lines.push(format!("    {verdict}  {}", plain(line.trim_end())));
-        lines.extend(finding.note.iter().map(|note| wrapped(&format!("          {}", plain(note)), 10, page)));
+        lines.extend(
+            finding.note.iter().map(|note| wrapped(&format!("          {}", plain(&note.in_unit(units))), 10, page)),
+        );
     }
     lines
 }

@@ -42,7 +42,7 @@ fn checked(cam: &Cam, text: &str, cutter: Option<f64>) -> Result<(bool, f64, Str
     let expected = ExpectedFile { cutter, ..ExpectedFile::default() };
     let report = cam.check_file(text.as_bytes(), &expected, TOLERANCE)?;
     let found = report.checks.iter().find(|finding| finding.check == "program").expect("checked").clone();
-    Ok((found.verdict == Verdict::Pass, found.value, found.note.unwrap_or_default()))
+    Ok((found.verdict == Verdict::Pass, found.value, found.note_words()))
 }
 
 #[test]
@@ -948,7 +948,7 @@ fn a_compensated_cutter_goes_down_clear_of_the_cam() {
             let proven = drawing.prove().expect("proved");
             let found = proven.findings().iter().find(|finding| finding.check == "program").expect("checked").clone();
             if found.verdict != Verdict::Pass {
-                let why = found.note.unwrap_or_default();
+                let why = found.note_words();
                 assert!(why.contains("free for the cutter"), "{name} {radius}: {why}");
                 continue;
             }

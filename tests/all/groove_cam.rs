@@ -222,7 +222,7 @@ fn what_makes_no_groove_is_refused_with_the_reason() {
     let proven = sharp.draw(TOLERANCE).expect("a drawing without an outline").prove().expect("nothing to prove");
     assert!(proven.no_outline().is_some_and(|why| why.contains("folds over itself")), "{:?}", proven.no_outline());
     let of_outer = |found: &&camgen::Finding| {
-        let note = found.note.as_deref().unwrap_or_default();
+        let note = found.note_words();
         found.check == "undercut" && found.verdict == Verdict::Fail && note.contains("the outer flank")
     };
     assert_eq!(proven.findings().iter().filter(of_outer).count(), 1, "{:#?}", proven.findings());

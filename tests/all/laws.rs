@@ -64,7 +64,7 @@ fn laws_can_be_chosen() {
 fn every_column_is_explained() {
     for machine in [None, Some(machine("feeder"))] {
         let analysis = laws::analysis(machine.as_ref(), &LawsOptions::default()).expect("laws");
-        let words = &analysis.sections[0].words;
+        let words: Vec<String> = analysis.sections[0].words.iter().map(|line| line.text.to_string()).collect();
         let heads = words.iter().find(|line| line.starts_with("law ")).expect("headings");
         for head in heads.split_whitespace().skip(1) {
             let explained =

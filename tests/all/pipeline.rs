@@ -126,7 +126,7 @@ fn a_cam_without_outline_is_never_passed() {
     let proven = cam.draw(TOLERANCE).expect("a drawing").prove().expect("a proof");
     let why = proven.no_outline().expect("no outline").to_owned();
     assert!(!proven.passed());
-    assert!(proven.report().notes.iter().any(|note| note.contains(&why)), "{:?}", proven.report().notes);
+    assert!(proven.report().notes.iter().any(|note| note.to_string().contains(&why)), "{:?}", proven.report().notes);
     let forced = proven.files(&Writing { force: true, ..Writing::to("never", "wave") });
     assert!(matches!(forced, Err(Error::NoOutline(_))), "{forced:?}");
 }

@@ -516,7 +516,7 @@ fn the_check_tells_rates_and_the_place_of_the_worst() {
         let proven = cam.draw(request(points, None, 2e-5)).expect("drawn").prove().expect("proved");
         let found = proven.findings().iter().find(|finding| finding.check == "points").expect("checked").clone();
         let text = table(&proven);
-        let note = found.note.expect("a note");
+        let note = found.note_words();
         let velocity = note.split("the velocity off by ").nth(1).and_then(|rest| rest.split(' ').next()).expect(&note);
         let velocity: f64 = velocity.parse().expect("a number");
         assert!((velocity / number(&text, "velocity_error_mm_per_rad") - 1.0).abs() < 1e-3, "{note}");

@@ -33,9 +33,9 @@ fn failed(report: &Report) -> Vec<&str> {
     report.checks.iter().filter(|found| found.verdict == Verdict::Fail).map(|found| &*found.check).collect()
 }
 
-fn note<'r>(report: &'r Report, check: &str) -> &'r str {
+fn note(report: &Report, check: &str) -> String {
     let found = report.checks.iter().find(|found| found.check == check).unwrap_or_else(|| panic!("no {check}"));
-    found.note.as_deref().unwrap_or_default()
+    found.note_words()
 }
 
 fn causes(report: &Report) -> Vec<String> {

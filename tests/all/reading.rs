@@ -87,7 +87,7 @@ fn failed(report: &Report) -> Vec<String> {
 
 fn note(report: &Report, check: &str) -> String {
     let finding = report.checks.iter().find(|c| c.check == check).unwrap_or_else(|| panic!("no {check}"));
-    finding.note.clone().unwrap_or_default()
+    finding.note_words()
 }
 
 /// It fails in that check only, and the note says so in these words.

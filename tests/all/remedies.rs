@@ -174,7 +174,7 @@ impl Applied {
             Ok(found) => found
                 .iter()
                 .filter(|finding| finding.verdict == Verdict::Fail)
-                .map(|finding| (finding.check.as_ref(), finding.note.clone().unwrap_or_default()))
+                .map(|finding| (finding.check.as_ref(), finding.note_words()))
                 .collect(),
         };
         self.refusals += usize::from(!notes.is_empty());
@@ -246,9 +246,9 @@ fn no_radius_is_promised_where_none_passes() {
         let base = format!("cam.base_radius={base}");
         let found = findings(&owned(&["buffer.column=200mm", "transition.kind=none", &base])).expect("a cam");
         let failed = found.iter().find(|finding| finding.check == "undercut").expect("the check");
-        let note = failed.note.as_deref().expect("a note");
+        let note = failed.note_words();
         assert!(failed.verdict == Verdict::Fail && note.contains("no base radius would pass"), "{note}");
-        assert!(found.iter().all(|f| !f.note.as_deref().unwrap_or_default().contains("mm would pass")), "{found:?}");
+        assert!(found.iter().all(|f| !f.note_words().contains("mm would pass")), "{found:?}");
     }
 }
 
@@ -298,7 +298,7 @@ cutter_radius = "33.8 mm"
     let proven = drawing.prove().expect("proven");
     let found = proven.findings().iter().find(|finding| finding.check == "cutter_radius").expect("the check");
     assert!(found.verdict == Verdict::Fail && (found.value - 15.4108).abs() < 1e-9, "{found:?}");
-    let note = found.note.as_deref().expect("a note");
+    let note = found.note_words();
     assert!(note.contains("no base radius that would pass was found"), "{note}");
 }
 

@@ -170,7 +170,7 @@ fn a_changed_lead_in_fails() {
         let file = format!("{before}\nLINE\n{}\n", lines.join("\n"));
         let checks = cam.check(file.as_bytes(), 5e-6).expect("a DXF file").checks;
         let found = checks.into_iter().find(|found| found.check == "lead_in").expect("checked");
-        (found.verdict, found.note.unwrap_or_default())
+        (found.verdict, found.note_words())
     };
     let start = outline(text.as_bytes()).vertices[0].point;
     let (end, out) = ((start.x, start.y), start * 1.2);

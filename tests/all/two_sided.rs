@@ -169,7 +169,7 @@ fn a_slot_is_no_cam_although_a_roller_does_not_feel_it() {
     assert_eq!(finding.verdict, Verdict::Fail, "{finding:?}");
     // The bottom of the slot lies 175 mm below one side of the dwell, nearer to the other side of the cam.
     assert!((20.0..175.0).contains(&finding.value), "{finding:?}");
-    assert!(finding.note.as_deref().is_some_and(|note| note.contains("turns back")), "{finding:?}");
+    assert!(finding.note_words().contains("turns back"), "{finding:?}");
 }
 
 /// Whiskers, spurs, teeth and loops, out of the metal and into it.

@@ -1,5 +1,6 @@
 //! A refusal: what is wrong, where, and what would be right.
 
+use crate::text::Text;
 use std::fmt;
 
 /// Why something is refused: what is wrong, where, and what would be right. Errors that no caller tells apart are of this type.
@@ -17,7 +18,7 @@ pub struct Refusal {
     /// Where, such that "at" fits before it.
     pub place: Option<String>,
     /// What would be right.
-    pub remedy: Option<String>,
+    pub remedy: Option<Text>,
 }
 
 impl Refusal {
@@ -41,12 +42,8 @@ impl Refusal {
 
     /// With what would be right, after a remedy that it has already.
     #[must_use]
-    pub fn remedy(self, remedy: impl Into<String>) -> Self {
-        let remedy = match &self.remedy {
-            Some(own) => format!("{own}; {}", remedy.into()),
-            None => remedy.into(),
-        };
-        Self { remedy: Some(remedy), ..self }
+    pub fn remedy(self, remedy: impl Into<Text>) -> Self {
+        Self { remedy: Some(self.remedy.unwrap_or_default().and("; ", remedy)), ..self }
     }
 
     /// With what fails because of it, before what is wrong: "no table of points: a plate has no angle".

@@ -14,6 +14,7 @@ use camgen_kernel::follower::FollowerPlacement;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::numeric::parallel;
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::{Length, Text, text};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -265,9 +266,12 @@ fn sizes(disc: &Disc) -> Vec<SizeRow> {
     parallel::map(&bases, |base| row(disc.of_prime_radius(base + disc.curves().offset()).as_ref(), place, f64::NAN))
 }
 
-fn words(disc: &Disc, size: &Size, place: Option<FollowerPlacement>) -> Vec<String> {
-    let mut words =
-        vec![format!("base radius {} mm, prime radius {} mm", shown(size.base_radius_mm), shown(size.prime_radius_mm))];
+fn words(disc: &Disc, size: &Size, place: Option<FollowerPlacement>) -> Vec<Text> {
+    let mut words = vec![text!(
+        "base radius {}, prime radius {}",
+        Length::mm(size.base_radius_mm),
+        Length::mm(size.prime_radius_mm)
+    )];
     words.extend(disc.size_words(&size.figures));
     if let (Some(place), Some(least)) = (place, &size.least_by_pressure_angle) {
         let name = if matches!(place, FollowerPlacement::Offset { .. }) { "offset" } else { "pivot distance" };
@@ -276,9 +280,11 @@ fn words(disc: &Disc, size: &Size, place: Option<FollowerPlacement>) -> Vec<Stri
         let more = size.binding_there_deg.len().saturating_sub(MOST_ANGLES);
         at.extend((more > 0).then(|| format!("{more} more places")));
         let choice = least.offset_mm.or(least.pivot_distance_mm).unwrap_or(f64::NAN);
-        words.push(format!(
-            "by the pressure angle alone, over every {name}: prime radius {:.4} mm at {choice:.4} mm, limited at {}",
-            least.prime_radius_mm,
+        words.push(text!(
+            "by the pressure angle alone, over every {}: prime radius {} at {}, limited at {}",
+            name,
+            Length::mm(least.prime_radius_mm).decimals(4),
+            Length::mm(choice).decimals(4),
             at.join(" and ")
         ));
     }

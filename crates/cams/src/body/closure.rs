@@ -6,11 +6,12 @@
 use crate::body::torque::followed;
 use crate::body::{Body, curves};
 use crate::check::{Check, CheckExplanation, CheckScope, Measure};
-use crate::report::{Bound, shown};
+use crate::report::Bound;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::numeric::extremum;
 use camgen_kernel::profile::{Worst, extremes, lifts};
+use camgen_kernel::text::{Length, text};
 use serde::Serialize;
 
 /// The check.
@@ -112,10 +113,15 @@ impl Closure {
         let (value, at) =
             if pinches { (found.pinch_mm, found.pinch_at_deg) } else { (-found.play_mm, found.play_at_deg) };
         let word = |sum: f64| if sum > 0.0 { "pinched by" } else { "loose by" };
-        let [most, least] = [found.pinch_mm, found.play_mm].map(|sum| format!("{} {} mm", word(sum), shown(sum.abs())));
+        let [most, least] = [found.pinch_mm, found.play_mm].map(|sum| text!("{} {}", word(sum), Length::mm(sum.abs())));
         let worst = Worst { value, at: at.to_radians(), z: 0.0 };
-        let note =
-            format!("the follower is {most} at {:.3}°, {least} at {:.3}°", found.pinch_at_deg, found.play_at_deg);
+        let note = text!(
+            "the follower is {} at {}°, {} at {}°",
+            most,
+            format_args!("{:.3}", found.pinch_at_deg),
+            least,
+            format_args!("{:.3}", found.play_at_deg)
+        );
         CHECK.measure(value, Some(found.permitted_mm)).placed(main.place(worst.at)).noted(note)
     }
 }

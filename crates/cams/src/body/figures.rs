@@ -7,9 +7,10 @@ use crate::check::{
     Measures, Subject, continuity, curvature, cutter_radius, face_width, force_closure, noise, outlier, overshoot,
     pivot_clearance, pressure_angle, size, wall,
 };
-use crate::report::{Place, shown};
+use crate::report::Place;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::profile::{Curves, Worst, envelope};
+use camgen_kernel::text::{KeyChange, Length, Remedy, Text, text};
 
 /// Places that are named of those where motion is lost.
 const MOST_LOSSES: usize = 8;
@@ -59,7 +60,7 @@ pub trait Figures: Body {
     }
 
     /// Changes, each of which alone keeps that pressure below a limit (Pa) that it exceeds by `largest`.
-    fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<String>;
+    fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<Remedy>;
 
     /// Largest force that lifts the follower from the cam along its path, N; negative where it is pressed on everywhere.
     fn largest_lifting_force(&self) -> Worst;
@@ -78,7 +79,7 @@ pub trait Figures: Body {
     }
 
     /// A preload, as a key of the machine file, that keeps the follower on the cam at so many times the speed of the cam.
-    fn preload_that_holds(&self, _speed: f64) -> Option<String> {
+    fn preload_that_holds(&self, _speed: f64) -> Option<KeyChange> {
         None
     }
 
@@ -89,12 +90,12 @@ pub trait Figures: Body {
     }
 
     /// A change with which the motion keeps `limits.continuity`, tried before it is named.
-    fn smoother(&self) -> Option<String> {
+    fn smoother(&self) -> Option<Text> {
         None
     }
 
     /// A change of the size that keeps every limit on it, tested before it is reported; or why no such change exists.
-    fn remedy(&self) -> Option<String> {
+    fn remedy(&self) -> Option<Text> {
         None
     }
 
@@ -140,7 +141,7 @@ pub trait Figures: Body {
 
 /// Calls `measures` with the body as checks know it.
 pub fn with_subject<F: Figures>(body: &F, measures: impl FnOnce(&Subject<'_>)) {
-    let at = |worst: &Worst| -> (Place, Option<String>) { (body.place(worst.at), body.along_axis(worst.z)) };
+    let at = |worst: &Worst| -> (Place, Option<Text>) { (body.place(worst.at), body.along_axis(worst.z)) };
     let remedy = || body.remedy();
     measures(&Subject {
         machine: body.machine(),
@@ -152,9 +153,9 @@ pub fn with_subject<F: Figures>(body: &F, measures: impl FnOnce(&Subject<'_>)) {
 }
 
 /// What the follower loses of its motion where the profile is undercut, a sentence each: of many places those where it is most.
-pub(crate) fn lost_motion(curves: Curves<'_>, place: &dyn Fn(f64) -> Place) -> Vec<String> {
+pub(crate) fn lost_motion(curves: Curves<'_>, place: &dyn Fn(f64) -> Place) -> Vec<Text> {
     let mut losses = match envelope::losses(curves) {
-        Err(error) => return vec![format!("{error}, at {}", place(error.parameter))],
+        Err(error) => return vec![text!("{}, at {}", error.to_string(), place(error.parameter).text())],
         Ok(losses) => losses,
     };
     let more = losses.len().saturating_sub(MOST_LOSSES);
@@ -165,9 +166,9 @@ pub(crate) fn lost_motion(curves: Curves<'_>, place: &dyn Fn(f64) -> Place) -> V
     }
     let texts = losses.iter().map(|loss| {
         let [from, to, at] = [loss.from, loss.to, loss.lost_at].map(place);
-        let lost = MILLIMETRES * loss.lost;
-        format!("motion is lost from {from} to {to}, {} mm at {at}", shown(lost))
+        let lost = Length::mm(MILLIMETRES * loss.lost);
+        text!("motion is lost from {} to {}, {} at {}", from.text(), to.text(), lost, at.text())
     });
-    let others = (more > 0).then(|| format!("and at {more} other places, at none of them more"));
+    let others = (more > 0).then(|| text!("and at {} other places, at none of them more", more));
     texts.chain(others).collect()
 }

@@ -6,9 +6,10 @@
 
 use super::flight::Flight;
 use crate::check::{Check, CheckExplanation, CheckScope, Measure, Subject};
-use crate::report::{Bound, degrees, shown};
+use crate::report::{Bound, degrees};
 use camgen_kernel::numeric::root;
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::{Length, LengthKind, Text, text};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -128,11 +129,16 @@ impl SwitchFigures {
     }
 
     /// As a sentence.
-    pub(crate) fn words(&self) -> String {
-        let hit = self.impact_m_per_s.map_or(String::new(), |hit| format!(", hit with {} m/s", shown(hit)));
-        format!(
-            "to the {} flank at {:.3}°: spin of the roller from {:.3} to {:.3}{hit}",
-            self.to, self.cam_deg, self.spin_before, self.spin_after
+    pub(crate) fn words(&self) -> Text {
+        let hit = self.impact_m_per_s.map(|hit| text!(", hit with {}", Length::new(hit, &LengthKind::M_PER_S)));
+        text!(
+            "to the {} flank at {}{}",
+            self.to,
+            format_args!(
+                "{:.3}°: spin of the roller from {:.3} to {:.3}",
+                self.cam_deg, self.spin_before, self.spin_after
+            ),
+            hit
         )
     }
 }
@@ -145,10 +151,12 @@ pub(super) fn measure(found: Option<Vec<FlankSwitch>>, subject: &Subject<'_>) ->
     let worst = found.iter().max_by(|a, b| a.impact.unwrap_or(0.0).total_cmp(&b.impact.unwrap_or(0.0)));
     #[expect(clippy::cast_precision_loss, reason = "a few in a turn")]
     let measure = CHECK.measure(found.len() as f64, None);
-    let Some(worst) = worst else { return measure.noted("the roller runs on one flank".to_owned()) };
+    let Some(worst) = worst else { return measure.noted(Text::from("the roller runs on one flank")) };
     let jump = worst.spin[1] - worst.spin[0];
-    let hit =
-        worst.impact.map_or(String::new(), |velocity| format!("; it hits the other flank with {velocity:.4} m/s"));
-    let note = format!("there the spin of the roller jumps by {:.2} turns for a turn of the cam{hit}", jump.abs());
+    let hit = worst.impact.map(|velocity| {
+        text!("; it hits the other flank with {}", Length::new(velocity, &LengthKind::M_PER_S).decimals(4))
+    });
+    let turns = format!("{:.2}", jump.abs());
+    let note = text!("there the spin of the roller jumps by {} turns for a turn of the cam{}", turns, hit);
     measure.noted(note).at(subject, &Worst { value: jump, at: worst.at, z: 0.0 })
 }

@@ -3,6 +3,7 @@
 //!
 //! A new body is a folder here with `impl Body` and a line in [`BODIES`].
 
+use camgen_kernel::text::Text;
 pub mod balancing;
 pub mod barrel;
 pub mod closure;
@@ -432,7 +433,7 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     }
 
     /// Where a worst place lies along the axis, for a reader, where that is informative.
-    fn along_axis(&self, _z: f64) -> Option<String> {
+    fn along_axis(&self, _z: f64) -> Option<Text> {
         None
     }
 

@@ -9,6 +9,7 @@ use crate::machine::{BearingData, Machine};
 use crate::report::{Bound, Section, Verdict, degrees, shown};
 use camgen_kernel::numeric::quadrature;
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::text;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -171,9 +172,9 @@ impl RollerBearing<'_> {
         let kept = limit.is_none_or(|limit| life >= limit);
         let needed = limit.filter(|_| !kept).map(|limit| {
             let rating = self.bearing.dynamic_rating * libm::pow(limit / life, 1.0 / self.bearing.exponent);
-            format!("; a dynamic_rating of {} kN would keep it", shown((rating / 10.0).ceil() / 100.0))
+            text!("a dynamic_rating of {} kN would keep it", shown((rating / 10.0).ceil() / 100.0))
         });
-        let note = format!("equivalent load {} N{}", shown(duty.equivalent_load), needed.unwrap_or_default());
+        let note = text!("equivalent load {} N", shown(duty.equivalent_load)).and("; ", needed.unwrap_or_default());
         LIFE.measure(life, limit).noted(note)
     }
 }

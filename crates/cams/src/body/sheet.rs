@@ -14,6 +14,7 @@ use camgen_kernel::motion::Quantity;
 use camgen_kernel::profile::Curves;
 use camgen_kernel::profile::followed::FollowerOnChain;
 use camgen_kernel::profile::outline::Outline;
+use camgen_kernel::text::{Text, text};
 use camgen_kernel::units::LengthUnit;
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -152,13 +153,14 @@ fn zone_standard(units: LengthUnit) -> &'static str {
 
 /// A given zone of the profile as a note, for a body whose drawing has no place for the frame.
 #[must_use]
-pub fn tolerance_note(machine: &Machine) -> Vec<String> {
+pub fn tolerance_note(machine: &Machine) -> Vec<Text> {
     let units = machine.units();
     let width = machine.title.profile_tolerance.map(|width| units.zone(MILLIMETRES * width));
     width
         .map(|width| {
-            format!(
-                "all profiles within a zone of {width} {} about the drawn ones ({})",
+            text!(
+                "all profiles within a zone of {} {} about the drawn ones ({})",
+                width,
                 units.symbol(),
                 zone_standard(units)
             )
@@ -202,9 +204,14 @@ fn keyway_words(machine: &Machine, bore: f64, keyway: &Keyway) -> String {
 }
 
 /// The keyway in words, for a sheet that does not show the bore from its end.
-pub(crate) fn keyway_note(machine: &Machine) -> Option<String> {
+fn keyway_note(machine: &Machine) -> Option<Text> {
     let (bore, keyway) = (machine.cam.bore_radius?, machine.cam.keyway?);
-    Some(format!("{}.", keyway_words(machine, bore, &keyway).replacen('k', "K", 1)))
+    Some(text!("{}.", keyway_words(machine, bore, &keyway).replacen('k', "K", 1)))
+}
+
+/// The notes on profiles and keyway, of a body whose views do not show the keyway.
+pub(crate) fn notes(machine: &Machine) -> Vec<Text> {
+    tolerance_note(machine).into_iter().chain(keyway_note(machine)).collect()
 }
 
 /// Bore with its keyway, which are the datums, and balance holes, by their names.

@@ -6,6 +6,7 @@ use crate::machine::{CamData, Limits};
 use camgen_kernel::follower::{Element, Follower};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::profile::size::{BASE_STEP, SizeLimits};
+use camgen_kernel::text::{KeyChange, Remedy, Text, text};
 
 /// Smallest radius of curvature that an automatic size allows under a flat face, m: a sharper place is an edge.
 const LEAST_FACE_RADIUS: f64 = 1e-3;
@@ -84,8 +85,10 @@ pub fn no_radius(binding: Option<&'static str>, of_program: bool) -> String {
 
 /// The sentence of a remedy: a base radius (m) in millimetres, without the noise of the last digits.
 #[must_use]
-pub fn passing(base_radius: f64) -> String {
+pub fn passing(base_radius: f64) -> Text {
     const PER_METRE: f64 = 1e12;
     let picometres = (PER_METRE * base_radius - 1e-3).ceil();
-    format!("a base radius of {} mm would pass", picometres / (PER_METRE / MILLIMETRES))
+    let typed = format!("{} mm", picometres / (PER_METRE / MILLIMETRES));
+    let words = text!("a base radius of {}", typed.clone());
+    text!("{} would pass", Remedy::new([KeyChange::new("cam.base_radius", typed)]).named(words))
 }

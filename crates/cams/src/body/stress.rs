@@ -8,6 +8,7 @@ use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::numeric::root;
 use camgen_kernel::profile::extremes::{self, JumpRange};
 use camgen_kernel::profile::{Contact, Curves, Worst};
+use camgen_kernel::text::{KeyChange, Remedy};
 use std::f64::consts::PI;
 
 /// E* of a steel roller on a material, Pa: 1/E* = Σ (1 − ν²)/E.
@@ -117,7 +118,8 @@ pub(crate) fn exceeds_somewhere(
 /// Keys of the machine file that make the contact line long enough for a limit: the pressure is proportional to 1/√b. `None` if no accepted
 /// length is.
 #[must_use]
-pub fn length_for(machine: &Machine, largest: f64, limit: f64) -> Option<String> {
+pub fn length_for(machine: &Machine, largest: f64, limit: f64) -> Option<Remedy> {
+    let change = |key: &'static str, millimetres: f64| KeyChange::new(key, format!("{millimetres} mm"));
     let cam = &machine.cam;
     let over = largest / limit;
     let length = (MILLIMETRES * cam.contact_length()? * over * over).ceil();
@@ -125,15 +127,15 @@ pub fn length_for(machine: &Machine, largest: f64, limit: f64) -> Option<String>
         return None;
     }
     if cam.track.body != GROOVE {
-        return Some(format!("cam.thickness = \"{length} mm\""));
+        return Some(Remedy::new([change("cam.thickness", length)]));
     }
     let depth = MILLIMETRES * cam.track.groove_depth?;
-    let height = cam.track.barrel.roller_height.map(|_| format!("cam.roller_height = \"{length} mm\""));
-    let deeper = (length > depth || height.is_none()).then(|| format!("cam.groove_depth = \"{length} mm\""));
+    let height = cam.track.barrel.roller_height.map(|_| change("cam.roller_height", length));
+    let deeper = (length > depth || height.is_none()).then(|| change("cam.groove_depth", length));
     // As much metal behind the floor as now.
     let thickness = cam.thickness.map(|thickness| MILLIMETRES * thickness).filter(|thickness| length >= *thickness);
-    let thicker = thickness.map(|thickness| format!("cam.thickness = \"{} mm\"", (length + thickness - depth).ceil()));
-    Some(height.into_iter().chain(deeper).chain(thicker).collect::<Vec<_>>().join(" with "))
+    let thicker = thickness.map(|thickness| change("cam.thickness", (length + thickness - depth).ceil()));
+    Some(Remedy::new([height, deeper, thicker].into_iter().flatten()))
 }
 
 /// Pressure in the middle of the ellipse where a steel sphere of a radius (m) is pressed with a force (N) onto a surface of a

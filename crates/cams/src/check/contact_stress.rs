@@ -7,6 +7,7 @@ use crate::report::{Bound, Verdict, shown};
 use camgen_kernel::document::cams::GROOVE;
 use camgen_kernel::follower::Element;
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::{Remedy, Text, text};
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -42,7 +43,7 @@ pub enum ContactKind {
 pub fn measure(
     largest: Option<Worst>,
     contact: ContactKind,
-    remedies: impl FnOnce(f64, f64) -> Vec<String>,
+    remedies: impl FnOnce(f64, f64) -> Vec<Remedy>,
     subject: &Subject<'_>,
 ) -> Measure {
     let machine = subject.machine;
@@ -63,17 +64,19 @@ pub fn measure(
     };
     let allowed = largest_allowed(machine, contact).is_some_and(|allowed| worst.value <= allowed);
     let remedies = if kept { Vec::new() } else { remedies(worst.value, limit) };
-    let remedy = (!remedies.is_empty()).then(|| format!("{} would keep it", remedies.join(" or ")));
+    let remedy = (!remedies.is_empty())
+        .then(|| text!("{} would keep it", Text::joined(remedies.into_iter().map(Text::from), " or ")));
     let without_inertia = kept && subject.lacks_inertia();
-    let at_rest = without_inertia.then(|| WITHOUT_INERTIA.to_owned());
-    let notes: Vec<String> = customary_note.into_iter().chain(remedy).chain(at_rest).collect();
+    let at_rest = without_inertia.then(|| Text::from(WITHOUT_INERTIA));
+    let customary_note = customary_note.map(Text::from);
+    let notes = Text::joined(customary_note.into_iter().chain(remedy).chain(at_rest), "; ");
     let verdict = match (without_inertia, kept, allowed) {
         (true, ..) => Verdict::Info,
         (_, false, true) => Verdict::Warn,
         _ => Verdict::of(kept),
     };
     let measure = CHECK.measure(1e-6 * worst.value, Some(1e-6 * limit)).judged(verdict);
-    measure.noted((!notes.is_empty()).then(|| notes.join("; "))).at(subject, &worst)
+    measure.noted(notes).at(subject, &worst)
 }
 
 /// The largest pressure with which the check does not fail, Pa; `None` where neither a limit nor a material is given.

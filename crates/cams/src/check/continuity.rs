@@ -7,6 +7,7 @@ use camgen_kernel::motion::jump::{self, Jump};
 use camgen_kernel::motion::program::SegmentSummary;
 use camgen_kernel::motion::{Motion, Quantity};
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::Text;
 use std::f64::consts::TAU;
 
 /// The check.
@@ -44,7 +45,7 @@ pub struct RunMotion<'a> {
 #[must_use]
 pub fn measure(
     motions: &[RunMotion<'_>],
-    remedy: impl FnOnce() -> Option<String>,
+    remedy: impl FnOnce() -> Option<Text>,
     subject: &Subject<'_>,
 ) -> Option<Measure> {
     motions.first()?;
@@ -54,14 +55,14 @@ pub fn measure(
     let Some((jump, run)) = jumps.min_by(lowest) else { return Some(CHECK.measure(SMOOTH, Some(limit))) };
     let value = f64::from(jump.order) - 1.0;
     let change = if begins_in_a_table(run.motion, &jump) {
-        Some("ends = \"rest\" lets the table begin and end at rest".to_owned())
+        Some("ends = \"rest\" lets the table begin and end at rest".into())
     } else if value < limit {
         remedy()
     } else {
         None
     };
-    let note: Vec<String> = std::iter::once(words(&jump, run)).chain(change).collect();
-    let measure = CHECK.measure(value, Some(limit)).noted(note.join("; "));
+    let note = Text::from(words(&jump, run)).and("; ", change.unwrap_or_default());
+    let measure = CHECK.measure(value, Some(limit)).noted(note);
     Some(measure.at(subject, &Worst { value, at: jump.at, z: run.z }))
 }
 

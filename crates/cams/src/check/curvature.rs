@@ -4,6 +4,7 @@ use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
 use crate::report::Bound;
 use camgen_kernel::follower::Element;
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::Text;
 
 /// The check.
 pub const UNDERCUT: Check = Check {
@@ -42,17 +43,16 @@ const ROUNDING: f64 = 1e-9;
 /// Measure of the smallest convex radius of what the follower draws, m, over the radius of its roller, m; with the sentences that name the motion
 /// which is lost.
 #[must_use]
-pub fn undercut(least: &Worst, roller: f64, lost: impl FnOnce() -> Vec<String>, subject: &Subject<'_>) -> Measure {
+pub fn undercut(least: &Worst, roller: f64, lost: impl FnOnce() -> Vec<Text>, subject: &Subject<'_>) -> Measure {
     let left = least.value - roller;
     let edge = subject.curves.is_some_and(|curves| curves.element() == Element::Roller { radius: 0.0 });
     // A knife edge follows a corner of the profile without losing motion; whether one is wanted `continuity` says.
     if edge && left >= 0.0 {
-        let corner = (left == 0.0).then(|| "a corner, round which a knife edge loses no motion".to_owned());
+        let corner = (left == 0.0).then(|| Text::from("a corner, round which a knife edge loses no motion"));
         return UNDERCUT.measure(1e3 * left, Some(0.0)).kept(true).noted(corner).at(subject, least);
     }
     let kept = left > 0.0;
-    let words = || lost().into_iter().chain((subject.remedy)()).collect::<Vec<String>>().join("; ");
-    let note = (!kept).then(words).filter(|words| !words.is_empty());
+    let note = if kept { None } else { Some(Text::joined(lost().into_iter().chain((subject.remedy)()), "; ")) };
     UNDERCUT.measure(1e3 * left, Some(0.0)).kept(kept).noted(note).at(subject, least)
 }
 

@@ -1,8 +1,9 @@
 //! The largest tool that can cut the concave parts.
 
 use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
-use crate::report::{Bound, Verdict, shown};
+use crate::report::{Bound, Verdict};
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::{Length, Text, text};
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -29,13 +30,13 @@ pub fn measure(largest: Option<Worst>, half_width: Option<f64>, subject: &Subjec
     let within = |radius: f64| limit.is_none_or(|limit| limit <= radius * (1.0 + ROUNDING));
     let kept = within(radius);
     let remedy = || match half_width.filter(|half| !within(*half)) {
-        Some(half) => Some(format!("the groove is {} mm wide: no wider cutter fits into it", shown(2e3 * half))),
+        Some(half) => Some(text!("the groove is {} wide: no wider cutter fits into it", Length::mm(2e3 * half))),
         None => (subject.remedy)(),
     };
     let verdict = limit.map_or(Verdict::Info, |_| Verdict::of(kept));
     let measure = CHECK.measure(1e3 * radius, limit.map(|limit| 1e3 * limit)).judged(verdict);
     match largest {
         Some(largest) => measure.noted(if kept { None } else { remedy() }).at(subject, &largest),
-        None => measure.noted("nothing is concave".to_owned()),
+        None => measure.noted(Text::from("nothing is concave")),
     }
 }

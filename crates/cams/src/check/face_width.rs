@@ -4,6 +4,7 @@ use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
 use crate::report::{Bound, Verdict};
 use camgen_kernel::follower::{Carrier, FaceMiddle};
 use camgen_kernel::profile::{Worst, extremes};
+use camgen_kernel::text::{KeyChange, Length, text};
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -36,21 +37,27 @@ pub fn measure(subject: &Subject<'_>) -> Option<Measure> {
     };
     let kept = face.width.is_none_or(|width| needed <= width + ROUNDING);
     let verdict = face.width.map_or(Verdict::Info, |_| Verdict::of(kept));
-    let contacts = format!("contact from {:.3} to {:.3} mm from the {from}", 1e3 * least.value, 1e3 * most.value);
+    let contacts = text!(
+        "contact from {} to {} from the {}",
+        Length::mm(1e3 * least.value).decimals(3).bare(),
+        Length::mm(1e3 * most.value).decimals(3),
+        from
+    );
     let path = subject.machine.follower.path;
     let remedy = match (face.width, curves.follower.carrier()) {
-        (None, _) => Some(format!("{path}.width gives a limit")),
+        (None, _) => Some(text!("{}.width gives a limit", path)),
         (Some(_), _) if kept => None,
         // Contacts come nearer to the stem by e/cos δ.
         (Some(_), Carrier::Stem { offset, tilt }) => {
             let middle = offset + 0.5 * (least.value + most.value) * libm::cos(tilt);
             let narrowest = 1e3 * (most.value - least.value);
-            Some(format!("with {path}.offset = \"{:.3} mm\" it needs {narrowest:.3} mm", 1e3 * middle))
+            let change = KeyChange::new(format!("{path}.offset"), format!("{:.3} mm", 1e3 * middle));
+            Some(text!("with {} it needs {}", change.to_string(), Length::mm(narrowest).decimals(3)))
         }
         (Some(_), _) => Some("a face as wide as this, from the contact nearest to the pivot on, would pass".into()),
     };
     let worst = Worst { value: place.value, at: place.at, z: 0.0 };
-    let note = std::iter::once(contacts).chain(remedy).collect::<Vec<_>>().join("; ");
+    let note = contacts.and("; ", remedy.unwrap_or_default());
     let measure = CHECK.measure(1e3 * needed, face.width.map(|width| 1e3 * width)).judged(verdict).noted(note);
     Some(measure.at(subject, &worst))
 }

@@ -5,6 +5,7 @@ use crate::report::{Bound, Verdict};
 use camgen_kernel::follower::Element;
 use camgen_kernel::motion::Quantity;
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::{KeyChange, Remedy, Text, text};
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -29,22 +30,25 @@ pub(super) const WITHOUT_INERTIA: &str = "at rest: without motion.rpm or --rpm t
 /// Measure of the least force along the follower's path, N, `None` where no force is known; with the preload, as a key of the machine file, that
 /// holds the follower.
 #[must_use]
-pub fn measure(least: Option<Worst>, holding: impl FnOnce() -> Option<String>, subject: &Subject<'_>) -> Measure {
+pub fn measure(least: Option<Worst>, holding: impl FnOnce() -> Option<KeyChange>, subject: &Subject<'_>) -> Measure {
     let Some(least) = least else { return CHECK.unknown(&missing(subject)) };
     let (force, follower) = (least.value, &subject.machine.follower);
     let kept = force > 0.0;
     let own = || {
         let needed = (follower.preload.unwrap_or(0.0) - force).ceil() + 1.0;
-        format!("{}.preload = \"{needed} N\"", follower.path)
+        KeyChange::new(format!("{}.preload", follower.path), format!("{needed} N"))
     };
     let part = match subject.curves.map(|curves| curves.element()) {
         Some(Element::Face) => "face",
         Some(Element::Roller { radius: 0.0 }) => "edge",
         _ => "roller",
     };
-    let note = (!kept).then(|| format!("the {part} leaves the cam; {} would hold it", holding().unwrap_or_else(own)));
+    let note = (!kept).then(|| {
+        let remedy = Remedy::new([holding().unwrap_or_else(own)]);
+        text!("the {} leaves the cam; {} would hold it", part, remedy)
+    });
     let without_inertia = kept && subject.lacks_inertia();
-    let note = note.or_else(|| without_inertia.then(|| WITHOUT_INERTIA.into()));
+    let note = note.or_else(|| without_inertia.then(|| Text::from(WITHOUT_INERTIA)));
     let verdict = if without_inertia { Verdict::Info } else { Verdict::of(kept) };
     CHECK.measure(force, Some(0.0)).judged(verdict).noted(note).at(subject, &least)
 }

@@ -3,6 +3,7 @@
 use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
 use crate::report::{Bound, Verdict, shown};
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::{KeyChange, Remedy, text};
 use std::f64::consts::TAU;
 
 /// The check.
@@ -25,7 +26,7 @@ pub const CHECK: Check = Check {
 #[must_use]
 pub fn measure(
     jump: Result<Worst, String>,
-    holding: impl FnOnce(f64) -> Option<String>,
+    holding: impl FnOnce(f64) -> Option<KeyChange>,
     subject: &Subject<'_>,
 ) -> Measure {
     let jump = match jump {
@@ -38,11 +39,10 @@ pub fn measure(
     let kept = limit.is_none_or(|limit| rpm(jump.value) >= limit);
     let verdict = limit.map_or(Verdict::Info, |_| Verdict::of(kept));
     let note = match (subject.speed, kept) {
-        (_, false) => {
-            holding(margin).map(|key| format!("{key} would hold it at {} rpm", shown(limit.unwrap_or(f64::NAN))))
-        }
+        (_, false) => holding(margin)
+            .map(|change| text!("{} would hold it at {} rpm", Remedy::new([change]), shown(limit.unwrap_or(f64::NAN)))),
         (Some(speed), true) if jump.value.is_finite() => {
-            Some(format!("{} times the speed of the cam", shown(jump.value / speed)))
+            Some(text!("{} times the speed of the cam", shown(jump.value / speed)))
         }
         (Some(_), true) => Some("the follower does not leave the cam at any speed".into()),
         (None, true) => Some("without motion.rpm or --rpm there is no limit".into()),

@@ -5,6 +5,7 @@ use crate::machine::Machine;
 use crate::report::{Bound, Finding, Place, Rolled, Verdict};
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::profile::{Curves, Worst};
+use camgen_kernel::text::Text;
 
 /// A figure that a check judges.
 #[derive(Debug, Clone)]
@@ -18,7 +19,9 @@ pub struct Measure {
     /// Where it is.
     pub place: Place,
     /// A note on it, and a change that would keep the limit.
-    pub note: Option<String>,
+    pub note: Option<Text>,
+    /// Whether data are missing that the check needs.
+    pub is_unknown: bool,
     /// The verdict of a check that does not judge by its bound alone.
     pub verdict: Option<Verdict>,
 }
@@ -43,10 +46,10 @@ impl Measure {
         self.judged(Verdict::of(kept))
     }
 
-    /// With a note.
+    /// With a note, where there is one.
     #[must_use]
-    pub fn noted(self, note: impl Into<Option<String>>) -> Self {
-        Self { note: note.into(), ..self }
+    pub fn noted(self, note: impl Into<Text>) -> Self {
+        Self { note: Some(note.into()).filter(|note| !note.is_empty()), ..self }
     }
 
     /// At a place.
@@ -59,8 +62,8 @@ impl Measure {
     #[must_use]
     pub fn at(self, subject: &Subject<'_>, worst: &Worst) -> Self {
         let (place, along) = (subject.at)(worst);
-        let words: Vec<String> = along.into_iter().chain(self.note).collect();
-        Self { place, note: (!words.is_empty()).then(|| words.join("; ")), ..self }
+        let note = Text::joined(along.into_iter().chain(self.note), "; ");
+        Self { place, note: (!note.is_empty()).then_some(note), ..self }
     }
 
     /// The finding of its check.
@@ -76,7 +79,7 @@ impl Measure {
         };
         let by_bound = || self.limit.map_or(Verdict::Info, |limit| Verdict::of(kept(limit)));
         let found = self.check.found(value, self.limit, self.verdict.unwrap_or_else(by_bound));
-        Finding { place: self.place, note: self.note.clone(), ..found }
+        Finding { place: self.place, note: self.note.clone(), is_unknown: self.is_unknown, ..found }
     }
 }
 
@@ -89,9 +92,9 @@ pub struct Subject<'a> {
     /// Angular speed of its shaft, rad/s, where it is known.
     pub speed: Option<f64>,
     /// A worst place for a report, and words on where it lies along the axis.
-    pub at: &'a dyn Fn(&Worst) -> (Place, Option<String>),
+    pub at: &'a dyn Fn(&Worst) -> (Place, Option<Text>),
     /// A change of the size with which every limit is kept, tried before it is named; or the reason why there is no such change.
-    pub remedy: &'a dyn Fn() -> Option<String>,
+    pub remedy: &'a dyn Fn() -> Option<Text>,
 }
 
 impl Subject<'_> {

@@ -20,6 +20,8 @@ pub mod pressure_angle;
 pub mod size;
 pub mod wall;
 
+pub use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::text::{Length, Text, Value, shown, text};
 pub use measure::{AsWritten, Measure, Measures, Subject, Wall, Walls};
 
 use crate::report::{Bound, Finding, Place, Verdict};
@@ -69,6 +71,16 @@ pub struct Check {
     pub explained: CheckExplanation,
 }
 
+/// A position of a follower in a sentence: m, or rad of a swing.
+pub(crate) fn position(value: f64, swings: bool) -> Value {
+    if swings { format!("{} deg", shown(value.to_degrees())).into() } else { Length::mm(MILLIMETRES * value).into() }
+}
+
+/// The note of a check that could not be run because of missing data.
+fn not_run(why: &str) -> Text {
+    text!("not run: {}", why)
+}
+
 impl Check {
     /// A check of a measure of an analysis.
     #[must_use]
@@ -84,14 +96,14 @@ impl Check {
     /// A measure of it, judged by its bound where there is a limit, at no particular place.
     #[must_use]
     pub fn measure(&'static self, value: f64, limit: Option<f64>) -> Measure {
-        Measure { check: self, value, limit, place: Place::default(), note: None, verdict: None }
+        Measure { check: self, value, limit, place: Place::default(), note: None, verdict: None, is_unknown: false }
     }
 
     /// A measure that could not be taken because data are missing.
     #[must_use]
     pub fn unknown(&'static self, why: &str) -> Measure {
-        let note = Some(format!("not run: {why}"));
-        Measure { note, ..self.measure(f64::NAN, None).judged(Verdict::Info) }
+        let note = Some(not_run(why));
+        Measure { note, is_unknown: true, ..self.measure(f64::NAN, None).judged(Verdict::Info) }
     }
 
     /// A finding of this check at no particular place.
@@ -105,6 +117,7 @@ impl Check {
             unit: self.unit.into(),
             place: Place::default(),
             verdict,
+            is_unknown: false,
             about: Some(self.about),
             note: None,
         }
@@ -113,6 +126,6 @@ impl Check {
     /// A check that could not be run because data are missing.
     #[must_use]
     pub fn not_run(&self, why: &str) -> Finding {
-        Finding { note: Some(format!("not run: {why}")), ..self.found(f64::NAN, None, Verdict::Info) }
+        Finding { note: Some(not_run(why)), is_unknown: true, ..self.found(f64::NAN, None, Verdict::Info) }
     }
 }

@@ -1,10 +1,11 @@
 //! What the rounding and the scatter of rows do to the acceleration.
 
-use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
+use super::{Check, CheckExplanation, CheckScope, Measure, Subject, position};
 use crate::report::{Bound, Verdict, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::Quantity;
 use camgen_kernel::motion::program::rows::{RowFigures, RowNoise};
+use camgen_kernel::text::{Length, LengthKind, Text, Value, text};
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -42,21 +43,23 @@ pub fn measure(subject: &Subject<'_>) -> Option<Measure> {
 }
 
 /// What is seen in the rows, and what smoothing would change.
-fn note(rows: &RowFigures, noise: RowNoise, swings: bool) -> String {
+fn note(rows: &RowFigures, noise: RowNoise, swings: bool) -> Text {
     let (unit, size) = if swings { ("deg", 1.0_f64.to_degrees()) } else { ("mm", MILLIMETRES) };
     let of = rows.segment.map_or(String::new(), |index| format!(" of segment {}", index + 1));
     let (seen, smooth) = match noise.scatter {
         Some(scatter) => (
-            format!("scatter about a smooth curve with a standard deviation of {} {unit}", shown(size * scatter)),
+            text!("scatter about a smooth curve with a standard deviation of {}", position(scatter, swings)),
             format!("smooth = \"{} {unit}\"", rounded_up(size * noise.smooth)),
         ),
-        None => (format!("look rounded to {} {unit}", shown(size * rows.rounding)), "smooth = \"auto\"".to_owned()),
+        None => (text!("look rounded to {}", position(rows.rounding, swings)), "smooth = \"auto\"".to_owned()),
     };
-    format!(
-        "the rows{of} {seen}: {smooth} would change the largest acceleration from {} to {} {unit}/rad²",
-        shown(size * noise.largest),
-        shown(size * noise.smoothed)
-    )
+    let [from, to]: [Value; 2] = if swings {
+        [shown(size * noise.largest).into(), format!("{} deg/rad²", shown(size * noise.smoothed)).into()]
+    } else {
+        let acceleration = |value: f64| Length::new(size * value, &LengthKind::MM_PER_RAD2);
+        [acceleration(noise.largest).bare().into(), acceleration(noise.smoothed).into()]
+    };
+    text!("the rows{} {}: {} would change the largest acceleration from {} to {}", of, seen, smooth, from, to)
 }
 
 /// A number of two digits, not below it.

@@ -1,10 +1,11 @@
 //! Check for a row off the curve through its neighbours.
 
-use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
-use crate::report::{Bound, Place, shown};
+use super::{Check, CheckExplanation, CheckScope, Measure, Subject, position};
+use crate::report::{Bound, Place};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::program::rows::{RowFigures, RowOutlier};
 use camgen_kernel::motion::{Motion, Quantity};
+use camgen_kernel::text::{Text, text};
 
 /// The check.
 pub const CHECK: Check = of_unit("mm");
@@ -49,14 +50,16 @@ pub fn of_motion(motion: &dyn Motion) -> Option<Measure> {
     Some(check.measure(value, Some(limit)).noted(note).placed(place))
 }
 
-fn note(rows: &RowFigures, outlier: RowOutlier, swings: bool) -> String {
-    let (unit, size) = if swings { ("deg", 1.0_f64.to_degrees()) } else { ("mm", MILLIMETRES) };
+fn note(rows: &RowFigures, outlier: RowOutlier, swings: bool) -> Text {
     let segment = rows.segment.map_or(String::new(), |index| format!(" of segment {}", index + 1));
     let line = outlier.line.map_or(String::new(), |line| format!(" (line {line} of the file)"));
     let side = if outlier.off > 0.0 { "above" } else { "below" };
-    format!(
-        "row {}{segment}{line} is {} {unit} {side} the curve through its neighbours: correct it, or leave it out",
+    text!(
+        "row {}{}{} is {} {} the curve through its neighbours: correct it, or leave it out",
         outlier.row,
-        shown(size * outlier.off.abs())
+        segment,
+        line,
+        position(outlier.off.abs(), swings),
+        side
     )
 }

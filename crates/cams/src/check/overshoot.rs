@@ -1,12 +1,13 @@
 //! How far a curve through rows leaves them.
 
-use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
+use super::{Check, CheckExplanation, CheckScope, Measure, Subject, position};
 use crate::machine::OvershootLimit;
 use crate::report::{Bound, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::Quantity;
 use camgen_kernel::motion::program::rows::RowFigures;
 use camgen_kernel::profile::{Worst, lifts};
+use camgen_kernel::text::{Text, text};
 
 /// The check.
 pub const CHECK: Check = of_unit("mm");
@@ -39,8 +40,7 @@ const SHARE: f64 = 0.01;
 pub fn measure(tolerance_mm: f64, subject: &Subject<'_>) -> Option<Measure> {
     let motion = subject.curves?.motion;
     let swings = motion.quantity() == Quantity::Angle;
-    let (check, unit, size) =
-        if swings { (&OF_SWING, "deg", 1.0_f64.to_degrees()) } else { (&CHECK, "mm", MILLIMETRES) };
+    let (check, size) = if swings { (&OF_SWING, 1.0_f64.to_degrees()) } else { (&CHECK, MILLIMETRES) };
     let lift = size * lifts(motion).1;
     // The tolerance of the outline is a length.
     let least = if swings { 0.0 } else { tolerance_mm };
@@ -52,12 +52,12 @@ pub fn measure(tolerance_mm: f64, subject: &Subject<'_>) -> Option<Measure> {
     let rows = motion.program()?.rows().iter().reduce(|a, b| if b.overshoot.0 > a.overshoot.0 { b } else { a })?;
     let (by, at) = rows.overshoot;
     let value = size * by;
-    let note = (value > limit).then(|| words(rows, (value, at), unit));
+    let note = (value > limit).then(|| words(rows, (by, at), swings));
     let (place, _) = (subject.at)(&Worst { value, at, z: 0.0 });
     Some(check.measure(value, Some(limit)).noted(note).placed(place))
 }
 
-fn words(rows: &RowFigures, (value, at): (f64, f64), unit: &str) -> String {
+fn words(rows: &RowFigures, (by, at): (f64, f64), swings: bool) -> Text {
     let deg = |angle: f64| shown((angle.to_degrees() * 1e6).round() / 1e6 + 0.0);
     let (from, to) = rows.widest;
     let gap = if to - from > 1.5 * rows.spacing {
@@ -66,9 +66,11 @@ fn words(rows: &RowFigures, (value, at): (f64, f64), unit: &str) -> String {
         String::new()
     };
     let segment = rows.segment.map_or(String::new(), |index| format!("in segment {} ", index + 1));
-    format!(
-        "{segment}at {} deg the curve leaves the two rows around it by {} {unit}{gap}: add rows there, or use shape = \"monotonic\"",
+    text!(
+        "{}at {} deg the curve leaves the two rows around it by {}{}: add rows there, or use shape = \"monotonic\"",
+        segment,
         deg(at),
-        shown(value)
+        position(by, swings),
+        gap
     )
 }

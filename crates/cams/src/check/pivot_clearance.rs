@@ -37,6 +37,6 @@ pub fn measure(subject: &Subject<'_>) -> Option<Measure> {
     let verdict = if kept && inside { Verdict::Warn } else { Verdict::of(kept) };
     let words = "the cam sweeps over the pivot: the arm and its bearing must lie outside the plane of the cam";
     let measure = CHECK.measure(1e3 * clearance, limit.map(|limit| 1e3 * limit)).judged(verdict);
-    let measure = measure.noted(inside.then(|| words.to_owned()));
+    let measure = measure.noted(inside.then_some(words));
     Some(measure.at(subject, &Worst { value: farthest.value, at: farthest.at, z: 0.0 }))
 }

@@ -3,6 +3,7 @@
 use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
 use crate::report::Bound;
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::Text;
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -32,7 +33,7 @@ pub fn measure([positive, negative]: [Worst; 2], subject: &Subject<'_>) -> Measu
     let limits = subject.machine.limits;
     if limits.pressure_angle.is_none() {
         let worst = positive.or_larger(negative);
-        let note = "a flat face has no customary limit; limits.pressure_angle gives one".to_owned();
+        let note = Text::from("a flat face has no customary limit; limits.pressure_angle gives one");
         return CHECK.measure(worst.value.to_degrees(), None).noted(note).at(subject, &worst);
     }
     let [positive_limit, negative_limit] = limits.pressure_angles();

@@ -4,6 +4,7 @@ use super::{AsWritten, Check, CheckExplanation, CheckScope, Measure, Subject};
 use crate::machine::Machine;
 use crate::report::Bound;
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::Text;
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -33,9 +34,9 @@ pub fn measure((exact, place): (f64, Option<Worst>), written: &AsWritten<'_>, su
     let limit = limits.least_wall(cam.bore_radius);
     let within = limit - 1e-3 * written.tolerance_mm;
     let about_holes = limits.wall.map_or(ABOUT_HOLES, |wall| 1e3 * wall);
-    let customary = limits.wall.is_none().then(|| "the customary limit".to_owned());
+    let customary = limits.wall.is_none().then(|| Text::from("the customary limit"));
     if let Some(holes) = written.walls.about_holes.filter(|wall| wall.distance < about_holes - written.tolerance_mm) {
-        let note = "about a balance hole; a narrower cam.balance leaves more".to_owned();
+        let note = Text::from("about a balance hole; a narrower cam.balance leaves more");
         return CHECK.measure(holes.distance, Some(about_holes)).kept(false).noted(note).placed(holes.place);
     }
     // Of a cam whose sections differ the thinnest place may lie between those that are written.
@@ -45,10 +46,10 @@ pub fn measure((exact, place): (f64, Option<Worst>), written: &AsWritten<'_>, su
     let kept = by_size && wall > 0.0 && wall >= within;
     let remedy = if kept { None } else { (subject.remedy)() };
     let cut = (by_size && !kept)
-        .then(|| "the outline as written comes nearer than the exact profile: a finer --tolerance".to_owned());
-    let note: Vec<String> = customary.into_iter().chain(cut.or(remedy)).collect();
+        .then(|| Text::from("the outline as written comes nearer than the exact profile: a finer --tolerance"));
+    let note = Text::joined(customary.into_iter().chain(cut.or(remedy)), "; ");
     let measure = CHECK.measure(1e3 * wall, Some(1e3 * limit)).kept(kept);
-    let measure = measure.noted((!note.is_empty()).then(|| note.join("; ")));
+    let measure = measure.noted(note);
     match (as_cut, place) {
         (Some(wall), _) => measure.placed(wall.place),
         (None, Some(worst)) => measure.at(subject, &worst),

@@ -1,6 +1,6 @@
 //! A cam of a text: solved, drawn, proved, as figures, as a page shows it, as files.
 
-use super::{EngineAnswer, EngineFile, EngineRequest, remedies, values};
+use super::{EngineAnswer, EngineFile, EngineRequest, changes, values};
 use crate::body::{Accuracy, Body, Request};
 use crate::catalogue::{commands, usual_command};
 use crate::machine::{Machine, MachineSource, valid_rpm};
@@ -109,7 +109,7 @@ fn refusal(why: impl Into<String>) -> Error {
 /// What would let each check pass that promises it.
 fn of_findings(findings: &[Finding]) -> Map<String, Value> {
     let of = |finding: &Finding| {
-        let remedies = remedies::of(finding.note.as_deref()?);
+        let remedies: Vec<_> = finding.note.as_ref()?.remedies().into_iter().map(changes).collect();
         (!remedies.is_empty()).then(|| (finding.check.to_string(), json!(remedies)))
     };
     findings.iter().filter_map(of).collect()

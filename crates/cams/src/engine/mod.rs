@@ -5,10 +5,10 @@
 //! A request is JSON ([`EngineRequest`]). An answer is a length of four bytes (little endian), so many bytes of JSON, then the bytes of the files
 //! one after the other, as long as the JSON says.
 
+use camgen_kernel::text::{KeyChange, Remedy};
 mod design;
 mod designs;
 mod keys;
-mod remedies;
 mod text;
 mod values;
 
@@ -98,7 +98,9 @@ impl EngineAnswer {
     fn refuse(&mut self, error: &Error) {
         let faults = match error {
             Error::Machine(MachineError { faults }) => faults.iter().map(fault).collect(),
-            other => vec![json!({"message": other.to_string(), "remedies": remedies::of(&other.to_string())})],
+            other => vec![
+                json!({"message": other.to_string(), "remedies": other.remedies().into_iter().map(changes).collect::<Vec<_>>()}),
+            ],
         };
         self.say("faults", faults);
     }
@@ -118,15 +120,20 @@ impl EngineAnswer {
     }
 }
 
+/// The changes of a remedy, which a page can make at a click.
+fn changes(remedy: &Remedy) -> Vec<TextChange> {
+    let change = |change: &KeyChange| TextChange::Set { key: change.key.to_string(), to: change.value.clone() };
+    remedy.changes.iter().map(change).collect()
+}
+
 /// A fault with its key, where it is in the text, and what would be right.
 fn fault(fault: &FileFault) -> Value {
-    let help = fault.help.clone().unwrap_or_default();
     json!({
         "key": fault.key,
         "message": fault.message,
         "help": fault.help,
         "line": fault.place.as_ref().map(|place| place.line),
-        "remedies": remedies::of(&help),
+        "remedies": [],
     })
 }
 

@@ -4,6 +4,7 @@ use crate::machine::MachineError;
 use crate::tool_files::FileError;
 use crate::write::files::FilesError;
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::{Remedy, Text};
 
 /// Why there is no cam, no drawing, no proof or no file.
 #[derive(Debug, thiserror::Error)]
@@ -71,5 +72,24 @@ impl From<FileError> for Error {
             FileError::Cutter(why) => Self::Cutter(why),
             FileError::Request(why) => Self::Draw(why),
         }
+    }
+}
+
+impl Error {
+    /// The changes of the machine file in its remedy, which were tried.
+    #[must_use]
+    pub fn remedies(&self) -> Vec<&Remedy> {
+        let (Self::Motion(refusal)
+        | Self::Solve(refusal)
+        | Self::Draw(refusal)
+        | Self::Proof(refusal)
+        | Self::Read(refusal)
+        | Self::Section(refusal)
+        | Self::Cutter(refusal)
+        | Self::Format(refusal)) = self
+        else {
+            return Vec::new();
+        };
+        refusal.remedy.as_ref().map_or_else(Vec::new, Text::remedies)
     }
 }

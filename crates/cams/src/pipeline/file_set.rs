@@ -13,6 +13,7 @@ use crate::write::record::{WriteInputs, stage_recorded};
 use crate::write::svg;
 use camgen_kernel::document::Input;
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::Text;
 use std::path::{Path, PathBuf};
 
 pub use files::Output;
@@ -204,7 +205,7 @@ impl FileSet {
         let (staged, changes) = stage_recorded(place, outputs, &run)?;
         let with_changes = LazyReport::new(Box::new(move || {
             let mut report = Report::clone(&report);
-            report.notes.extend(changes);
+            report.notes.extend(changes.into_iter().map(Text::from));
             report
         }));
         Ok((with_changes, staged))

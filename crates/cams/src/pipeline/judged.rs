@@ -9,6 +9,7 @@ use crate::verify;
 use crate::write::{AnalysisFormat, AnalysisRendering, FormatSelection};
 use camgen_kernel::document::{Input, NamedChoice};
 use camgen_kernel::numeric::parallel;
+use camgen_kernel::text::Text;
 use camgen_kernel::units::LengthUnit;
 
 /// An analysis whose measures were judged, with the cam that was cut for it, where there is one.
@@ -111,7 +112,7 @@ impl Judged {
             inputs: Inputs::of(&self.inputs()),
             sections: analysis.sections.iter().cloned().chain(sections).collect(),
             checks: self.findings.clone(),
-            notes: analysis.notes.iter().cloned().chain(notes).collect(),
+            notes: analysis.notes.iter().cloned().map(Text::from).chain(notes).collect(),
             not_modelled,
             files: Vec::new(),
             units: self.units,

@@ -4,6 +4,7 @@
 //! There is no other path from one to the next, so nothing can be written that was not proved: the files are made of what
 //! [`Drawing::prove`] read back from their own bytes.
 
+use camgen_kernel::text::Text;
 mod assembly;
 mod builder;
 mod cam_files;
@@ -176,7 +177,12 @@ fn report(body: &dyn Body, inputs: Inputs, sections: Vec<Section>, checks: Vec<c
         inputs,
         sections,
         checks,
-        notes: machine.idle_key_notes(kind.keys, kind.noun).into_iter().chain(machine.material_note()).collect(),
+        notes: machine
+            .idle_key_notes(kind.keys, kind.noun)
+            .into_iter()
+            .chain(machine.material_note())
+            .map(Text::from)
+            .collect(),
         not_modelled: body.not_modelled().into_iter().map(str::to_owned).collect(),
         files: Vec::new(),
         units: machine.units(),

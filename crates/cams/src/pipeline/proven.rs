@@ -13,6 +13,7 @@ use crate::write::csv;
 use camgen_kernel::document::Input;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::text;
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -282,7 +283,7 @@ impl Proven {
     pub(super) fn report_with(&self, more: Vec<Section>, no_outline: Option<&str>) -> Report {
         let sections = self.sections(None).into_iter().chain(more).collect();
         let mut report = report(self.body(), self.0.hashed.clone(), sections, self.0.findings.clone());
-        report.notes.extend(no_outline.map(|why| format!("there is no outline: {why}")));
+        report.notes.extend(no_outline.map(|why| text!("there is no outline: {}", why)));
         report
     }
 

@@ -27,7 +27,7 @@ pub fn outline_of(bytes: &[u8], layer: Option<&str>) -> Result<FileOutline, Refu
 }
 
 /// A refusal of a file that is read but has not the one outline.
-fn refused(what: impl Into<String>, remedy: &str) -> Refusal {
+fn refused(what: impl Into<String>, remedy: &'static str) -> Refusal {
     Refusal::new(what).remedy(remedy)
 }
 

@@ -1,6 +1,7 @@
 //! The result of a check, and where.
 
-use super::figures::shown;
+use super::shown;
+use camgen_kernel::text::{Length, LengthKind, Text, Value, text};
 use camgen_kernel::units::LengthUnit;
 use serde::ser::Serializer;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -111,24 +112,30 @@ pub fn degrees(angle: f64) -> f64 {
 }
 
 impl Place {
-    /// As a person reads it, a travel in this unit.
+    /// As a person reads it.
     #[must_use]
-    pub fn words(&self, units: LengthUnit) -> String {
+    pub fn text(&self) -> Text {
         match (self.cam_deg, self.x_mm) {
-            (None, Some(x)) if units == LengthUnit::Inch => format!("x = {:.4} in", units.of_mm(x)),
-            _ => self.to_string(),
+            (Some(degrees), _) => format!("{degrees:.3}°").into(),
+            (None, Some(x)) => text!("x = {}", Length::mm(x).decimals(3)),
+            (None, None) => "–".into(),
         }
     }
 }
 
-/// In degrees or millimetres, as a person reads it.
-impl std::fmt::Display for Place {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match (self.cam_deg, self.x_mm) {
-            (Some(degrees), _) => write!(formatter, "{degrees:.3}°"),
-            (None, Some(x)) => write!(formatter, "x = {x:.3} mm"),
-            (None, None) => formatter.write_str("–"),
-        }
+/// A value and its unit as a report shows them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ShownValue {
+    /// The number.
+    pub number: String,
+    /// Its unit; empty where it has none.
+    pub unit: Cow<'static, str>,
+}
+
+impl std::fmt::Display for ShownValue {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.number)?;
+        if self.unit.is_empty() { Ok(()) } else { write!(f, " {}", self.unit) }
     }
 }
 
@@ -155,12 +162,15 @@ pub struct Finding {
     pub place: Place,
     /// The verdict.
     pub verdict: Verdict,
+    /// Whether data are missing that the check needs, where the finding was not read from a report.
+    #[serde(skip)]
+    pub is_unknown: bool,
     /// What the check means, where the finding was not read from a report.
     #[serde(skip)]
     pub about: Option<&'static str>,
     /// A remedy, or what the figure means.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub note: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none", serialize_with = "words", deserialize_with = "as_words")]
+    pub note: Option<Text>,
 }
 
 impl Finding {
@@ -173,24 +183,53 @@ impl Finding {
         if is_rounding { 0.0 } else { self.value }
     }
 
-    /// The value with its unit, as reports write it.
+    /// The value as a report with lengths in `units` shows it.
     #[must_use]
-    pub fn value_words(&self) -> String {
+    pub fn shown_value(&self, units: LengthUnit) -> ShownValue {
         let value = self.readable();
-        if value.is_finite() { self.with_unit(shown(value)) } else { "–".into() }
+        if value.is_finite() { self.shown(value, units) } else { ShownValue { number: "–".into(), unit: "".into() } }
     }
 
-    /// The limit with its side and unit, `at most 30 deg`; `None` without a limit.
+    /// The limit with its side and unit, `at most 30 deg`, as a report with lengths in `units` shows it; `None` without a limit.
     #[must_use]
-    pub fn limit_words(&self) -> Option<String> {
+    pub fn limit_words(&self, units: LengthUnit) -> Option<String> {
         let side = self.bound.map_or(String::new(), |bound| format!("{} ", bound.words()));
-        Some(format!("{side}{}", self.with_unit(shown(self.limit?))))
+        Some(format!("{side}{}", self.shown(self.limit?, units)))
     }
 
-    fn with_unit(&self, value: String) -> String {
-        match &*self.unit {
-            "" | "1" => value,
-            unit => format!("{value} {unit}"),
+    fn shown(&self, value: f64, units: LengthUnit) -> ShownValue {
+        match (&*self.unit, LengthKind::of_symbol(&self.unit)) {
+            ("" | "1", _) => ShownValue { number: shown(value), unit: "".into() },
+            (_, Some(kind)) if units == LengthUnit::Inch => {
+                ShownValue { number: Length::new(value, kind).bare().in_unit(units), unit: kind.symbol(units).into() }
+            }
+            _ => ShownValue { number: shown(value), unit: self.unit.clone() },
+        }
+    }
+
+    /// The note in millimetres; empty where there is none.
+    #[must_use]
+    pub fn note_words(&self) -> String {
+        self.note.as_ref().map_or_else(String::new, Text::to_string)
+    }
+
+    /// The value with its unit in a sentence.
+    #[must_use]
+    pub fn value_text(&self) -> Text {
+        let value = self.readable();
+        match LengthKind::of_symbol(&self.unit).filter(|_| value.is_finite()) {
+            Some(kind) => Value::from(Length::new(value, kind)).into(),
+            None => self.shown_value(LengthUnit::Millimetre).to_string().into(),
+        }
+    }
+
+    /// The limit with its side and unit in a sentence; `None` without a limit.
+    #[must_use]
+    pub fn limit_text(&self) -> Option<Text> {
+        let side = self.bound.map_or(String::new(), |bound| format!("{} ", bound.words()));
+        match LengthKind::of_symbol(&self.unit) {
+            Some(kind) => Some(text!("{}{}", side, Length::new(self.limit?, kind))),
+            None => self.limit_words(LengthUnit::Millimetre).map(Text::from),
         }
     }
 }
@@ -220,6 +259,16 @@ fn finite<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> 
     if value.is_finite() { serializer.serialize_f64(*value) } else { serializer.serialize_none() }
 }
 
+/// A text for programs, in millimetres.
+#[expect(clippy::ref_option, reason = "the signature that serde requires")]
+fn words<S: Serializer>(text: &Option<Text>, serializer: S) -> Result<S::Ok, S::Error> {
+    text.as_ref().map(Text::to_string).serialize(serializer)
+}
+
+fn as_words<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Text>, D::Error> {
+    Ok(Option::<String>::deserialize(deserializer)?.map(Text::from))
+}
+
 fn or_nan<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }
@@ -238,6 +287,7 @@ mod tests {
             unit: "1".into(),
             place,
             verdict,
+            is_unknown: false,
             about: None,
             note: None,
         }

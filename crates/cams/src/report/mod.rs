@@ -8,7 +8,6 @@ mod as_cut_error;
 pub mod card;
 pub mod chart;
 pub mod diagram;
-mod figures;
 mod finding;
 mod inputs;
 pub mod mechanism;
@@ -16,7 +15,6 @@ pub mod motion_diagram;
 pub mod plot;
 mod point_measures;
 mod program_measures;
-mod restated;
 mod rolled;
 pub mod scheme;
 pub mod sheet;
@@ -24,15 +22,16 @@ pub mod trace;
 mod values;
 
 pub use as_cut_error::AsCutError;
-pub use figures::shown;
-pub use figures::to_type;
-pub use finding::{Bound, Finding, Place, Verdict, degrees, failed, passed, worst_first};
+pub(crate) use as_cut_error::in_unit;
+pub use camgen_kernel::text::{shown, to_type};
+pub use finding::{Bound, Finding, Place, ShownValue, Verdict, degrees, failed, passed, worst_first};
 pub use inputs::{Inputs, hexadecimal, sha256};
 pub use point_measures::PointMeasures;
 pub use program_measures::ProgramMeasures;
 pub use rolled::Rolled;
 pub use values::{CamMeasures, OutlineMeasures, Weight, lobes_words};
 
+use camgen_kernel::text::Text;
 use camgen_kernel::units::LengthUnit;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::ser::SerializeMap;
@@ -87,6 +86,29 @@ impl fmt::Display for Speeds {
     }
 }
 
+/// A line of a section for people.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReportLine {
+    /// Its words.
+    pub text: Text,
+    /// Whether it is a row of a table in columns of a fixed width, which the values of the section have as well.
+    pub is_row: bool,
+}
+
+impl ReportLine {
+    /// A row of a table in columns of a fixed width.
+    #[must_use]
+    pub fn row(text: impl Into<Text>) -> Self {
+        Self { text: text.into(), is_row: true }
+    }
+}
+
+impl<T: Into<Text>> From<T> for ReportLine {
+    fn from(text: T) -> Self {
+        Self { text: text.into(), is_row: false }
+    }
+}
+
 /// One section of a report, contributed by a part of the cam.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
@@ -95,9 +117,9 @@ pub struct Section {
     /// Values with their units in their names.
     pub value: Value,
     /// The values in words for people, a line each.
-    pub words: Vec<String>,
+    pub words: Vec<ReportLine>,
     /// The few figures for the review sheet.
-    pub figures: Vec<String>,
+    pub figures: Vec<Text>,
 }
 
 impl Section {
@@ -111,14 +133,14 @@ impl Section {
 
     /// With words for people.
     #[must_use]
-    pub fn with_words(self, words: Vec<String>) -> Self {
-        Self { words, ..self }
+    pub fn with_words<T: Into<ReportLine>>(self, words: Vec<T>) -> Self {
+        Self { words: words.into_iter().map(Into::into).collect(), ..self }
     }
 
     /// With figures for the sheet.
     #[must_use]
-    pub fn with_figures(self, figures: Vec<String>) -> Self {
-        Self { figures, ..self }
+    pub fn with_figures<T: Into<Text>>(self, figures: Vec<T>) -> Self {
+        Self { figures: figures.into_iter().map(Into::into).collect(), ..self }
     }
 }
 
@@ -142,7 +164,7 @@ pub struct Report {
     /// Every check.
     pub checks: Vec<Finding>,
     /// What else the user should know, such as keys that have no effect.
-    pub notes: Vec<String>,
+    pub notes: Vec<Text>,
     /// What the model leaves out, a sentence each.
     pub not_modelled: Vec<String>,
     /// Files written.
@@ -202,8 +224,8 @@ impl Report {
 
     /// The figures for the review sheet.
     #[must_use]
-    pub fn figures(&self) -> Vec<String> {
-        self.sections.iter().flat_map(|section| section.figures.iter().cloned()).collect()
+    pub fn figures(&self) -> impl Iterator<Item = &Text> {
+        self.sections.iter().flat_map(|section| &section.figures)
     }
 }
 
@@ -240,7 +262,7 @@ impl Serialize for Report {
         }
         map.serialize_entry("checks", &self.checks)?;
         if !self.notes.is_empty() {
-            map.serialize_entry("notes", &self.notes)?;
+            map.serialize_entry("notes", &self.notes.iter().map(Text::to_string).collect::<Vec<_>>())?;
         }
         if !self.not_modelled.is_empty() {
             map.serialize_entry("not_modelled", &self.not_modelled)?;
@@ -291,7 +313,7 @@ impl<'de> Visitor<'de> for ReportVisitor {
                 "shaft_of_cam" => report.shaft = Some(map.next_value()?),
                 "inputs" => report.inputs = map.next_value()?,
                 "checks" => report.checks = map.next_value()?,
-                "notes" => report.notes = map.next_value()?,
+                "notes" => report.notes = map.next_value::<Vec<String>>()?.into_iter().map(Text::from).collect(),
                 "not_modelled" => report.not_modelled = map.next_value()?,
                 "files" => report.files = map.next_value()?,
                 _ => {
@@ -330,6 +352,7 @@ mod tests {
                 unit: "mm".into(),
                 place: Place::default(),
                 verdict: Verdict::Pass,
+                is_unknown: false,
                 about: None,
                 note: None,
             }],

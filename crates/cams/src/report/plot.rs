@@ -198,7 +198,7 @@ fn draw(panel: &PlotPanel, index: usize, places: &str, along: (f64, f64), field:
             (false, true) => "curve-bold",
             (false, false) => "curve",
         },
-        label: if curve.name.is_empty() { panel.name.clone() } else { curve.name.clone() },
+        label: if curve.name.is_empty() { &panel.name } else { &curve.name }.clone().into(),
         colour: Some(colour(curve).into()),
         shapes: shapes(curve, &at),
         in_legend: false,
@@ -253,7 +253,7 @@ fn labels(panel: &PlotPanel, index: usize, bottom: f64, at: &impl Fn(f64, f64) -
         ShapeGroup {
             id: format!("name-{index}-{number}"),
             class: "curve",
-            label: format!("name of {}", curve.name),
+            label: format!("name of {}", curve.name).into(),
             colour: Some(colour(curve).into()),
             shapes: vec![SheetShape::Line(*end, start), words(place, size, TextAnchor::Start, text)],
             in_legend: false,
@@ -321,8 +321,8 @@ mod tests {
             .filter_map(|shape| if let SheetShape::Path(points) = shape { Some(points.len()) } else { None })
             .collect();
         assert_eq!(lengths, [10, 10, 10]);
-        let names: Vec<&str> =
-            sheet.groups.iter().filter(|group| group.id.starts_with("name-")).map(|g| &*g.label).collect();
+        let names: Vec<String> =
+            sheet.groups.iter().filter(|group| group.id.starts_with("name-")).map(|g| g.label.to_string()).collect();
         assert_eq!(names, ["name of a", "name of b", "name of c"]);
     }
 }

@@ -1,6 +1,8 @@
 //! Tables of points in a report.
 
-use super::{AsCutError, Section, shown};
+use super::as_cut_error::in_unit;
+use super::{AsCutError, Section};
+use camgen_kernel::text::{Length, Text, text};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -34,16 +36,21 @@ impl PointMeasures {
         (!all.is_empty()).then(|| Section::new("points", &all).with_words(all.iter().map(Self::words).collect()))
     }
 
-    fn words(&self) -> String {
+    fn words(&self) -> Text {
         let [of_velocity, of_acceleration] = AsCutError::units_of(self.swings, self.by_travel);
         let of = self.rpm.map_or_else(String::new, |rpm| format!(" for {rpm} rpm"));
-        let mut words =
-            format!("{} rows{of}, {} between them, off by {} mm", self.rows, self.interpolation, shown(self.error_mm));
+        let mut words = text!(
+            "{} rows{}, {} between them, off by {}",
+            self.rows,
+            of,
+            self.interpolation,
+            Length::mm(self.error_mm)
+        );
         if let Some(error) = self.velocity_error {
-            words += &format!(", the velocity by {} {of_velocity}", shown(error));
+            words += text!(", the velocity by {}", in_unit(error, of_velocity));
         }
         if let Some(error) = self.acceleration_error {
-            words += &format!(", the acceleration by {} {of_acceleration}", shown(error));
+            words += text!(", the acceleration by {}", in_unit(error, of_acceleration));
         }
         words
     }

@@ -1,6 +1,7 @@
 //! Programs for a milling machine in a report.
 
 use super::{Section, shown};
+use camgen_kernel::text::{Length, Text, text};
 use serde::Serialize;
 
 /// A program for a milling machine.
@@ -27,13 +28,17 @@ impl ProgramMeasures {
         (!all.is_empty()).then(|| Section::new("programs", &all).with_words(all.iter().map(Self::words).collect()))
     }
 
-    fn words(&self) -> String {
+    fn words(&self) -> Text {
         let Self { controller, moves, passes, depth_mm, length_mm, minutes } = self;
         let noun = if *passes == 1 { "pass" } else { "passes" };
-        format!(
-            "for {controller}: {moves} moves, {passes} {noun} to {} mm, {} mm of path in {} min at the feeds",
-            shown(*depth_mm),
-            shown(*length_mm),
+        text!(
+            "for {}: {} moves, {} {} to {}, {} of path in {} min at the feeds",
+            controller,
+            *moves,
+            *passes,
+            noun,
+            Length::mm(*depth_mm),
+            Length::mm(*length_mm),
             shown(*minutes)
         )
     }

@@ -1,8 +1,8 @@
 //! The values that parts of a cam contribute to a report, with their words.
 
 use super::Section;
-use super::figures::shown;
-use super::sheet::rounded;
+use super::shown;
+use camgen_kernel::text::{Length, LengthKind, Text, text};
 use serde::{Deserialize, Serialize};
 
 /// The words for a cam of several lobes.
@@ -58,18 +58,18 @@ pub struct Weight {
 impl Weight {
     /// Area, mass and unbalance, for a reader.
     #[must_use]
-    pub fn words(&self) -> Option<String> {
+    pub fn words(&self) -> Option<Text> {
         let mass = self.mass_kg.map_or_else(|| "no thickness given".into(), |mass| format!("mass {} kg", shown(mass)));
         let unbalance = self
             .unbalance_g_mm
             .map_or(String::new(), |unbalance| format!(", unbalance {} g·mm", shown(unbalance.round())));
-        Some(format!("area {} mm², {mass}{unbalance}", shown(self.area_mm2?)))
+        Some(text!("area {}, {}{}", Length::new(self.area_mm2?, &LengthKind::MM2), mass, unbalance))
     }
 
     /// The mass, for the sheet.
     #[must_use]
-    pub fn figure(&self) -> Option<String> {
-        self.mass_kg.map(|mass| format!("mass {mass:.2} kg"))
+    pub fn figure(&self) -> Option<Text> {
+        self.mass_kg.map(|mass| text!("mass {} kg", format_args!("{mass:.2}")))
     }
 }
 
@@ -79,11 +79,13 @@ impl CamMeasures {
     pub fn section(&self) -> Section {
         let mut words = vec![self.size()];
         let lobes = self.lobes.filter(|lobes| *lobes > 1).map(lobes_words);
-        words.extend(lobes.clone());
-        let on_face = |[least, most]: [f64; 2]| format!("touches the face from {} to {} mm", shown(least), shown(most));
+        words.extend(lobes.clone().map(Text::from));
+        let on_face = |[least, most]: [f64; 2]| {
+            text!("touches the face from {} to {}", Length::mm(least).bare(), Length::mm(most))
+        };
         words.extend(self.face_mm.map(on_face));
         let spin = |[mean, most]: [f64; 2]| {
-            format!(
+            text!(
                 "the roller turns {} times per turn of the cam, at up to {} times the speed of the cam",
                 shown(mean),
                 shown(most)
@@ -91,34 +93,34 @@ impl CamMeasures {
         };
         words.extend(self.roller_turns.map(spin));
         words.extend(self.weight.words());
-        let of =
-            self.roller_radius_mm.map_or(String::new(), |radius| format!(", roller Ø{} mm", rounded(2.0 * radius)));
-        let base = rounded(self.base_radius_mm.unwrap_or(f64::NAN));
-        let mut figures = vec![format!("base radius {base} mm{of}")];
+        let of = self.roller_radius_mm.map(|radius| text!(", roller Ø{}", Length::mm(2.0 * radius).rounded()));
+        let base = Length::mm(self.base_radius_mm.unwrap_or(f64::NAN)).rounded();
+        let mut figures = vec![text!("base radius {}{}", base, of)];
         figures.push(self.lift());
-        figures.extend(lobes);
+        figures.extend(lobes.map(Text::from));
         figures.extend(self.weight.figure());
         Section::new("cam", self).with_words(words).with_figures(figures)
     }
 
-    fn lift(&self) -> String {
+    fn lift(&self) -> Text {
         match (self.max_lift_mm, self.max_lift_deg) {
-            (_, Some(degrees)) => format!("lift {degrees:.3}°"),
-            (lift, None) => format!("lift {:.3} mm", lift.unwrap_or(f64::NAN)),
+            (_, Some(degrees)) => text!("lift {}°", format_args!("{degrees:.3}")),
+            (lift, None) => text!("lift {}", Length::mm(lift.unwrap_or(f64::NAN)).decimals(3)),
         }
     }
 
-    fn size(&self) -> String {
-        let roller =
-            self.roller_radius_mm.map_or(String::new(), |radius| format!(", roller Ø{} mm", shown(2.0 * radius)));
+    fn size(&self) -> Text {
+        let roller = self.roller_radius_mm.map(|radius| text!(", roller Ø{}", Length::mm(2.0 * radius)));
         let smallest = self.smallest_prime_radius_mm.map_or_else(
-            || "no radius keeps the limits".into(),
-            |radius| format!("smallest possible {} mm", shown(radius)),
+            || Text::from("no radius keeps the limits"),
+            |radius| text!("smallest possible {}", Length::mm(radius)),
         );
-        format!(
-            "base radius {} mm{roller}, prime radius {} mm ({smallest}), {}",
-            shown(self.base_radius_mm.unwrap_or(f64::NAN)),
-            shown(self.prime_radius_mm.unwrap_or(f64::NAN)),
+        text!(
+            "base radius {}{}, prime radius {} ({}), {}",
+            Length::mm(self.base_radius_mm.unwrap_or(f64::NAN)),
+            roller,
+            Length::mm(self.prime_radius_mm.unwrap_or(f64::NAN)),
+            smallest,
             self.lift()
         )
     }
@@ -182,12 +184,14 @@ impl OutlineMeasures {
             ),
             _ => (format!("{arcs} arcs and {lines} lines ({})", self.best_possible_words()), format!("{arcs} arcs")),
         };
-        let words = vec![format!(
-            "{what}, {:.4} µm from the exact curve, tolerance {} µm",
-            1e3 * self.deviation_max_mm,
-            shown(1e3 * self.tolerance_mm)
+        let deviation = Length::um_of_mm(self.deviation_max_mm);
+        let words = vec![text!(
+            "{}, {} from the exact curve, tolerance {}",
+            what,
+            deviation.clone().decimals(4),
+            Length::um_of_mm(self.tolerance_mm)
         )];
-        let figure = format!("{short}, {:.3} µm from the exact curve", 1e3 * self.deviation_max_mm);
+        let figure = text!("{}, {} from the exact curve", short, deviation.decimals(3));
         Section::new("outline", self).with_words(words).with_figures(vec![figure])
     }
 }

@@ -2,6 +2,7 @@
 
 use super::measure::TradeRow;
 use crate::report::shown;
+use camgen_kernel::text::{Length, LengthKind, Text, text};
 use serde::Serialize;
 
 /// What a part of the machine leaves of the balance.
@@ -30,14 +31,14 @@ impl LeftOver {
         Self { part, residual_n: Some(residual_n), acceleration_m_per_s2: None, torque_nm: None, about }
     }
 
-    pub(super) fn words(&self) -> String {
+    pub(super) fn words(&self) -> Text {
         let figures = [
-            self.residual_n.map(|force| format!("{} N", shown(force))),
-            self.acceleration_m_per_s2.map(|error| format!("{} m/s²", shown(error))),
-            self.torque_nm.map(|error| format!("{} N·m", shown(error))),
+            self.residual_n.map(|force| text!("{} N", shown(force))),
+            self.acceleration_m_per_s2.map(|error| text!("{}", Length::new(error, &LengthKind::M_PER_S2))),
+            self.torque_nm.map(|error| text!("{} N·m", shown(error))),
         ];
-        let figures: Vec<String> = figures.into_iter().flatten().collect();
-        format!("{:<8} {}: {}", self.part, figures.join(", "), self.about)
+        let figures = Text::joined(figures.into_iter().flatten(), ", ");
+        text!("{} {}: {}", format_args!("{:<8}", self.part), figures, &self.about)
     }
 }
 

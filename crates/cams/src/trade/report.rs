@@ -1,6 +1,7 @@
 //! The report on the measured settings: advice, table, words, picture.
 
 use super::measure::{TradeLimits, TradeMeasurement, TradeRow};
+use crate::report::ReportLine;
 use crate::report::chart::{self, Chart, ChartPanel, ChartPoint};
 use crate::report::shown;
 use crate::table::{ListedColumn, Table};
@@ -97,7 +98,7 @@ pub(super) fn table(rows: &[TradeRow]) -> Table {
 const NAME: usize = 26;
 
 /// The settings, a line each.
-pub(super) fn words(measured: &TradeMeasurement) -> Vec<String> {
+pub(super) fn words(measured: &TradeMeasurement) -> Vec<ReportLine> {
     let head = [
         ("rank", 4),
         ("pieces", 12),
@@ -114,7 +115,7 @@ pub(super) fn words(measured: &TradeMeasurement) -> Vec<String> {
     ];
     let line = |name: &str, cells: [String; 12]| {
         let cells = cells.iter().zip(head).map(|(cell, (_, width))| format!(" {cell:>width$}"));
-        format!("{name:<NAME$}{}", cells.collect::<String>())
+        ReportLine::row(format!("{name:<NAME$}{}", cells.collect::<String>()))
     };
     let row = |row: &TradeRow| {
         let or_dash = |value: Option<f64>| value.map_or("–".to_owned(), shown);
@@ -141,7 +142,7 @@ pub(super) fn words(measured: &TradeMeasurement) -> Vec<String> {
         measured.rounds
     );
     let names = line("setting", head.map(|(name, _)| name.to_owned()));
-    [first, names].into_iter().chain(measured.rows.iter().map(row)).collect()
+    [first.into(), names].into_iter().chain(measured.rows.iter().map(row)).collect()
 }
 
 /// Pieces against residual force, or the gap where there is no force to balance, and against the acceleration error, each with its Pareto

@@ -4,6 +4,7 @@ use super::COMMAND;
 use super::measure::{TradeClock, timed};
 use crate::analysis::{Analysis, Picture};
 use crate::body::Kind;
+use crate::report::ReportLine;
 use crate::report::chart::{self, Chart, ChartPanel, ChartPoint};
 use crate::report::{Section, Speeds, shown};
 use crate::table::{ListedColumn, Table};
@@ -100,11 +101,17 @@ pub fn analysis(
             json!({"setting": row.setting, "flags": row.flags, "pieces": row.pieces, column: row.error, "time_us": row.time_us})
         })
         .collect();
-    let head = format!("{:<16} {:>8} {:>12} {:>10}", "setting", "pieces", "error", "time/ms");
+    let head = ReportLine::row(format!("{:<16} {:>8} {:>12} {:>10}", "setting", "pieces", "error", "time/ms"));
     let line = |row: &SolverRow| {
-        format!("{:<16} {:>8} {:>12} {:>10.2}", row.setting, row.pieces, told(row.error), 1e-3 * row.time_us)
+        ReportLine::row(format!(
+            "{:<16} {:>8} {:>12} {:>10.2}",
+            row.setting,
+            row.pieces,
+            told(row.error),
+            1e-3 * row.time_us
+        ))
     };
-    let words = [format!("{about}; time of this computer, the least of {ROUNDS} rounds"), head];
+    let words = [format!("{about}; time of this computer, the least of {ROUNDS} rounds").into(), head];
     let mut inputs = task.inputs;
     inputs.push(Input::word("command", format!("{COMMAND} {}", task.word)));
     let names = rows.iter().map(|row| row.setting.clone()).collect();

@@ -5,6 +5,7 @@ use crate::body::NEGLIGIBLE_MM;
 use crate::body::balancing::{BalanceFailure, MOST_HOLES, moment};
 use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::report::{Bound, Finding, Verdict};
+use camgen_kernel::text::{KeyChange, Length, Remedy, Text, text};
 use std::f64::consts::PI;
 
 pub(super) const CHECK: FileCheck = FileCheck {
@@ -37,10 +38,12 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let (before, after) = (weight * balancing.before, weight * left.norm());
     let limit = weight * area * NEGLIGIBLE_MM;
     let note = match (balancing.holes.as_slice(), &balancing.unbalanced) {
-        ([(centre, radius), ..], _) => format!(
-            "{} holes of radius {radius:.4} mm at {:.4} mm from the shaft cancel {before:.0} g·mm",
+        ([(centre, radius), ..], _) => text!(
+            "{} holes of radius {} at {} from the shaft cancel {} g·mm",
             balancing.holes.len(),
-            centre.norm()
+            Length::mm(*radius).decimals(4),
+            Length::mm(centre.norm()).decimals(4),
+            format_args!("{:.0}", before)
         ),
         ([], Some(unbalanced)) => words(unbalanced, weight, before),
         ([], None) => "nothing to balance".into(),
@@ -48,25 +51,29 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     Some(Finding { note: Some(note), ..CHECK.found(after, Some(limit), Verdict::of(after <= limit)) })
 }
 
-fn words(unbalanced: &BalanceFailure, weight: f64, before: f64) -> String {
+fn words(unbalanced: &BalanceFailure, weight: f64, before: f64) -> Text {
     let family = format!("1 to {MOST_HOLES} equal holes, evenly spaced on an arc about the heavy side");
     let best = unbalanced.best.map_or_else(
-        || format!("no hole fits into the band of cam.balance; tried: {family}"),
+        || text!("no hole fits into the band of cam.balance; tried: {}", &family),
         |row| {
-            format!(
-                "the band of cam.balance is too narrow: with {family}, at least {:.0} g·mm remain; {} of radius {:.2} mm at \
-                 {:.2} mm from the shaft, {:.2}° apart, would leave {:.0} g·mm",
-                weight * unbalanced.least,
+            text!(
+                "the band of cam.balance is too narrow: with {}, at least {} g·mm remain; {} of radius {} at \
+                 {} from the shaft, {}° apart, would leave {} g·mm",
+                &family,
+                format_args!("{:.0}", weight * unbalanced.least),
                 row.count,
-                row.radius,
-                row.distance,
-                row.apart * 180.0 / PI,
-                before - weight * row.moment()
+                Length::mm(row.radius).decimals(2),
+                Length::mm(row.distance).decimals(2),
+                format_args!("{:.2}", row.apart * 180.0 / PI),
+                format_args!("{:.0}", before - weight * row.moment())
             )
         },
     );
     match unbalanced.band {
-        Some((inner, outer)) => format!("{best}; cam.balance = \"{inner} mm .. {outer} mm\" would pass"),
-        None => format!("{best}; no wider band would help"),
+        Some((inner, outer)) => {
+            let change = KeyChange::new("cam.balance", format!("{inner} mm .. {outer} mm"));
+            best.and("; ", text!("{} would pass", Remedy::new([change])))
+        }
+        None => best.and("; ", "no wider band would help"),
     }
 }

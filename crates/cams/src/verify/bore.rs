@@ -10,6 +10,7 @@ use camgen_kernel::geometry::chain_distance::{FarthestPlace, farthest_place};
 use camgen_kernel::geometry::contour::{Contour, Edge, Segment};
 use camgen_kernel::geometry::edge_tree::EdgeTree;
 use camgen_kernel::geometry::{Entity, MILLIMETRES};
+use camgen_kernel::text::{Length, LengthKind, Text, text};
 use nalgebra::Vector2;
 
 pub(super) const CHECK: FileCheck = FileCheck {
@@ -39,13 +40,13 @@ const MOST_LISTED: usize = 5;
 struct ExtraCuts {
     /// Largest distance, mm; infinite where something is missing or something else is cut.
     value: f64,
-    faults: Vec<String>,
+    faults: Vec<Text>,
     /// Where the first fault is.
     place: Option<Vector2<f64>>,
 }
 
 impl ExtraCuts {
-    fn fault(&mut self, value: f64, words: String, place: Vector2<f64>) {
+    fn fault(&mut self, value: f64, words: Text, place: Vector2<f64>) {
         self.value = self.value.max(value);
         self.faults.push(words);
         self.place.get_or_insert(place);
@@ -56,10 +57,10 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let judged = evidence.outlines.iter().enumerate().map(|(index, outline)| of_outline(evidence, index, outline));
     let worst = judged.max_by(|a, b| a.faults.len().cmp(&b.faults.len()).then(a.value.total_cmp(&b.value)))?;
     let verdict = Verdict::of(worst.faults.is_empty());
-    let mut words: Vec<String> = worst.faults.iter().take(MOST_LISTED).cloned().collect();
-    words.extend((worst.faults.len() > MOST_LISTED).then(|| format!("and {} more", worst.faults.len() - MOST_LISTED)));
+    let mut words: Vec<Text> = worst.faults.iter().take(MOST_LISTED).cloned().collect();
+    words.extend((worst.faults.len() > MOST_LISTED).then(|| text!("and {} more", worst.faults.len() - MOST_LISTED)));
     Some(Finding {
-        note: (!words.is_empty()).then(|| words.join("; ")),
+        note: (!words.is_empty()).then(|| Text::joined(words, "; ")),
         place: worst.place.map(|point| place(evidence.body, point)).unwrap_or_default(),
         ..CHECK.found(worst.value, Some(evidence.tolerance_mm), verdict)
     })
@@ -103,7 +104,7 @@ fn judge(expected: &[Entity], found: &[&Chain], tolerance: f64) -> ExtraCuts {
                 let chain = free.remove(place);
                 judged.value = judged.value.max(far.distance);
                 if !runs_once(chain, &wanted, tolerance) {
-                    judged.fault(far.distance, format!("{} runs back and forth", located(chain)), far.place);
+                    judged.fault(far.distance, text!("{} runs back and forth", located(chain)), far.place);
                 }
             }
             _ => missing.push((name(index, hole, expected), hole, wanted)),
@@ -116,14 +117,14 @@ fn judge(expected: &[Entity], found: &[&Chain], tolerance: f64) -> ExtraCuts {
         match near.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance)) {
             Some((place, far)) => {
                 let chain = free.remove(place);
-                let words = format!("{}: {}", located(chain), difference(name, hole, chain, far.distance));
+                let words = text!("{}: {}", located(chain), difference(name, hole, chain, far.distance));
                 judged.fault(far.distance, words, far.place);
             }
-            None => judged.fault(f64::INFINITY, format!("{name} is missing: {}", what(hole)), start(&wanted)),
+            None => judged.fault(f64::INFINITY, text!("{} is missing: {}", name, what(hole)), start(&wanted)),
         }
     }
     for chain in free {
-        let words = format!("{} would be cut and does not belong to the cam", located(chain));
+        let words = text!("{} would be cut and does not belong to the cam", located(chain));
         judged.fault(f64::INFINITY, words, centre(chain));
     }
     judged
@@ -143,10 +144,11 @@ fn start(contour: &Contour) -> Vector2<f64> {
 }
 
 /// A chain for a message: what it is and where it lies.
-fn located(chain: &Chain) -> String {
+fn located(chain: &Chain) -> Text {
     let at = centre(chain);
     let kind = if chain.closed { "" } else { " (open)" };
-    format!("{} at ({:.3}, {:.3}) mm{kind}", chain.names(), at.x, at.y)
+    let [x, y] = [at.x, at.y].map(|at| Length::mm(at).decimals(3).bare());
+    text!("{} at ({}, {}) {}{}", chain.names(), x, y, &LengthKind::MM, kind)
 }
 
 /// The centroid of a closed chain, or the middle of the first segment of an open one.
@@ -205,33 +207,46 @@ fn circle(chain: &Chain) -> Option<(Vector2<f64>, f64)> {
     (chain.closed && same).then_some((centre, radius))
 }
 
-fn what(hole: &Entity) -> String {
+fn what(hole: &Entity) -> Text {
     match hole {
         Entity::Circle(centre, radius) => {
-            format!("radius {radius:.4} mm at ({:.3}, {:.3}) mm", centre.x, centre.y)
+            text!(
+                "radius {} at ({}, {}) {}",
+                Length::mm(*radius).decimals(4),
+                Length::mm(centre.x).decimals(3).bare(),
+                Length::mm(centre.y).decimals(3).bare(),
+                &LengthKind::MM
+            )
         }
         Entity::Polyline(_) | Entity::Segment(_) => "with its keyway".into(),
     }
 }
 
 /// How the contour found in the place of a hole differs from it.
-fn difference(name: &str, hole: &Entity, chain: &Chain, distance: f64) -> String {
+fn difference(name: &str, hole: &Entity, chain: &Chain, distance: f64) -> Text {
     match (hole, circle(chain)) {
         (Entity::Circle(centre, radius), Some((found, of))) => {
             let by = found - centre;
             let mut words = Vec::new();
             if (of - radius).abs() > 1e-3 * distance {
-                words.push(format!("has a radius of {of:.4} mm, not {radius:.4} mm"));
+                words.push(text!(
+                    "has a radius of {}, not {}",
+                    Length::mm(of).decimals(4),
+                    Length::mm(*radius).decimals(4)
+                ));
             }
             if by.norm() > 1e-3 * distance {
-                words.push(format!("is moved by ({:.4}, {:.4}) mm", by.x, by.y));
+                let [x, y] = [by.x, by.y].map(|by| Length::mm(by).decimals(4).bare());
+                words.push(text!("is moved by ({}, {}) {}", x, y, &LengthKind::MM));
             }
-            format!("{name} {}", words.join(" and "))
+            text!("{} {}", name, Text::joined(words, " and "))
         }
-        (Entity::Polyline(_) | Entity::Segment(_), Some(_)) => format!("{name} has no keyway"),
-        (Entity::Circle(..), None) => format!("{name} is not a circle: it deviates by up to {distance:.4} mm"),
+        (Entity::Polyline(_) | Entity::Segment(_), Some(_)) => text!("{} has no keyway", name),
+        (Entity::Circle(..), None) => {
+            text!("{} is not a circle: it deviates by up to {}", name, Length::mm(distance).decimals(4))
+        }
         (Entity::Polyline(_) | Entity::Segment(_), None) => {
-            format!("{name} with its keyway deviates by up to {distance:.4} mm")
+            text!("{} with its keyway deviates by up to {}", name, Length::mm(distance).decimals(4))
         }
     }
 }
@@ -260,7 +275,7 @@ mod tests {
     }
 
     fn words(expected: &[Entity], found: &[Chain]) -> String {
-        judge(expected, &found.iter().collect::<Vec<_>>(), 0.005).faults.join("; ")
+        Text::joined(judge(expected, &found.iter().collect::<Vec<_>>(), 0.005).faults, "; ").to_string()
     }
 
     #[test]

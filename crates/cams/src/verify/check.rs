@@ -9,6 +9,7 @@ use crate::report::{Finding, Place, Rolled};
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::profile::Worst;
 use camgen_kernel::profile::outline::MotionTolerance;
+use camgen_kernel::text::Text;
 use nalgebra::Vector2;
 use std::ops::Deref;
 
@@ -164,8 +165,8 @@ impl Deref for CheckEntry {
 
 /// A finding at a worst place, with notes about the place and more.
 pub(super) fn at(body: &dyn Body, worst: &Worst, finding: Finding, more: Option<String>) -> Finding {
-    let words: Vec<String> = body.along_axis(worst.z).into_iter().chain(more).collect();
-    Finding { place: body.place(worst.at), note: (!words.is_empty()).then(|| words.join("; ")), ..finding }
+    let note = Text::from(body.along_axis(worst.z)).and("; ", more);
+    Finding { place: body.place(worst.at), note: Some(note).filter(|note| !note.is_empty()), ..finding }
 }
 
 /// The place on the cam of a point of the drawing (mm).

@@ -50,7 +50,7 @@ fn along(evidence: &Evidence<'_>, path: &WrittenPath) -> Option<Finding> {
     let limit = evidence.tolerance_mm;
     let none = |why: String| {
         let found = CHECK.found(f64::INFINITY, Some(limit), Verdict::Fail);
-        Some(Finding { note: Some(why), ..found })
+        Some(Finding { note: Some(why.into()), ..found })
     };
     let contour = match &path.contour {
         Ok(contour) => contour,
@@ -73,7 +73,7 @@ fn along(evidence: &Evidence<'_>, path: &WrittenPath) -> Option<Finding> {
         contour.vertices.len(),
     );
     let found = CHECK.found(left.distance, Some(limit), Verdict::of(left.kept));
-    Some(Finding { place: place(evidence.body, left.at), note: Some(note), ..found })
+    Some(Finding { place: place(evidence.body, left.at), note: Some(note.into()), ..found })
 }
 
 /// What a cutter leaves along a path.
@@ -107,7 +107,11 @@ pub(crate) fn left_behind(
         Ok(worst) => (worst, worst.distance <= room, None),
         Err(lost) => {
             let at = place(evidence.body, lost.at);
-            (two_sided_distance(&moved, &profile), false, Some(format!("the cut departs from the profile at {at}")))
+            (
+                two_sided_distance(&moved, &profile),
+                false,
+                Some(format!("the cut departs from the profile at {}", at.text())),
+            )
         }
     };
     Ok(Some(LeftBehind { distance: worst.distance + middle.abs(), at: worst.at, kept, fault }))

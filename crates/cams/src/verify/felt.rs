@@ -110,7 +110,7 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
             shown(of_velocity * evidence.motion.velocity)
         );
     }
-    Some(Finding { place: motion.acceleration_error.1, note: Some(note), ..found })
+    Some(Finding { place: motion.acceleration_error.1, note: Some(note.into()), ..found })
 }
 
 fn words(motion: &AsCutError) -> String {
@@ -120,12 +120,12 @@ fn words(motion: &AsCutError) -> String {
         shown(motion.acceleration_error.0),
         shown(motion.acceleration_of_motion),
         shown(motion.acceleration_step.0),
-        motion.acceleration_step.1,
+        motion.acceleration_step.1.text(),
         shown(motion.velocity_error.0),
-        motion.velocity_error.1,
+        motion.velocity_error.1.text(),
     );
     if let Some((step, place)) = motion.velocity_step {
-        words += &format!("; at the kinks the velocity steps by up to {} {velocity}, at {place}", shown(step));
+        words += &format!("; at the kinks the velocity steps by up to {} {velocity}, at {}", shown(step), place.text());
     }
     let unit = if motion.swings { "rad/s²" } else { "m/s²" };
     if let (Some(error), Some(motion)) =

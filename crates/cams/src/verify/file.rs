@@ -3,9 +3,10 @@
 use super::check::{Evidence, FileCheck, place};
 use crate::check::{Check, CheckExplanation};
 use crate::reading::{Chain, FileUnit, INCHES, OUTLINE_LAYER, OutlinePlace, Reading, StrayEntity, few};
-use crate::report::{Bound, Finding, Verdict, shown};
+use crate::report::{Bound, Finding, Verdict};
 use camgen_kernel::geometry::contour::Edge;
 use camgen_kernel::geometry::nearest_points::nearest_distances;
+use camgen_kernel::text::{Length, Text, text};
 use camgen_kernel::units::LengthUnit;
 use nalgebra::Vector2;
 
@@ -121,7 +122,7 @@ fn worse(first: Finding, next: Finding) -> Finding {
 
 #[expect(clippy::cast_precision_loss, reason = "counts of things in a file")]
 fn count(check: &Check, found: usize, limit: usize, kept: bool, note: Option<String>) -> Finding {
-    Finding { note, ..check.found(found as f64, Some(limit as f64), Verdict::of(kept)) }
+    Finding { note: note.map(Text::from), ..check.found(found as f64, Some(limit as f64), Verdict::of(kept)) }
 }
 
 fn layer(reading: &Reading) -> Finding {
@@ -166,7 +167,7 @@ fn unit(stated: FileUnit, files: LengthUnit) -> Finding {
     };
     let found = UNITS.found(1.0, None, verdict);
     let unit = if verdict == Verdict::Pass && files == LengthUnit::Inch { "in".into() } else { found.unit.clone() };
-    Finding { unit, note, ..found }
+    Finding { unit, note: note.map(Text::from), ..found }
 }
 
 fn readable(evidence: &Evidence<'_>, reading: &Reading) -> Finding {
@@ -231,11 +232,14 @@ fn closed(evidence: &Evidence<'_>, reading: &Reading) -> Option<Finding> {
     let Some((gap, end)) = widest_gap(&reading.chains) else {
         return Some(CLOSED.found(reading.chains.first()?.gap(), limit, Verdict::Pass));
     };
-    let missed = format!("ends that should meet miss each other by up to {} mm", shown(gap));
+    let missed = Length::mm(gap);
     let note = if gap <= LOOSE * evidence.tolerance_mm {
-        format!("the outline is open: {missed}; join them, or save the file with more decimals")
+        text!(
+            "the outline is open: ends that should meet miss each other by up to {}; join them, or save the file with more decimals",
+            missed
+        )
     } else {
-        format!("the outline is open: {missed}")
+        text!("the outline is open: ends that should meet miss each other by up to {}", missed)
     };
     Some(Finding { place: place(evidence.body, end), note: Some(note), ..CLOSED.found(gap, limit, Verdict::Fail) })
 }

@@ -7,11 +7,12 @@ use super::check::{Evidence, FileCheck};
 use super::swept;
 use crate::body::Layer;
 use crate::check::{Check, CheckExplanation, CheckScope};
-use crate::report::{Bound, Finding, Verdict, shown};
+use crate::report::{Bound, Finding, Verdict};
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::geometry::edge_tree::EdgeTree;
 use camgen_kernel::numeric::extremum;
 use camgen_kernel::profile::{Curves, Worst};
+use camgen_kernel::text::{Length, text};
 
 pub(super) const CHECK: FileCheck = FileCheck {
     check: Check {
@@ -62,14 +63,16 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
         width if width < roller => Verdict::Warn,
         _ => Verdict::Pass,
     };
-    let (least_width, missing) = (shown(least.value), shown(1e3 * (roller - least.value)));
     let note = match verdict {
-        Verdict::Fail => format!("{least_width} mm, and {} mm is the width of the design", shown(nominal)),
-        Verdict::Warn => format!(
-            "within the tolerance the roller is pinched by up to {missing} µm: give cam.clearance, or --side inside, with which no flank is nearer \
-             than it should be"
+        Verdict::Fail => {
+            text!("{}, and {} is the width of the design", Length::mm(least.value), Length::mm(nominal))
+        }
+        Verdict::Warn => text!(
+            "within the tolerance the roller is pinched by up to {}: give cam.clearance, or --side inside, with which no flank is nearer \
+             than it should be",
+            Length::um_of_mm(roller - least.value)
         ),
-        _ => format!("the roller has {} mm of room", shown(least.value - roller)),
+        _ => text!("the roller has {} of room", Length::mm(least.value - roller)),
     };
     let found = CHECK.found(least.value, Some(nominal - slack), verdict);
     Some(Finding { place: evidence.body.place(least.at), note: Some(note), ..found })
@@ -87,10 +90,10 @@ fn of_swept(evidence: &Evidence<'_>, (out, at): (f64, f64)) -> Finding {
         _ => Verdict::Pass,
     };
     let note = match verdict {
-        Verdict::Pass => format!("the roller has at least {} mm of room", shown(least - roller)),
-        _ => format!(
-            "within the tolerance the roller may be pinched by {} mm: give cam.clearance",
-            shown(roller - least)
+        Verdict::Pass => text!("the roller has at least {} of room", Length::mm(least - roller)),
+        _ => text!(
+            "within the tolerance the roller may be pinched by {}: give cam.clearance",
+            Length::mm(roller - least)
         ),
     };
     Finding { place: evidence.body.place(at), note: Some(note), ..CHECK.found(least, Some(nominal - slack), verdict) }

@@ -8,6 +8,7 @@ use crate::report::{Bound, Finding, Verdict};
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::geometry::edge_tree::EdgeTree;
 use camgen_kernel::geometry::lead_in;
+use camgen_kernel::text::Text;
 use nalgebra::Vector2;
 
 pub(super) const CHECK: FileCheck = FileCheck {
@@ -91,7 +92,11 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
         }
         (None, false) => (Verdict::Pass, None),
     };
-    Some(Finding { note, place: place(evidence.body, worst.at), ..CHECK.found(worst.value, Some(limit), verdict) })
+    Some(Finding {
+        note: note.map(Text::from),
+        place: place(evidence.body, worst.at),
+        ..CHECK.found(worst.value, Some(limit), verdict)
+    })
 }
 
 #[cfg(test)]

@@ -4,12 +4,13 @@
 
 use super::check::{Evidence, FileCheck, WrittenOutline, place};
 use crate::check::{Check, CheckExplanation, CheckScope};
-use crate::report::{Bound, Finding, Verdict, shown, to_type};
+use crate::report::{Bound, Finding, Verdict, to_type};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::geometry::following::{FollowingError, FollowingFault, follow};
 use camgen_kernel::geometry::two_sided_distance::two_sided_distance;
 use camgen_kernel::numeric::parallel;
+use camgen_kernel::text::{Length, Text, text};
 use nalgebra::Vector2;
 
 pub(super) const CHECK: FileCheck = FileCheck {
@@ -57,19 +58,20 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let kept = worst.distance <= limit && !fails(&worst);
     let found = CHECK.found(worst.distance, Some(limit), Verdict::of(kept));
     let words = [
-        worst.without.clone(),
+        worst.without.clone().map(Text::from),
         worst.lost.map(|lost| words(evidence, &lost)),
         evidence.body.along_axis(worst.z),
         zone.filter(|zone| !kept && worst.distance > *zone && worst.without.is_none()).map(|zone| {
             let finer = to_type(1e3 * 0.5 * zone);
-            format!(
-                "title.profile_tolerance permits {} mm; --tolerance {finer}um leaves half of it to manufacture",
-                shown(zone)
+            text!(
+                "title.profile_tolerance permits {}; --tolerance {}um leaves half of it to manufacture",
+                Length::mm(zone),
+                finer
             )
         }),
-        worst.without.is_none().then(|| format!("in both directions, over {} segments", segments(evidence.outlines))),
+        worst.without.is_none().then(|| text!("in both directions, over {} segments", segments(evidence.outlines))),
     ];
-    let note = words.into_iter().flatten().collect::<Vec<_>>().join("; ");
+    let note = Text::joined(words.into_iter().flatten(), "; ");
     Some(Finding { place: place(evidence.body, worst.at), note: Some(note), ..found })
 }
 
@@ -110,12 +112,12 @@ fn turns(contour: &Contour) -> bool {
     contour.turns() == 1.0
 }
 
-fn words(evidence: &Evidence<'_>, lost: &FollowingError) -> String {
+fn words(evidence: &Evidence<'_>, lost: &FollowingError) -> Text {
     let at = place(evidence.body, lost.at);
     let what = match lost.why {
         FollowingFault::Back => "turns back, or runs across the profile,",
         FollowingFault::Away => "leaves the profile",
         FollowingFault::Turns => "does not go round once: it departs from the profile",
     };
-    format!("the outline {what} at {at}")
+    text!("the outline {} at {}", what, at.text())
 }

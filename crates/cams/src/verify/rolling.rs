@@ -12,12 +12,13 @@ use super::check::{Evidence, FileCheck, WrittenOutline};
 use super::{felt, sphere};
 use crate::body::{Body, LoadAsCut};
 use crate::check::{Check, CheckExplanation, CheckScope};
-use crate::report::{Bound, Finding, Place, Rolled, Verdict, shown};
+use crate::report::{Bound, Finding, Place, Rolled, Verdict};
 use camgen_kernel::follower::{Element, Touch};
 use camgen_kernel::geometry::contour::{Contour, Edge};
 use camgen_kernel::geometry::edge_tree::{Chords, EdgeTree, NearestCache};
 use camgen_kernel::motion::{Jet, Quantity};
 use camgen_kernel::profile::Curves;
+use camgen_kernel::text::{Length, LengthKind, text};
 use nalgebra::Vector2;
 use std::cell::Cell;
 
@@ -439,14 +440,18 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let agree = rolled.chord_difference_mm <= rolled.chord_sagitta_mm + ROUNDING * size;
     let kept = rolled.gap_mm.abs() <= evidence.tolerance_mm;
     let found = CHECK.found(rolled.gap_mm.abs(), Some(evidence.tolerance_mm), Verdict::of(kept && agree));
-    Some(Finding { place: rolled.gap_at, note: Some(words(rolled, kept, agree)), ..found })
+    Some(Finding { place: rolled.gap_at, note: Some(words(rolled, kept, agree).into()), ..found })
 }
 
 fn words(rolled: &Rolled, kept: bool, agree: bool) -> String {
     let fault = if rolled.gap_mm > 0.0 { "metal is missing" } else { "metal is in excess" };
     let lift = match (rolled.lift_error_max_mm, rolled.lift_error_q99_mm) {
         (Some(most), Some(q99)) => {
-            format!("lift off by {} µm at most, {} µm in 99 of 100", shown(1e3 * most), shown(1e3 * q99))
+            text!(
+                "lift off by {} at most, {} in 99 of 100",
+                Length::new(1e3 * most, &LengthKind::UM),
+                Length::new(1e3 * q99, &LengthKind::UM)
+            )
         }
         _ => "there is a place at which the roller does not touch along its path".into(),
     };
@@ -457,7 +462,8 @@ fn words(rolled: &Rolled, kept: bool, agree: bool) -> String {
         rolled.chords,
         if agree { "agrees" } else { "DISAGREES" },
     );
-    let double = rolled.double_contact_at.map_or(String::new(), |at| format!("; two simultaneous contacts at {at}"));
+    let double =
+        rolled.double_contact_at.map_or(String::new(), |at| format!("; two simultaneous contacts at {}", at.text()));
     if kept { format!("{compared}{double}") } else { format!("{fault}; {compared}{double}") }
 }
 

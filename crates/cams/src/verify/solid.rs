@@ -10,6 +10,7 @@ use crate::report::{Bound, Finding, Verdict};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::geometry::edge_tree::EdgeTree;
+use camgen_kernel::text::{Length, LengthKind, Text, text};
 
 pub(super) const SOLIDS: FileCheck = FileCheck::on_file(
     "solids",
@@ -117,7 +118,7 @@ fn counted(check: &Check, found: usize, limit: usize, sentences: &[String]) -> F
         words.push(format!("and {} more", sentences.len() - MOST_SENTENCES));
     }
     let verdict = Verdict::of(found == limit && sentences.is_empty());
-    let note = (!words.is_empty()).then(|| words.join("; "));
+    let note = (!words.is_empty()).then(|| words.join("; ").into());
     Finding { note, ..check.found(found as f64, Some(limit as f64), verdict) }
 }
 
@@ -185,8 +186,10 @@ fn thickness(evidence: &Evidence<'_>, solid: &WrittenSolid) -> Finding {
     let limit = evidence.tolerance_mm;
     let (value, note) = match worst {
         Some((z, off)) if !low.is_empty() && !high.is_empty() => {
-            let sentences = (off.abs() > limit)
-                .then(|| format!("an end face lies at z = {z:.6} mm; the ends should be at {from:.6} and {to:.6} mm"));
+            let sentences = (off.abs() > limit).then(|| {
+                let [z, from, to] = [*z, from, to].map(|z| Length::mm(z).decimals(6));
+                text!("an end face lies at z = {}; the ends should be at {} and {}", z, from.bare(), to)
+            });
             (off.abs(), sentences)
         }
         _ => (f64::INFINITY, Some("the solid needs one end face above and one below".into())),
@@ -213,7 +216,8 @@ fn volume(evidence: &Evidence<'_>, solid: &WrittenSolid) -> Option<Finding> {
         return Some(VOLUME.not_run("a face or an edge was not read"));
     };
     let kept = volume > 0.0 && (volume / expected - 1.0).abs() <= VOLUME_TOLERANCE;
-    let note = (!kept).then(|| format!("area times thickness is {expected:.3} mm³"));
+    let note =
+        (!kept).then(|| text!("area times thickness is {}", Length::new(expected, &LengthKind::MM3).decimals(3)));
     Some(Finding { note, ..VOLUME.found(volume, Some(expected), Verdict::of(kept)) })
 }
 
@@ -236,9 +240,9 @@ fn holes(evidence: &Evidence<'_>, solid: &WrittenSolid) -> Finding {
     let expected = part.hole_contours();
     let value = farthest(&found, &expected).max(farthest(&expected, &found));
     let note = if found.len() == expected.len() {
-        (value > limit).then(|| "a hole is in another place or has another shape".to_owned())
+        (value > limit).then(|| Text::from("a hole is in another place or has another shape"))
     } else {
-        Some(format!("{} holes; there should be {}", found.len(), expected.len()))
+        Some(text!("{} holes; there should be {}", found.len(), expected.len()))
     };
     let kept = value <= limit && found.len() == expected.len();
     Finding { note, ..HOLES.found(value, Some(limit), Verdict::of(kept)) }

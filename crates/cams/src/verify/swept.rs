@@ -12,9 +12,10 @@ use crate::body::{Body, Layer, RoundFace, SweptFlanks};
 use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::reading::step::{FaceLoop, StepBoundary, StepCurve, StepFace, StepSurface};
 use crate::reading::{Chain, FileUnit};
-use crate::report::{Bound, Finding, Verdict, shown};
+use crate::report::{Bound, Finding, Verdict};
 use camgen_kernel::geometry::contour::{Contour, Edge};
 use camgen_kernel::geometry::nurbs::NurbsSurface;
+use camgen_kernel::text::{Length, Text, text};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
 
@@ -92,13 +93,13 @@ const LEVEL: f64 = 1e-9;
 fn unrolled(evidence: &Evidence<'_>, found: &Developed) -> Option<Finding> {
     let exact = evidence.body.swept()?;
     let limit = evidence.tolerance_mm;
-    let mut words = found.faults.clone();
+    let mut words: Vec<Text> = found.faults.iter().cloned().map(Text::from).collect();
     let mut worst = (0.0, 0.0);
     let mut segments = 0;
     for (layer, ends) in exact.developed() {
         let chains = found.curves.iter().find(|(other, _)| *other == layer).map_or(&[][..], |(_, chains)| chains);
         let [chain] = chains else {
-            words.push(format!("layer {} has {} curves, not one", layer.name(), chains.len()));
+            words.push(text!("layer {} has {} curves, not one", layer.name(), chains.len()));
             continue;
         };
         segments += chain.edges.len();
@@ -115,22 +116,22 @@ fn unrolled(evidence: &Evidence<'_>, found: &Developed) -> Option<Finding> {
         }
     }
     let kept = words.is_empty() && worst.0 <= limit;
-    words.push(format!("{segments} arcs and lines as read from the file"));
+    words.push(text!("{} arcs and lines as read from the file", segments));
     let finding = UNROLLED.found(worst.0, Some(limit), Verdict::of(kept));
-    Some(Finding { place: evidence.body.place(worst.1), note: Some(words.join("; ")), ..finding })
+    Some(Finding { place: evidence.body.place(worst.1), note: Some(Text::joined(words, "; ")), ..finding })
 }
 
 /// What is wrong with the course of a chain that should run from one end to the other without turning back.
-fn runs_once(layer: Layer, chain: &Chain, [first, last]: [Vector2<f64>; 2], limit: f64) -> Option<String> {
+fn runs_once(layer: Layer, chain: &Chain, [first, last]: [Vector2<f64>; 2], limit: f64) -> Option<Text> {
     let (start, end) = (chain.edges.first()?.start(), chain.edges.last()?.end());
     let apart = |a: Vector2<f64>, b: Vector2<f64>| (a - first).norm().max((b - last).norm());
     let off = apart(start, end).min(apart(end, start));
     if !(off <= 2.0 * limit) {
-        return Some(format!("the curve of {} misses its ends by {} mm", layer.name(), shown(off)));
+        return Some(text!("the curve of {} misses its ends by {}", layer.name(), Length::mm(off)));
     }
     let way = (end.x - start.x).signum();
     let back = chain.edges.iter().any(|edge: &Edge| way * (edge.end().x - edge.start().x) <= 0.0);
-    back.then(|| format!("the curve of {} turns back", layer.name()))
+    back.then(|| text!("the curve of {} turns back", layer.name()))
 }
 
 fn flank_surface(evidence: &Evidence<'_>, solid: &SweptSolid) -> Finding {
@@ -139,47 +140,48 @@ fn flank_surface(evidence: &Evidence<'_>, solid: &SweptSolid) -> Finding {
     let found = upper.with(lower);
     let both = solid.rolled.iter().all(|flank| flank.samples > 0);
     let kept = both && !found.folded && found.worst.value.abs() <= limit && found.bound <= SLACK * limit;
-    let mut words = vec![format!(
-        "{} patches as read from the file, at {} places, at most {:.6} mm between them",
+    let mut words = vec![text!(
+        "{} patches as read from the file, at {} places, at most {} between them",
         solid.form.patches.len(),
         found.samples,
-        found.bound
+        Length::mm(found.bound).decimals(6)
     )];
     if !both {
-        words.push("a flank is missing".to_owned());
+        words.push("a flank is missing".into());
     }
     if found.folded {
-        words.push("a patch is folded or turned inside out".to_owned());
+        words.push("a patch is folded or turned inside out".into());
     }
     let value = if both { found.worst.value.abs() } else { f64::INFINITY };
     let finding = FLANK_SURFACE.found(value, Some(limit), Verdict::of(kept));
-    Finding { place: evidence.body.place(found.worst.at), note: Some(words.join("; ")), ..finding }
+    Finding { place: evidence.body.place(found.worst.at), note: Some(Text::joined(words, "; ")), ..finding }
 }
 
 fn solid_shell(evidence: &Evidence<'_>, solid: &SweptSolid) -> Finding {
-    let mut sentences = [&solid.file.faults[..], &solid.form.open[..], &solid.form.strange[..]].concat();
+    let faults = [&solid.file.faults, &solid.form.open, &solid.form.strange];
+    let mut sentences: Vec<Text> = faults.into_iter().flatten().cloned().map(Text::from).collect();
     if solid.file.bodies.len() != 1 {
-        sentences.push(format!("the file holds {} bodies, not one solid", solid.file.bodies.len()));
+        sentences.push(text!("the file holds {} bodies, not one solid", solid.file.bodies.len()));
     }
     if let FileUnit::Other(name) = solid.file.unit {
-        sentences.push(format!("the file is in {name}, not in millimetres"));
+        sentences.push(text!("the file is in {}, not in millimetres", name));
     }
     sentences.extend(faults_of_faces(evidence, solid));
     #[expect(clippy::cast_precision_loss, reason = "a count")]
     let count = sentences.len() as f64;
     sentences.truncate(3);
-    let note = (!sentences.is_empty()).then(|| sentences.join("; "));
+    let note = (!sentences.is_empty()).then(|| Text::joined(sentences, "; "));
     Finding { note, ..SOLID_SHELL.found(count, Some(0.0), Verdict::of(count == 0.0)) }
 }
 
 /// Faces that lie elsewhere, a sentence each.
-fn faults_of_faces(evidence: &Evidence<'_>, solid: &SweptSolid) -> Vec<String> {
+fn faults_of_faces(evidence: &Evidence<'_>, solid: &SweptSolid) -> Vec<Text> {
     let Some(exact) = evidence.body.swept().map(SweptFlanks::form) else { return Vec::new() };
     let limit = evidence.tolerance_mm;
     let mut sentences = Vec::new();
     for (heights, due, name) in [(&solid.form.low, exact.ends.0, "lower"), (&solid.form.high, exact.ends.1, "upper")] {
         if heights.is_empty() || heights.iter().any(|height| !((height - due).abs() <= limit)) {
-            sentences.push(format!("the {name} end is not at z = {} mm", shown(due)));
+            sentences.push(text!("the {} end is not at z = {}", name, Length::mm(due)));
         }
     }
     let rims = |face: &StepFace| {
@@ -193,10 +195,10 @@ fn faults_of_faces(evidence: &Evidence<'_>, solid: &SweptSolid) -> Vec<String> {
         }
         let off = exact.faces.iter().map(|due| off_face(due, face, scale)).fold(f64::INFINITY, f64::min);
         if !(off <= limit) {
-            sentences.push(format!("the face of line {} is no flank, floor, outside or end of this cam", face.line));
+            sentences.push(text!("the face of line {} is no flank, floor, outside or end of this cam", face.line));
         }
     }
-    sentences.extend(faults_of_ends(evidence, solid, exact.rim));
+    sentences.extend(faults_of_ends(evidence, solid, exact.rim).into_iter().map(Text::from));
     sentences
 }
 
@@ -269,7 +271,7 @@ fn solid_volume(evidence: &Evidence<'_>, solid: &SweptSolid) -> Finding {
     let expected = exact.volume + drilled * (exact.ends.1 - exact.ends.0);
     let kept = (volume / expected - 1.0).abs() <= VOLUME_TOLERANCE;
     let note = format!("off the integral by a share of {:.1e}", (volume / expected - 1.0).abs());
-    Finding { note: Some(note), ..SOLID_VOLUME.found(volume, Some(expected), Verdict::of(kept)) }
+    Finding { note: Some(note.into()), ..SOLID_VOLUME.found(volume, Some(expected), Verdict::of(kept)) }
 }
 
 /// ∬ z n_z over a part of a cone or a torus about the axis, mm³: by Stokes ∮ H dφ along its edges, with the polar angle φ and H the integral of z ρ dρ along the

@@ -7,6 +7,7 @@ use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::report::{Bound, Finding, Place, Verdict};
 use camgen_kernel::geometry::contour::Vertex;
 use camgen_kernel::profile::followed::LARGEST_SMOOTH_KINK;
+use camgen_kernel::text::{Length, text};
 
 pub(super) const CHECK: FileCheck = FileCheck {
     check: Check {
@@ -40,7 +41,11 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let value = turn.abs().to_degrees();
     let found = CHECK.found(value, Some(LARGEST_SMOOTH_KINK), Verdict::of(value <= LARGEST_SMOOTH_KINK));
     Some(match body.surface() {
-        Some(_) => Finding { place: Place::default(), note: Some(format!("at z = {:.3} mm", 1e3 * z)), ..found },
+        Some(_) => Finding {
+            place: Place::default(),
+            note: Some(text!("at z = {}", Length::mm(1e3 * z).decimals(3))),
+            ..found
+        },
         None => Finding { place: place(body, vertex.point), ..found },
     })
 }

@@ -180,7 +180,7 @@ fn layer(group: &ShapeGroup, scale: f64, with_lengths: bool) -> element::Group {
         .set("id", group.id.as_str())
         .set("class", group.class)
         .set("inkscape:groupmode", "layer")
-        .set("inkscape:label", printable(&group.label));
+        .set("inkscape:label", printable(&group.label.to_string()));
     if let Some(colour) = &group.colour {
         node = node.set("stroke", colour.as_str());
     }

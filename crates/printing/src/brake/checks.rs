@@ -3,9 +3,10 @@
 use super::BrakeDisc;
 use super::tension::{as_cut, is_mirrored};
 use camgen_cams::check::{AsWritten, Check, CheckExplanation, CheckScope, Measure, Subject};
-use camgen_cams::report::{Bound, shown};
+use camgen_cams::report::Bound;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::{Length, text};
 
 /// The check.
 pub const TENSION: Check = Check {
@@ -109,10 +110,12 @@ pub fn tension_as_cut(
     };
     let (least, largest, wanted) = (cut.least.tension, cut.largest.tension, holding.tension());
     let worst = if largest - wanted > wanted - least { cut.largest.radius } else { cut.least.radius };
-    let note = format!(
-        "as cut {least:.3} N at {} mm of the roll, {largest:.3} N at {} mm",
-        shown(MILLIMETRES * cut.least.radius),
-        shown(MILLIMETRES * cut.largest.radius)
+    let note = text!(
+        "as cut {} N at {} of the roll, {} N at {}",
+        format_args!("{:.3}", least),
+        Length::mm(MILLIMETRES * cut.least.radius),
+        format_args!("{:.3}", largest),
+        Length::mm(MILLIMETRES * cut.largest.radius)
     );
     let measure = TENSION.measure((largest - least) / largest, limit).noted(note);
     let place = match holding.angle_at(worst) {

@@ -12,6 +12,7 @@ use camgen_cams::check::Measure;
 use camgen_cams::machine::Machine;
 use camgen_cams::report::{Section, shown};
 use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::text::{Length, Text, text};
 use serde::Serialize;
 
 /// The section's values.
@@ -62,14 +63,10 @@ pub(super) fn section(machine: &Machine, cylinder: &Cylinder, law: &CrankLaw) ->
 }
 
 impl LoopOfAir {
-    fn describe(&self) -> Vec<String> {
+    fn describe(&self) -> Vec<Text> {
         let port = self.lead_mm.zip(self.residual_at_port_n).map(|(lead, left)| {
-            format!(
-                "half of the loop is left in each direction (buffer.balance); the port shuts {} mm before the reversal, and until it opens again \
-                 the air pulls with up to {} N, which takes a preload or a valve that lets air in",
-                shown(lead),
-                shown(left)
-            )
+            text!("half of the loop is left in each direction (buffer.balance); the port shuts {} before the reversal, and until it opens again \
+                 the air pulls with up to {} N, which takes a preload or a valve that lets air in", Length::mm(lead), shown(left))
         });
         self.losses.describe().into_iter().chain(port).collect()
     }

@@ -21,6 +21,7 @@ use camgen_cams::report::Section;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::numeric::chebyshev_series::ChebyshevSeries;
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::{Length, LengthKind, Text, text};
 use serde_json::json;
 use std::sync::Arc;
 
@@ -111,11 +112,12 @@ fn height(of_law: &Disc, cut: &Disc, crank: f64, shaft: &ShaftCompliance) -> f64
 /// The section of the report on how much higher than its law a disc is cut for its train.
 pub(super) fn train_section(press: &Press, rpm: f64, lever: f64) -> Option<Section> {
     let mm = MILLIMETRES * lever * press.train_gives(rpm)? * press.bed.crank_radius;
-    let words = format!(
-        "cut up to {mm:.4} mm higher, at the dead point, for the train that gives way (cam.compensate_train): the forces balance at this speed; play of \
-         the train is taken by the screw"
+    let words = text!(
+        "cut up to {} higher, at the dead point, for the train that gives way (cam.compensate_train): the forces balance at this speed; play of \
+         the train is taken by the screw",
+        Length::mm(mm).decimals(4)
     );
-    let figure = format!("cut up to {mm:.4} mm higher for its train");
+    let figure = text!("cut up to {} higher for its train", Length::mm(mm).decimals(4));
     Some(
         Section::new("cut_for_train", &json!({"raised_max_mm": mm})).with_words(vec![words]).with_figures(vec![figure]),
     )
@@ -141,18 +143,20 @@ pub(super) fn section(disc: &Disc) -> Section {
     let left = MILLIMETRES * left_by_twist(disc);
     let value = json!({"raised_max_mm": mm, "raised_cam_deg": highest.at.to_degrees(), "left_by_twist_mm": left});
     let finite = if left > 0.0 {
-        format!(
-            "; bending and twist are those of small angles, and the finite angle of the twist leaves {:.2} µm",
-            1e3 * left
+        text!(
+            "; bending and twist are those of small angles, and the finite angle of the twist leaves {}",
+            Length::new(1e3 * left, &LengthKind::UM).decimals(2)
         )
     } else {
-        String::new()
+        Text::default()
     };
-    let words = format!(
-        "cut up to {mm:.4} mm higher, at {:.3}°, for the shaft of the file (shaft.compensate): its follower keeps the law under load \
-         at this speed, and would be that much too high on a rigid shaft; forces are those under load{finite}",
-        highest.at.to_degrees()
+    let words = text!(
+        "cut up to {} higher, at {}°, for the shaft of the file (shaft.compensate): its follower keeps the law under load \
+         at this speed, and would be that much too high on a rigid shaft; forces are those under load{}",
+        Length::mm(mm).decimals(4),
+        format_args!("{:.3}", highest.at.to_degrees()),
+        finite
     );
-    let figure = format!("cut up to {mm:.4} mm higher for its shaft");
+    let figure = text!("cut up to {} higher for its shaft", Length::mm(mm).decimals(4));
     Section::new("cut_for_shaft", &value).with_words(vec![words]).with_figures(vec![figure])
 }

@@ -1,9 +1,9 @@
 //! What the cams of a press report.
 
 use super::buffer::{CYLINDERS, bore_of, total_area};
-use camgen_cams::report::sheet::rounded;
 use camgen_cams::report::{Finding, OutlineMeasures, Rolled, Section, Verdict, Weight, shown};
 use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::text::{Length, LengthKind, Text, text};
 use serde::{Deserialize, Serialize};
 
 /// Measures of a plate on the bed.
@@ -33,24 +33,25 @@ impl WedgeMeasures {
     /// The section.
     #[must_use]
     pub fn section(&self) -> Section {
-        let (plate, lift) = (&self.plate, format!("lift {:.3} mm", self.max_lift_mm));
-        let mut words = vec![format!(
-            "plate {:.2} × {} mm, {:.3} mm at its thinnest (x = {:.2} mm), roller Ø{} mm, {lift}",
-            plate.length_mm,
-            shown(plate.height_mm),
-            plate.thinnest_mm,
-            plate.thinnest_at_x_mm,
-            shown(2.0 * self.roller_radius_mm)
+        let (plate, lift) = (&self.plate, text!("lift {}", Length::mm(self.max_lift_mm).decimals(3)));
+        let mut words = vec![text!(
+            "plate {} × {}, {} at its thinnest (x = {}), roller Ø{}, {}",
+            Length::mm(plate.length_mm).decimals(2).bare(),
+            Length::mm(plate.height_mm),
+            Length::mm(plate.thinnest_mm).decimals(3),
+            Length::mm(plate.thinnest_at_x_mm).decimals(2),
+            Length::mm(2.0 * self.roller_radius_mm),
+            &lift
         )];
         words.extend(self.weight.words());
-        let size = format!(
-            "plate {} × {} mm, {:.2} mm at its thinnest, roller Ø{} mm",
-            rounded(plate.length_mm),
-            rounded(plate.height_mm),
-            plate.thinnest_mm,
-            rounded(2.0 * self.roller_radius_mm)
+        let size = text!(
+            "plate {} × {}, {} at its thinnest, roller Ø{}",
+            Length::mm(plate.length_mm).rounded().bare(),
+            Length::mm(plate.height_mm).rounded(),
+            Length::mm(plate.thinnest_mm).decimals(2),
+            Length::mm(2.0 * self.roller_radius_mm).rounded()
         );
-        let figures = [size, lift].into_iter().chain(self.weight.figure()).collect();
+        let figures: Vec<Text> = [size, lift].into_iter().chain(self.weight.figure()).collect();
         Section::new("cam", self).with_words(words).with_figures(figures)
     }
 }
@@ -81,18 +82,18 @@ impl CylinderMeasures {
 
     /// Count and bore.
     #[must_use]
-    pub fn bore_words(&self) -> String {
-        format!("{} cylinders, bore {} mm each", self.cylinders, shown(self.bore_mm))
+    pub fn bore_words(&self) -> Text {
+        text!("{} cylinders, bore {} each", self.cylinders, Length::mm(self.bore_mm))
     }
 
     /// Count, bore, and piston areas of one and of all.
     #[must_use]
-    pub fn describe(&self) -> String {
-        format!(
-            "{}, piston area {} mm² each, {} mm² in all",
+    pub fn describe(&self) -> Text {
+        text!(
+            "{}, piston area {} each, {} in all",
             self.bore_words(),
-            shown(self.piston_area_mm2),
-            shown(self.piston_area_total_mm2)
+            Length::new(self.piston_area_mm2, &LengthKind::MM2),
+            Length::new(self.piston_area_total_mm2, &LengthKind::MM2)
         )
     }
 }
@@ -148,15 +149,20 @@ impl ReversalOfBed {
         Section::new("reversal", self).with_figures(vec![words.clone()]).with_words(vec![words])
     }
 
-    fn describe(&self) -> String {
+    fn describe(&self) -> Text {
         let left = if self.overrun_left_mm.abs() < 1e-9 {
-            String::new()
+            Text::default()
         } else {
-            format!("; it ends {:.3} mm from where it starts", self.overrun_left_mm)
+            text!("; it ends {} from where it starts", Length::mm(self.overrun_left_mm).decimals(3))
         };
-        format!(
-            "{} end: reversal from {:.3}° of the crank over {:.3}°, dead point {:.3}° after its start, overrun {:.3} mm{left}",
-            self.end, self.start_deg, self.angle_deg, self.dead_point_deg, self.overrun_mm
+        text!(
+            "{} end: reversal from {}° of the crank over {}°, dead point {}° after its start, overrun {}{}",
+            &self.end,
+            format_args!("{:.3}", self.start_deg),
+            format_args!("{:.3}", self.angle_deg),
+            format_args!("{:.3}", self.dead_point_deg),
+            Length::mm(self.overrun_mm).decimals(3),
+            left
         )
     }
 }
@@ -198,23 +204,23 @@ impl AirLaw {
     #[must_use]
     pub fn section(&self) -> Section {
         let mut words = vec![
-            format!(
-                "Δx {} mm at x = {} mm, air column {} mm",
-                shown(self.dx_max_mm),
-                shown(self.dx_max_at_x_mm),
-                shown(self.column_length_mm)
+            text!(
+                "Δx {} at x = {}, air column {}",
+                Length::mm(self.dx_max_mm),
+                Length::mm(self.dx_max_at_x_mm),
+                Length::mm(self.column_length_mm)
             ),
             self.cylinders.describe(),
         ];
         if self.velocity_jump_mm_per_rad != 0.0 {
-            words.push(format!(
-                "its velocity jumps by {:.2} mm/rad of crank at the {} of the reversal",
-                self.velocity_jump_mm_per_rad,
+            words.push(text!(
+                "its velocity jumps by {} of crank at the {} of the reversal",
+                Length::new(self.velocity_jump_mm_per_rad, &LengthKind::MM_PER_RAD).decimals(2),
                 if self.jumps_at_end { "end" } else { "start" }
             ));
         }
         if let Some(degrees) = self.column_closed_at_crank_deg {
-            words.push(format!(
+            words.push(text!(
                 "the air column is taken as closed at ambient pressure where the blend starts, {}° of the crank",
                 shown(degrees)
             ));
@@ -223,14 +229,21 @@ impl AirLaw {
             words.push(solved.describe(self.start_slope));
             words.extend(solved.omitted_friction());
             if !solved.breaks.is_empty() {
-                let breaks: Vec<String> =
-                    solved.breaks.iter().map(|at| format!("{} from x = {:.3} mm", at.then, at.x_mm)).collect();
-                words.push(format!("the bottom is {}", breaks.join(", ")));
+                let breaks: Vec<Text> = solved
+                    .breaks
+                    .iter()
+                    .map(|at| text!("{} from x = {}", &at.then, Length::mm(at.x_mm).decimals(3)))
+                    .collect();
+                words.push(text!("the bottom is {}", Text::joined(breaks, ", ")));
             }
         }
         let figures = vec![
-            format!("air column {:.3} mm", self.column_length_mm),
-            format!("Δx {:.3} mm at x = {:.2} mm", self.dx_max_mm, self.dx_max_at_x_mm),
+            text!("air column {}", Length::mm(self.column_length_mm).decimals(3)),
+            text!(
+                "Δx {} at x = {}",
+                Length::mm(self.dx_max_mm).decimals(3),
+                Length::mm(self.dx_max_at_x_mm).decimals(2)
+            ),
             self.cylinders.bore_words(),
         ];
         Section::new("law", self).with_words(words).with_figures(figures)
@@ -242,29 +255,30 @@ const ROUNDING_MM: f64 = 1e-9;
 
 impl Equation18 {
     /// Names the friction that the machine file omits.
-    fn omitted_friction(&self) -> Option<String> {
+    fn omitted_friction(&self) -> Option<Text> {
         let roller = (self.friction_angle_deg == 0.0).then_some("at the roller (translating.friction_angle is 0)");
         let crank = (self.efficiency == 1.0).then_some("in the bell crank (translating.efficiency is 1)");
         let omitted: Vec<&str> = roller.into_iter().chain(crank).collect();
-        (!omitted.is_empty()).then(|| format!("friction is omitted {}", omitted.join(" and ")))
+        (!omitted.is_empty()).then(|| text!("friction is omitted {}", omitted.join(" and ")))
     }
 
-    fn describe(&self, start_slope: f64) -> String {
+    fn describe(&self, start_slope: f64) -> Text {
         let how = match (self.stations, self.tolerance_mm) {
-            (Some(stations), _) => format!("{stations} stations"),
+            (Some(stations), _) => text!("{} stations", stations),
             (None, tolerance) => {
                 let steps = self.steps.unwrap_or(0);
                 match tolerance.filter(|tolerance| *tolerance > ROUNDING_MM) {
-                    Some(tolerance) => format!("{steps} steps to {} mm", shown(tolerance)),
-                    None => format!("{steps} steps to the last digits"),
+                    Some(tolerance) => text!("{} steps to {}", steps, Length::mm(tolerance)),
+                    None => text!("{} steps to the last digits", steps),
                 }
             }
         };
-        format!(
-            "equation (18) by {} in {how}, efficiency {}, forces balanced: {}, slope at the start {}",
-            self.solver,
-            self.efficiency_model,
-            self.balance,
+        text!(
+            "equation (18) by {} in {}, efficiency {}, forces balanced: {}, slope at the start {}",
+            &self.solver,
+            how,
+            &self.efficiency_model,
+            &self.balance,
             shown(start_slope)
         )
     }
@@ -304,9 +318,9 @@ pub struct ResidualByDirection {
 const UNBOUNDED: &str = "without bound (the bottom hits the piston)";
 
 impl ForceMeasures {
-    fn residual_words(&self) -> String {
+    fn residual_words(&self) -> Text {
         if self.residual_max_n.is_finite() {
-            format!("{} N ({} %)", shown(self.residual_max_n), shown(100.0 * self.residual_share))
+            text!("{} N ({} %)", shown(self.residual_max_n), shown(100.0 * self.residual_share))
         } else {
             UNBOUNDED.into()
         }
@@ -315,7 +329,7 @@ impl ForceMeasures {
     /// The section `force`.
     #[must_use]
     pub fn section(&self) -> Section {
-        let mut words = vec![format!(
+        let mut words = vec![text!(
             "inertia {} N; inertia less air {} with this cam, {} N with a fixed bottom",
             shown(self.inertia_max_n),
             self.residual_words(),
@@ -323,33 +337,39 @@ impl ForceMeasures {
         )];
         words.push(match self.torque_max_nm {
             Some(torque) => {
-                format!(
-                    "roller at most {:.1} N along its path, camshaft at most {torque:.1} N·m",
-                    self.roller_force_max_n
+                text!(
+                    "roller at most {} N along its path, camshaft at most {} N·m",
+                    format_args!("{:.1}", self.roller_force_max_n),
+                    format_args!("{:.1}", torque)
                 )
             }
-            None => format!("each roller at most {:.1} N along the normal", self.roller_force_max_n),
+            None => text!("each roller at most {} N along the normal", format_args!("{:.1}", self.roller_force_max_n)),
         });
         let mut figures = vec![
             if self.residual_max_n.is_finite() {
-                format!("inertia {:.0} N, residual {:.2} N", self.inertia_max_n, self.residual_max_n)
+                text!(
+                    "inertia {} N, residual {} N",
+                    format_args!("{:.0}", self.inertia_max_n),
+                    format_args!("{:.2}", self.residual_max_n)
+                )
             } else {
-                format!("inertia {:.0} N, {UNBOUNDED}", self.inertia_max_n)
+                text!("inertia {} N, {}", format_args!("{:.0}", self.inertia_max_n), UNBOUNDED)
             },
-            format!("a fixed bottom would leave {:.0} N", self.residual_fixed_bottom_max_n),
+            text!("a fixed bottom would leave {} N", format_args!("{:.0}", self.residual_fixed_bottom_max_n)),
         ];
         if let Some(both) = &self.by_direction {
-            words.push(format!(
-                "the law leaves {} N ({} %) while braking, and {} N ({} %) on the return, at x = {} mm",
+            words.push(text!(
+                "the law leaves {} N ({} %) while braking, and {} N ({} %) on the return, at x = {}",
                 shown(both.residual_braking_max_n),
                 shown(100.0 * both.residual_braking_max_n / self.inertia_max_n),
                 shown(both.residual_return_max_n),
                 shown(100.0 * both.residual_return_max_n / self.inertia_max_n),
-                shown(both.residual_return_at_x_mm)
+                Length::mm(both.residual_return_at_x_mm)
             ));
-            figures.push(format!(
-                "residual {:.0} N braking, {:.0} N on the return",
-                both.residual_braking_max_n, both.residual_return_max_n
+            figures.push(text!(
+                "residual {} N braking, {} N on the return",
+                format_args!("{:.0}", both.residual_braking_max_n),
+                format_args!("{:.0}", both.residual_return_max_n)
             ));
         }
         Section::new("force", self).with_words(words).with_figures(figures)
@@ -400,46 +420,52 @@ impl Compensation {
     /// The section.
     #[must_use]
     pub fn section(&self) -> Section {
-        let as_cut = self.torque_as_cut_max_nm.map_or(String::new(), |torque| {
+        let as_cut = self.torque_as_cut_max_nm.map(|torque| {
             let share = 100.0 * torque / self.torque_before_max_nm;
-            format!(", as cut {} N·m ({} %)", shown(torque), shown(share))
+            text!(", as cut {} N·m ({} %)", shown(torque), shown(share))
         });
         let in_losses = self.torque_in_losses_max_nm.map(|torque| {
-            format!("the losses of the buffer leave up to {} N·m of it, which no spring takes", shown(torque))
+            text!("the losses of the buffer leave up to {} N·m of it, which no spring takes", shown(torque))
         });
         let mut words = vec![
-            format!(
-                "second disc: prime radius {} mm, lift {:.3} mm, roller Ø{} mm, follower at {}°",
-                shown(self.prime_radius_mm),
-                self.lift_max_mm,
-                shown(2.0 * self.roller_radius_mm),
+            text!(
+                "second disc: prime radius {}, lift {}, roller Ø{}, follower at {}°",
+                Length::mm(self.prime_radius_mm),
+                Length::mm(self.lift_max_mm).decimals(3),
+                Length::mm(2.0 * self.roller_radius_mm),
                 shown(self.angle_deg)
             ),
-            format!(
-                "torque on the camshaft {} N·m without, {} N·m with it by the law{as_cut}",
+            text!(
+                "torque on the camshaft {} N·m without, {} N·m with it by the law{}",
                 shown(self.torque_before_max_nm),
-                shown(self.torque_after_max_nm)
+                shown(self.torque_after_max_nm),
+                as_cut
             ),
-            format!("its spring stores {:.2} J, at most {:.0} N", self.work_j, self.spring_force_max_n),
+            text!(
+                "its spring stores {} J, at most {} N",
+                format_args!("{:.2}", self.work_j),
+                format_args!("{:.0}", self.spring_force_max_n)
+            ),
         ];
         words.extend(in_losses);
         words.extend(self.preload_by_rpm.iter().map(|at| {
-            format!(
-                "{} rpm, column reset: {:.1} N·m without, {:.1} N·m with it, {:.1} N·m with a preload of {:.0} N",
+            text!(
+                "{} rpm, column reset: {} N·m without, {} N·m with it, {} N·m with a preload of {} N",
                 shown(at.rpm),
-                at.torque_before_max_nm,
-                at.torque_unchanged_max_nm,
-                at.torque_after_max_nm,
-                at.preload_n
+                format_args!("{:.1}", at.torque_before_max_nm),
+                format_args!("{:.1}", at.torque_unchanged_max_nm),
+                format_args!("{:.1}", at.torque_after_max_nm),
+                format_args!("{:.0}", at.preload_n)
             )
         }));
         let broken = self.checks.iter().filter(|finding| matches!(finding.verdict, Verdict::Fail | Verdict::Warn));
         words.extend(broken.map(|finding| {
-            let limit = finding.limit_words().map_or(String::new(), |limit| format!(", {limit}"));
-            let note = finding.note.as_ref().map_or(String::new(), |note| format!("; {note}"));
-            format!("{} {} {}{limit}{note}", finding.verdict.word(), finding.check, finding.value_words())
+            let limit = finding.limit_text().map(|limit| text!(", {}", limit));
+            let note = finding.note.as_ref().map(|note| text!("; {}", note));
+            text!("{} {} {}{}{}", finding.verdict.word(), &*finding.check, finding.value_text(), limit, note)
         }));
-        let figures = vec![format!("compensating cam: torque {:.1} N·m without", self.torque_before_max_nm)];
+        let figures =
+            vec![text!("compensating cam: torque {} N·m without", format_args!("{:.1}", self.torque_before_max_nm))];
         Section::new("compensator", self).with_words(words).with_figures(figures)
     }
 }

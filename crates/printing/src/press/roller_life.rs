@@ -15,6 +15,7 @@ use camgen_cams::report::{Section, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::numeric::quadrature;
 use camgen_kernel::profile::extremes::stretches;
+use camgen_kernel::text::text;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -99,9 +100,9 @@ impl RollerLife {
         let hours = self.life_h?;
         let needed = limit.filter(|limit| hours < *limit).map(|limit| {
             let rating = self.load_rating_n * libm::pow(limit / hours, 1.0 / EXPONENT);
-            format!("; a follower.roller.load_rating of {} kN would keep it", shown((rating / 10.0).ceil() / 100.0))
+            text!("a follower.roller.load_rating of {} kN would keep it", shown((rating / 10.0).ceil() / 100.0))
         });
-        let note = format!("mean load {} N{}", shown(self.mean_load_n), needed.unwrap_or_default());
+        let note = text!("mean load {} N", shown(self.mean_load_n)).and("; ", needed);
         Some(LIFE.measure(hours, limit).noted(note))
     }
 

@@ -23,6 +23,7 @@ use camgen_cams::report::{Rolled, Section, Shaft};
 use camgen_kernel::numeric::digits::three_digits_down;
 use camgen_kernel::profile::Worst;
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::Text;
 use std::sync::Arc;
 
 /// The disc cam of a press.
@@ -206,7 +207,7 @@ impl Duty for BedBalanceDuty {
         of.add(&fixed_bottom::LOSSES, |_| loop_of_air::measure(disc.machine(), self.buffer.cylinder(), self.law()));
     }
 
-    fn smoother(&self, machine: &Machine) -> Option<String> {
+    fn smoother(&self, machine: &Machine) -> Option<Text> {
         smoother(machine, |press| press.rotary_law(self.rpm).into_iter().collect())
     }
 

@@ -6,22 +6,23 @@ use super::motion::{Reversal, ReversalLaw, Transition};
 use crate::press::MachineOfPress;
 use camgen_cams::machine::Machine;
 use camgen_kernel::motion::jump;
+use camgen_kernel::text::{KeyChange, Remedy, Text, text};
 
 /// Width of a run-up where the file gives none, rad of crank angle: that of the embedded machines.
 const RUN_UP: f64 = std::f64::consts::PI / 9.0;
 
 /// The first change with which the motions of these laws of a press keep `limits.continuity`: each is tried.
-pub(super) fn smoother(machine: &Machine, laws: impl Fn(&Press) -> Vec<CrankLaw>) -> Option<String> {
+pub(super) fn smoother(machine: &Machine, laws: impl Fn(&Press) -> Vec<CrankLaw>) -> Option<Text> {
     let (press, cams) = (machine.press().ok()?, PressCams::of(machine));
     let direct = Press { lead: 0.0, ..*press };
     let ramp = if cams.transition == Transition::None { Transition::RunUp { width: RUN_UP } } else { cams.transition };
-    let (no_lead, with_ramp) = ("buffer.lead = \"0 mm\"", "transition.kind = \"run-up\"");
-    let changes = [
-        (no_lead.to_owned(), direct, cams.transition, press.lead > 0.0),
-        (with_ramp.to_owned(), *press, ramp, cams.transition == Transition::None),
-        (format!("{no_lead} with {with_ramp}"), direct, ramp, press.lead > 0.0 && cams.transition == Transition::None),
+    let (no_lead, with_ramp) = (KeyChange::new("buffer.lead", "0 mm"), KeyChange::new("transition.kind", "run-up"));
+    let tried = [
+        (vec![no_lead.clone()], direct, cams.transition, press.lead > 0.0),
+        (vec![with_ramp.clone()], *press, ramp, cams.transition == Transition::None),
+        (vec![no_lead, with_ramp], direct, ramp, press.lead > 0.0 && cams.transition == Transition::None),
     ];
-    for (words, press, transition, applies) in changes {
+    for (changes, press, transition, applies) in tried {
         if !applies {
             continue;
         }
@@ -29,7 +30,7 @@ pub(super) fn smoother(machine: &Machine, laws: impl Fn(&Press) -> Vec<CrankLaw>
             Reversal::new(ReversalLaw { bottom_law, lever: cams.lever, lobes: cams.lobes, transition })
         });
         if motions.all(|motion| motion.is_ok_and(|motion| keeps_continuity(machine, &motion))) {
-            return Some(format!("{words} would pass"));
+            return Some(text!("{} would pass", Remedy::new(changes)));
         }
     }
     None

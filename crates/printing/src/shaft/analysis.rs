@@ -1,5 +1,6 @@
 //! The shaft under a cam, or alone: critical speeds, deflection, loss of lift by bending and twist, unbalance.
 
+use camgen_kernel::text::{Length, Text, text};
 mod along;
 mod curves;
 mod load;
@@ -298,17 +299,19 @@ fn figures(found: &ShaftResults<'_>) -> ShaftFigures {
     }
 }
 
-fn describe(found: &ShaftResults<'_>, shaft_figures: &ShaftFigures) -> Vec<String> {
+fn describe(found: &ShaftResults<'_>, shaft_figures: &ShaftFigures) -> Vec<Text> {
     let speeds: Vec<String> = shaft_figures.critical_rpm.iter().map(|rpm| shown(*rpm)).collect();
     let order = found.spectrum.order.map_or(String::new(), |order| format!(", order {order}"));
     let whirl = if shaft_figures.exact_rpm.is_some() { "planar" } else { shaft_figures.whirl };
     let mut lines = vec![
-        format!("mass {:.3} kg with all that is on it", shaft_figures.mass_kg),
-        format!(
-            "critical at {} rpm, {whirl} whirl, {} beam, solver {}{order}",
+        text!("mass {} kg with all that is on it", format_args!("{:.3}", shaft_figures.mass_kg)),
+        text!(
+            "critical at {} rpm, {} whirl, {} beam, solver {}{}",
             speeds.join(", "),
+            whirl,
             shaft_figures.beam,
-            shaft_figures.solver
+            shaft_figures.solver,
+            order
         ),
     ];
     if let Some(exact) = shaft_figures.exact_rpm {
@@ -317,24 +320,25 @@ fn describe(found: &ShaftResults<'_>, shaft_figures: &ShaftFigures) -> Vec<Strin
             "the paper's method leaves out shear, rotary inertia, gyroscopic moments and the inertia of discs about a diameter, \
              whatever the file says; the exact method finds {} rpm, {error:+.3} %",
             shown(exact)
-        ));
+        ).into());
     }
     if let Some(compliance) = shaft_figures.compliance_um_per_kn {
         let place = if found.carried.is_some() { "the cam" } else { "shaft.cam_at" };
-        lines.push(format!("compliance at {place} {compliance:.4} µm/kN"));
+        lines.push(format!("compliance at {place} {compliance:.4} µm/kN").into());
     }
     if let Some(under) = &found.under {
         lines.extend(under.describe());
     }
     if let Some(rigid) = &found.rigid {
-        let left = rigid.residual.map_or(String::new(), |worst| format!(", and {:.2} N would be left", worst.value));
-        lines.push(format!(
-            "the cam is cut for this shaft (shaft.compensate): a cam for a rigid shaft would leave the follower {:.5} mm low{left}",
-            1e3 * rigid.largest.value
+        let left = rigid.residual.map(|worst| text!(", and {} N would be left", format_args!("{:.2}", worst.value)));
+        lines.push(text!(
+            "the cam is cut for this shaft (shaft.compensate): a cam for a rigid shaft would leave the follower {} low{}",
+            Length::mm(1e3 * rigid.largest.value).decimals(5),
+            left
         ));
     }
     if shaft_figures.unbalance_g_mm > 0.0 {
-        lines.push(found.unbalanced.describe());
+        lines.push(found.unbalanced.describe().into());
     }
     lines
 }
@@ -380,11 +384,11 @@ fn measures(found: &ShaftResults<'_>) -> Result<Vec<Measure>, Refusal> {
         let ratio = speed / first;
         let harmonic = (first / speed).ceil();
         let mut note =
-            format!("first critical speed {} rpm, reached by harmonic {} of a turn", shown(rpm(first)), harmonic);
+            text!("first critical speed {} rpm, reached by harmonic {} of a turn", shown(rpm(first)), harmonic);
         if ratio > limits.critical_speed_ratio {
             let factor = remedy::for_speed(found, speed / limits.critical_speed_ratio);
-            let slower = remedy::slower(found).map_or(String::new(), |slower| format!("; --rpm {slower} would pass"));
-            note = format!("{note}{slower}{}", thicker(factor));
+            let slower = remedy::slower(found).map(|slower| text!("--rpm {} would pass", slower));
+            note = note.and("; ", slower).and("; ", thicker(factor));
         }
         let limit = Some(limits.critical_speed_ratio);
         all.push(CRITICAL_SPEED.measure(ratio, limit).noted(note));
@@ -393,12 +397,12 @@ fn measures(found: &ShaftResults<'_>) -> Result<Vec<Measure>, Refusal> {
         let exceeds = limits.lift_error.is_some_and(|limit| under.largest.value > limit);
         let factor = limits.lift_error.filter(|_| exceeds).map(|limit| remedy::for_lift(found, limit));
         let place = format!("at a cam angle of {:.3}°", under.largest.at.to_degrees());
-        let note = factor.map_or(place.clone(), |factor| format!("{place}{}", thicker(factor)));
+        let note = Text::from(place).and("; ", factor.map(thicker));
         let (value, limit) = (1e3 * under.largest.value, limits.lift_error.map(|limit| 1e3 * limit));
         all.push(LIFT_ERROR.measure(value, limit).noted(note));
         let exceeds = limits.support_slope.is_some_and(|limit| under.slope > limit);
         let factor = limits.support_slope.filter(|_| exceeds).map(|limit| remedy::for_slope(found, limit));
-        let note = factor.map(|factor| thicker(factor).trim_start_matches("; ").to_owned());
+        let note = factor.map(thicker);
         all.push(SUPPORT_SLOPE.measure(under.slope, limits.support_slope).noted(note));
     }
     all.push(found.unbalanced.measure());
@@ -406,10 +410,10 @@ fn measures(found: &ShaftResults<'_>) -> Result<Vec<Measure>, Refusal> {
 }
 
 /// The factor that would pass, in words.
-fn thicker(factor: Option<f64>) -> String {
+fn thicker(factor: Option<f64>) -> Text {
     match factor {
-        Some(factor) => format!("; every diameter times {factor:.3} would pass"),
-        None => "; no thicker shaft on these supports would pass: they are too soft".to_owned(),
+        Some(factor) => text!("every diameter times {} would pass", format_args!("{factor:.3}")),
+        None => "no thicker shaft on these supports would pass: they are too soft".into(),
     }
 }
 

@@ -14,6 +14,7 @@ use camgen_kernel::document::{Input, cams};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::Quantity;
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::{Length, LengthKind, Text, text};
 pub use fit::ComparisonFit;
 use fit::{ExactProfile, MeasuredMove, MeasuredPlace, covers, harmonics, highest_order, polar};
 use nalgebra::Vector2;
@@ -265,13 +266,13 @@ fn measure(body: &dyn Body, rows: &[PointRow], round: bool) -> Measure {
     let measure = DEVIATION.measure(value.abs(), zone.map(|zone| 0.5 * MILLIMETRES * zone));
     let what = if value > 0.0 { "too much metal there" } else { "too little metal there" };
     let note = match zone {
-        Some(_) => what.to_owned(),
-        None => format!("{what}; title.profile_tolerance gives the limit"),
+        Some(_) => Text::from(what),
+        None => text!("{}; title.profile_tolerance gives the limit", what),
     };
     let kept = zone.is_some_and(|zone| value.abs() <= 0.5 * MILLIMETRES * zone);
     // A few places of a cam do not show that it is right.
     let measure = if kept && !round { measure.judged(Verdict::Warn) } else { measure };
-    let note = if round { note } else { format!("{note}; the points leave a part of the turn out") };
+    let note = if round { note } else { note.and("; ", "the points leave a part of the turn out") };
     measure.placed(Place::at_angle(at)).noted(note)
 }
 
@@ -329,38 +330,43 @@ fn section(
     Section::new("comparison", &value).with_words(words)
 }
 
-fn words(body: &dyn Body, found: &Comparison) -> Vec<String> {
+fn words(body: &dyn Body, found: &Comparison) -> Vec<Text> {
     let mut words = vec![
-        format!(
-            "{} points, turned by {}° and shifted by {} and {} mm to fit",
+        text!(
+            "{} points, turned by {}° and shifted by {} and {} to fit",
             found.points,
             shown(found.turn_deg),
-            shown(found.shift_mm[0]),
-            shown(found.shift_mm[1])
+            Length::mm(found.shift_mm[0]).bare(),
+            Length::mm(found.shift_mm[1])
         ),
-        format!(
-            "deviation from {} to {} mm, form error {} mm, mean {} mm, rms {} mm",
-            shown(found.lowest_mm),
-            shown(found.highest_mm),
-            shown(found.form_error_mm),
-            shown(found.mean_mm),
-            shown(found.rms_mm)
+        text!(
+            "deviation from {} to {}, form error {}, mean {}, rms {}",
+            Length::mm(found.lowest_mm).bare(),
+            Length::mm(found.highest_mm),
+            Length::mm(found.form_error_mm),
+            Length::mm(found.mean_mm),
+            Length::mm(found.rms_mm)
         ),
     ];
     let swings = crate::body::curves(body).is_some_and(|curves| curves.motion.quantity() == Quantity::Angle);
     let along = if swings { "along the arc of the roller" } else { "along its path" };
     let by_time =
-        found.largest_acceleration_error_m_per_s2.map_or(String::new(), |value| format!(", {} m/s²", shown(value)));
+        found.largest_acceleration_error_m_per_s2.map(|value| text!(", {}", Length::new(value, &LengthKind::M_PER_S2)));
     let acceleration = found
         .largest_acceleration_error_mm_per_rad2
-        .map_or(String::new(), |value| format!("; acceleration off by {} mm/rad²{by_time}", shown(value)));
-    words.push(format!("the follower is off by up to {} mm {along}{acceleration}", shown(found.largest_lift_error_mm)));
+        .map(|value| text!("; acceleration off by {}{}", Length::new(value, &LengthKind::MM_PER_RAD2), by_time));
+    words.push(text!(
+        "the follower is off by up to {} {}{}",
+        Length::mm(found.largest_lift_error_mm),
+        along,
+        acceleration
+    ));
     let mut orders: Vec<(usize, f64)> = found.waviness_mm.iter().copied().enumerate().collect();
     orders.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let largest: Vec<String> =
-        orders.iter().take(3).map(|(index, value)| format!("order {}: {} mm", index + 1, shown(*value))).collect();
+    let largest: Vec<Text> =
+        orders.iter().take(3).map(|(index, value)| text!("order {}: {}", index + 1, Length::mm(*value))).collect();
     if !largest.is_empty() {
-        words.push(format!("waviness, largest amplitudes: {}", largest.join(", ")));
+        words.push(text!("waviness, largest amplitudes: {}", Text::joined(largest, ", ")));
     }
     words
 }

@@ -8,13 +8,14 @@ use super::positions::Positions;
 use super::spline::position;
 use crate::check::Measure;
 use crate::report::plot::{GREY, Plot, PlotCurve, PlotPanel};
-use crate::report::{Place, Section, shown};
+use crate::report::{Place, Section, in_unit, shown};
 use crate::table::{ListedColumn, Table};
 use camgen_kernel::follower::Follower;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::laws::SegmentEnd;
 use camgen_kernel::motion::program::Program;
 use camgen_kernel::motion::{Motion, Quantity};
+use camgen_kernel::text::{Length, Text, text};
 use nalgebra::Vector2;
 use serde::Serialize;
 
@@ -215,7 +216,7 @@ impl Imported {
             _ => "place",
         };
         let measure = DEVIATION.measure(self.in_mm(self.left.largest), Some(self.in_mm(self.deviation)));
-        measure.placed(Place::at_angle(self.rows.angle(self.worst))).noted(format!("{what} {row}"))
+        measure.placed(Place::at_angle(self.rows.angle(self.worst))).noted(text!("{} {}", what, row))
     }
 
     pub(super) fn notes(&self, follower_given: bool) -> Vec<String> {
@@ -311,36 +312,40 @@ impl Imported {
         model.segments.iter().enumerate().map(of).collect()
     }
 
-    fn words(&self, value: &ImportSection) -> Vec<String> {
+    fn words(&self, value: &ImportSection) -> Vec<Text> {
         let quantity = self.rows.quantity;
         let what = match self.form {
             "table" => "rows",
             "points" => "points",
             _ => "places of the outline",
         };
-        let rounding =
-            value.rounding.map_or(String::new(), |step| format!(", rounded to {} {}", shown(step), value.unit));
-        let mut words = vec![format!(
-            "{} {what}, lift {} {}{rounding}, noise {}, deviation allowed {}",
+        let rounding = value.rounding.map(|step| text!(", rounded to {}", in_unit(step, value.unit)));
+        let mut words = vec![text!(
+            "{} {}, lift {}{}, noise {}, deviation allowed {}",
             value.rows,
-            shown(value.lift),
-            value.unit,
+            what,
+            in_unit(value.lift, value.unit),
+            rounding,
             told(quantity, self.noise),
             told(quantity, self.deviation)
         )];
         if let Some([x, y]) = value.centre_mm {
-            words.push(format!(
-                "turned by {}°, centre at {} and {} mm of the points",
+            words.push(text!(
+                "turned by {}°, centre at {} and {} of the points",
                 shown(value.turn_deg),
-                shown(x),
-                shown(y)
+                Length::mm(x).bare(),
+                Length::mm(y)
             ));
         }
         if let Some(radius) = value.base_radius_mm {
-            words.push(format!("base radius {} mm", shown(radius)));
+            words.push(text!("base radius {}", Length::mm(radius)));
         }
         if let Some(stretches) = self.found.unsought {
-            words.push(format!("{stretches} rises and returns, laws are fitted to at most {MOST_STRETCHES}: the whole motion is a spline through points"));
+            words.push(text!(
+                "{} rises and returns, laws are fitted to at most {}: the whole motion is a spline through points",
+                stretches,
+                MOST_STRETCHES
+            ));
         } else if self.found.whole {
             words.push("no law and no dwell was found: the whole motion is a spline through points".into());
         }
@@ -350,24 +355,22 @@ impl Imported {
             let law = model.segments.get(at).map_or(ModelLaw::Dwell, |segment| segment.law);
             let fits = told_segment.map_or(&[][..], |told| told.fits.as_slice());
             let way = match segment.law {
-                "dwell" => format!("dwell at {}", shown(segment.from)),
-                law => format!("{law} from {} to {}", shown(segment.from), shown(segment.to)),
+                "dwell" => text!("dwell at {}", in_unit(segment.from, value.unit)),
+                law if value.unit == "mm" => {
+                    text!("{} from {} to {}", law, Length::mm(segment.from).bare(), Length::mm(segment.to))
+                }
+                law => text!("{} from {} to {} {}", law, shown(segment.from), shown(segment.to), value.unit),
             };
             let comment = told_of(quantity, fits, law);
             let comment = if comment.is_empty() { comment } else { format!(": {comment}") };
-            words.push(format!(
-                "{}° to {}° {way} {}{comment}",
-                shown(segment.from_deg),
-                shown(segment.to_deg),
-                value.unit
-            ));
+            words.push(text!("{}° to {}° {}{}", shown(segment.from_deg), shown(segment.to_deg), way, comment));
         }
-        words.push(format!(
-            "the design leaves {} rms, {} at most; largest acceleration {} {}/rad²",
+        let rate = if quantity == Quantity::Angle { "rad/rad²" } else { "mm/rad²" };
+        words.push(text!(
+            "the design leaves {} rms, {} at most; largest acceleration {}",
             told(quantity, self.left.rms),
             told(quantity, self.left.largest),
-            shown(value.largest_acceleration_per_rad2),
-            if quantity == Quantity::Angle { "rad" } else { "mm" }
+            in_unit(value.largest_acceleration_per_rad2, rate)
         ));
         words
     }

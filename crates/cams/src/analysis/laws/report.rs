@@ -1,11 +1,13 @@
 //! The report on every law: columns, text and picture.
 
 use super::{LawRow, Rise, mm};
+use crate::report::ReportLine;
 use crate::report::plot::{Plot, PlotCurve, PlotPanel};
 use crate::report::{Section, shown};
 use crate::table::Table;
 use camgen_kernel::motion::Quantity;
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::{Length, text};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -200,10 +202,10 @@ pub(super) fn section(rows: &[LawRow], rise: Rise, with_file: bool) -> Section {
     Section::new("laws", &laws).with_words(words(rows, rise, with_file, &columns))
 }
 
-fn words(rows: &[LawRow], rise: Rise, with_file: bool, known: &[LawColumn]) -> Vec<String> {
+fn words(rows: &[LawRow], rise: Rise, with_file: bool, known: &[LawColumn]) -> Vec<ReportLine> {
     let length = rise.quantity == Quantity::Length;
-    let lift =
-        if length { format!("{} mm", shown(mm(rise.lift))) } else { format!("{}°", shown(rise.lift.to_degrees())) };
+    let lift: camgen_kernel::text::Value =
+        if length { Length::mm(mm(rise.lift)).into() } else { format!("{}°", shown(rise.lift.to_degrees())).into() };
     let by_time = rise.speed.is_some();
     let units = match (length, by_time) {
         (true, true) => "v in m/s, a in m/s²",
@@ -211,7 +213,8 @@ fn words(rows: &[LawRow], rise: Rise, with_file: bool, known: &[LawColumn]) -> V
         (false, true) => "v in rad/s, a in rad/s²",
         (false, false) => "v in rad/rad, a in rad/rad²",
     };
-    let mut lines = vec![format!("{lift} in {}° of the cam; {units}", shown(rise.over.to_degrees()))];
+    let mut lines: Vec<ReportLine> =
+        vec![text!("{} in {}° of the cam; {}", lift, shown(rise.over.to_degrees()), units).into()];
     // Of both units of a rate the later column, by the time, where there is a speed.
     let found = |begins: &str| known.iter().rfind(|(name, _)| name.starts_with(begins)).copied();
     let chosen: Vec<(&str, LawColumn, &str)> = SHOWN
@@ -227,13 +230,13 @@ fn words(rows: &[LawRow], rise: Rise, with_file: bool, known: &[LawColumn]) -> V
         })
         .collect();
     let heads: Vec<String> = chosen.iter().map(|(head, ..)| format!("{head:>9}")).collect();
-    lines.push(format!("{:<21}{}", "law", heads.join("")));
+    lines.push(ReportLine::row(format!("{:<21}{}", "law", heads.join(""))));
     lines.extend(rows.iter().map(|row| {
         let values: Vec<String> =
             chosen.iter().map(|(_, (_, value), _)| format!("{:>9}", figure(value(row)))).collect();
-        format!("{:<21}{}", row.law.name, values.join(""))
+        ReportLine::row(format!("{:<21}{}", row.law.name, values.join("")))
     }));
-    lines.extend(chosen.iter().map(|(head, _, meaning)| format!("{head:<9}{meaning}")));
+    lines.extend(chosen.iter().map(|(head, _, meaning)| ReportLine::row(format!("{head:<9}{meaning}"))));
     if !with_file {
         lines.push(
             "with the file of a motion program, pressure angle, size, forces, jump speed, vibration and harmonics are given too"

@@ -6,6 +6,7 @@ use crate::check::{Check, CheckExplanation, CheckScope, Measures, Subject, curva
 use crate::report::{Bound, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::{KeyChange, Length, Remedy, Text, text};
 
 /// The check.
 pub const PLANE_OFFSET: Check = Check {
@@ -24,10 +25,11 @@ pub const PLANE_OFFSET: Check = Check {
 
 impl SweptMeasures for Barrel {
     /// A change of the outer radius with which every limit is kept.
-    fn remedy(&self) -> Option<String> {
+    fn remedy(&self) -> Option<Text> {
         let outer = self.smallest_outer().ok()?;
         (outer > self.outer)
-            .then(|| format!("cam.outer_radius = \"{} mm\" keeps every limit", shown(MILLIMETRES * outer)))
+            .then(|| KeyChange::new("cam.outer_radius", format!("{} mm", shown(MILLIMETRES * outer))))
+            .map(|change| text!("{} keeps every limit", Remedy::new([change])))
     }
 
     /// Least metal: about the bore, and between the groove and the ends, m.
@@ -49,11 +51,11 @@ impl SweptMeasures for Barrel {
         of.add(&PLANE_OFFSET, |_| {
             let [outside, floor] = [self.outer, self.floor()].map(|radius| self.offset_error(radius));
             let radial = self.radial_error(self.floor());
-            let note = format!(
-                "on the outside {} mm, on the floor {} mm; walls drawn radially from the outside would miss by {} mm there",
-                shown(MILLIMETRES * outside.value),
-                shown(MILLIMETRES * floor.value),
-                shown(MILLIMETRES * radial.value)
+            let note = text!(
+                "on the outside {}, on the floor {}; walls drawn radially from the outside would miss by {} there",
+                Length::mm(MILLIMETRES * outside.value),
+                Length::mm(MILLIMETRES * floor.value),
+                Length::mm(MILLIMETRES * radial.value)
             );
             let worst = if floor.value > outside.value { floor } else { outside };
             PLANE_OFFSET.measure(MILLIMETRES * worst.value, None).noted(note).at(subject, &worst)

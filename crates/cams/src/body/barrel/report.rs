@@ -8,6 +8,7 @@ use crate::report::{Section, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::Quantity;
 use camgen_kernel::profile::lifts;
+use camgen_kernel::text::{Length, Text, text};
 use serde::Serialize;
 
 /// The section `barrel`.
@@ -80,43 +81,44 @@ pub(super) fn section(barrel: &Barrel, found: &DrawingEvidence<'_>, switches: Ve
     Section::new("barrel", &value).with_words(words).with_figures(figures)
 }
 
-fn words(section: &BarrelSection, barrel: &Barrel, arcs: Option<usize>) -> Vec<String> {
+fn words(section: &BarrelSection, barrel: &Barrel, arcs: Option<usize>) -> Vec<Text> {
     let BarrelSection { outer_radius_mm, floor_radius_mm, groove_width_mm, groove_depth_mm, .. } = section;
     let mut words = vec![
-        format!(
-            "outside Ø{} mm, floor Ø{} mm, {} mm long from z = {} to {} mm",
-            shown(2.0 * outer_radius_mm),
-            shown(2.0 * floor_radius_mm),
-            shown(section.blank_length_mm),
-            shown(section.z_from_mm),
-            shown(section.z_to_mm)
+        text!(
+            "outside Ø{}, floor Ø{}, {} long from z = {} to {}",
+            Length::mm(2.0 * outer_radius_mm),
+            Length::mm(2.0 * floor_radius_mm),
+            Length::mm(section.blank_length_mm),
+            Length::mm(section.z_from_mm).bare(),
+            Length::mm(section.z_to_mm)
         ),
-        format!(
-            "groove {} mm wide, {} mm deep; the roller Ø{} mm reaches {} mm into it",
-            shown(*groove_width_mm),
-            shown(*groove_depth_mm),
-            shown(2.0 * section.roller_radius_mm),
-            shown(section.roller_height_mm)
+        text!(
+            "groove {} wide, {} deep; the roller Ø{} reaches {} into it",
+            Length::mm(*groove_width_mm),
+            Length::mm(*groove_depth_mm),
+            Length::mm(2.0 * section.roller_radius_mm),
+            Length::mm(section.roller_height_mm)
         ),
     ];
     let [inner, outer] = section.pressure_angle_deg;
-    words.push(format!(
+    words.push(text!(
         "largest pressure angle {}° at the inner end of the roller, {}° at the outside",
         shown(inner),
         shown(outer)
     ));
     if let Some(smallest) = section.smallest_outer_radius_mm {
-        words.push(format!("the smallest outside that keeps every limit has a radius of {} mm", shown(smallest)));
+        words.push(text!("the smallest outside that keeps every limit has a radius of {}", Length::mm(smallest)));
     }
     if let (Some(patches), Some(deviation)) = (section.spline_patches, section.spline_deviation_mm) {
-        words.push(format!(
-            "solid: {patches} spline patches, off the exact flanks by {} mm between their nodes",
-            shown(deviation)
+        words.push(text!(
+            "solid: {} spline patches, off the exact flanks by {} between their nodes",
+            patches,
+            Length::mm(deviation)
         ));
     }
-    words.extend(arcs.map(|arcs| format!("developed view: {arcs} arcs and lines")));
+    words.extend(arcs.map(|arcs| text!("developed view: {} arcs and lines", arcs)));
     if let Some(mass) = section.mass_kg {
-        words.push(format!("mass {} kg", shown(mass)));
+        words.push(text!("mass {} kg", shown(mass)));
     }
     if barrel.groove.holes().is_empty() {
         words.push("without a bore".into());

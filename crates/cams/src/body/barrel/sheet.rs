@@ -25,7 +25,7 @@ pub(super) fn fill(barrel: &Barrel, swept: Option<&SweptDrawing>, view: &mut She
         };
         entities.map(|(_, entity)| shape(entity)).collect()
     };
-    let flank = |id: &str, label: &str, layer: Layer| ShapeGroup {
+    let flank = |id: &str, label: &'static str, layer: Layer| ShapeGroup {
         id: id.into(),
         ..ShapeGroup::new("profile", label, of(layer)).with_legend()
     };
@@ -37,8 +37,9 @@ pub(super) fn fill(barrel: &Barrel, swept: Option<&SweptDrawing>, view: &mut She
     ]);
     view.tables = tables(barrel);
     let sense = if barrel.groove.is_clockwise() { "clockwise" } else { "counter-clockwise" };
-    view.notes
-        .push(format!("Developed view of the outside, seen from outside; the barrel turns {sense} seen from above."));
+    view.notes.push(
+        format!("Developed view of the outside, seen from outside; the barrel turns {sense} seen from above.").into(),
+    );
     developed_marks(barrel, view);
     section(barrel, view);
 }

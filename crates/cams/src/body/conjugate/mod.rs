@@ -18,6 +18,7 @@ use camgen_kernel::motion::{Motion, Quantity};
 use camgen_kernel::profile::lifts;
 use camgen_kernel::profile::size::{first_that_keeps, rounded_up};
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::{KeyChange, Remedy, Text, text};
 pub(in crate::body) use motion::CounterMotion;
 pub(crate) use report::{section, spacing};
 use std::f64::consts::PI;
@@ -84,7 +85,7 @@ fn counter(main: &Disc, data: &CounterData) -> Result<Disc, Refusal> {
 const LARGEST_SPACING: f64 = 8.0;
 
 /// The least roller spacing with which the counter disc keeps every limit, as a key of the machine file.
-fn passing_spacing(main: &Disc) -> Option<String> {
+fn passing_spacing(main: &Disc) -> Option<KeyChange> {
     let top = lifts(&**main.motion()).1;
     let data = main.machine().cam.track.counter;
     let keeps = |data: &CounterData| counter(main, data).is_ok_and(|counter| broken_limit(&counter).is_none());
@@ -95,20 +96,21 @@ fn passing_spacing(main: &Disc) -> Option<String> {
         let found = first_that_keeps(least, largest, |distance| keeps(&with(distance)))?;
         let distance = rounded_up(found);
         let passing = keeps(&with(distance)).then_some(MILLIMETRES * distance)?;
-        return Some(format!("cam.counter.distance = \"{} mm\"", shown(passing)));
+        return Some(KeyChange::new("cam.counter.distance", format!("{} mm", shown(passing))));
     }
     let with = |angle: f64| CounterData { included_angle: Some(angle), ..data };
     let found = first_that_keeps(least, largest.min(PI), |angle| keeps(&with(angle)))?;
     let degrees = (TENTHS * found.to_degrees()).ceil() / TENTHS;
-    keeps(&with(degrees.to_radians())).then(|| format!("cam.counter.included_angle = \"{degrees} deg\""))
+    let change = KeyChange::new("cam.counter.included_angle", format!("{degrees} deg"));
+    keeps(&with(degrees.to_radians())).then_some(change)
 }
 
 /// Angles in remedies are rounded up to 1 / this, deg.
 const TENTHS: f64 = 10.0;
 
 /// A change with which the counter roller reaches its disc.
-fn reached(main: &Disc) -> String {
-    let spacing = passing_spacing(main).map(|spacing| format!("{spacing} would pass"));
+fn reached(main: &Disc) -> Text {
+    let spacing = passing_spacing(main).map(|spacing| text!("{} would pass", Remedy::new([spacing])));
     spacing.unwrap_or_else(|| match (main.follower().place(), main.motion().quantity()) {
         (None, _) => "give [follower.roller] or [follower.swinging-roller]".into(),
         (_, Quantity::Length) => "give a larger cam.counter.distance".into(),
@@ -117,8 +119,8 @@ fn reached(main: &Disc) -> String {
 }
 
 /// A base radius of the main disc, or a roller spacing, with which the counter disc keeps every limit.
-pub(in crate::body) fn remedy_of_counter(main: &Disc) -> Option<String> {
-    let spacing = passing_spacing(main).map(|spacing| format!("{spacing} would pass"));
+pub(in crate::body) fn remedy_of_counter(main: &Disc) -> Option<Text> {
+    let spacing = passing_spacing(main).map(|spacing| text!("{} would pass", Remedy::new([spacing])));
     let base = main.passing_base_radius().map(passing);
     base.or(spacing)
 }

@@ -6,7 +6,7 @@ use crate::report::{Finding, Section, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::Quantity;
 use camgen_kernel::profile::lifts;
-use camgen_kernel::units::LengthUnit;
+use camgen_kernel::text::{Length, Text, text};
 
 /// The checks of the counter disc that the report on both names; its own sheet has all.
 const NAMED: [&str; 4] = ["pressure_angle", "undercut", "wall", "contact_stress"];
@@ -22,38 +22,36 @@ pub(crate) fn section(found: &Closure, main: &dyn Body, (counter, checks): (&dyn
         "counter_roller_radius_mm": roller,
         "closure": found,
     });
-    let size = format!(
-        "counter disc: base radius {} mm, roller Ø{} mm, prime radius {} mm",
-        shown(prime - roller),
-        shown(2.0 * roller),
-        shown(prime)
+    let size = text!(
+        "counter disc: base radius {}, roller Ø{}, prime radius {}",
+        Length::mm(prime - roller),
+        Length::mm(2.0 * roller),
+        Length::mm(prime)
     );
     let swings = curves(counter).is_some_and(|curves| curves.motion.quantity() == Quantity::Angle);
     let along = if swings { "along the arc of the first roller" } else { "along the path" };
-    let sum = format!(
-        "both lifts as written add up to the largest within {} to {} mm {along}",
-        shown(found.play_mm),
-        shown(found.pinch_mm)
+    let sum = text!(
+        "both lifts as written add up to the largest within {} to {} {}",
+        Length::mm(found.play_mm).bare(),
+        Length::mm(found.pinch_mm),
+        along
     );
     let named = |name: &&str| {
         let found = checks.iter().find(|found| found.check == *name && found.value.is_finite())?;
         Some(format!("{name} {} {}", shown(found.value), found.unit))
     };
     let checks: Vec<String> = NAMED.iter().filter_map(named).collect();
-    let checks = format!("checks of the counter disc, which its own sheet has in full: {}", checks.join(", "));
-    let words = [Some(size), spacing(main, counter, LengthUnit::default()), Some(sum), Some(checks)];
-    Section::new("conjugate", &value).with_words(words.into_iter().flatten().collect())
+    let checks = text!("checks of the counter disc, which its own sheet has in full: {}", checks.join(", "));
+    let words = [Some(size), spacing(main, counter), Some(sum), Some(checks)];
+    Section::new("conjugate", &value).with_words(words.into_iter().flatten().collect::<Vec<Text>>())
 }
 
 /// How the two rollers are set on their follower.
-pub(crate) fn spacing(main: &dyn Body, counter: &dyn Body, units: LengthUnit) -> Option<String> {
+pub(crate) fn spacing(main: &dyn Body, counter: &dyn Body) -> Option<Text> {
     let (main, counter) = (curves(main)?, curves(counter)?);
     let apart = super::lowest(main.follower)? + super::lowest(counter.follower)? + lifts(main.motion).1;
     Some(match main.motion.quantity() {
-        Quantity::Angle => format!("the arms of the two rollers include {}°", shown(apart.to_degrees())),
-        Quantity::Length => {
-            let apart = shown(units.of_mm(MILLIMETRES * apart));
-            format!("the two rollers are {apart} {} apart along the path", units.symbol())
-        }
+        Quantity::Angle => text!("the arms of the two rollers include {}°", shown(apart.to_degrees())),
+        Quantity::Length => text!("the two rollers are {} apart along the path", Length::mm(MILLIMETRES * apart)),
     })
 }

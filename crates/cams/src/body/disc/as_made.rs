@@ -20,6 +20,7 @@ use camgen_kernel::follower::Element;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::{Jet, Quantity};
 use camgen_kernel::profile::{Contact, Curves};
+use camgen_kernel::text::{Length, LengthKind, Text, Value, text};
 use nalgebra::Vector2;
 use serde::Serialize;
 use siphasher::sip::SipHasher13;
@@ -365,25 +366,24 @@ impl Disc {
     }
 }
 
-fn words(found: &AsMade, (on_crests, is_closed): (bool, bool)) -> Vec<String> {
-    let mut words = vec![format!(
-        "lift error {} to {} mm along the path ({} mm root mean square), largest at {}°",
-        shown(found.lift_error_low_mm),
-        shown(found.lift_error_high_mm),
-        shown(found.lift_error_rms_mm),
+fn words(found: &AsMade, (on_crests, is_closed): (bool, bool)) -> Vec<Text> {
+    let mut words = vec![text!(
+        "lift error {} to {} along the path ({} root mean square), largest at {}°",
+        Length::mm(found.lift_error_low_mm).bare(),
+        Length::mm(found.lift_error_high_mm),
+        Length::mm(found.lift_error_rms_mm),
         shown(found.lift_error_max_cam_deg)
     )];
-    let units = [(found.acceleration_error_max_m_per_s2, "m/s²"), (found.acceleration_error_max_rad_per_s2, "rad/s²")];
-    for (value, unit) in units {
-        words.extend(
-            value.map(|value| format!("error of the acceleration, by the shape, up to {} {unit}", shown(value))),
-        );
-    }
-    words.extend(found.residual_max_n.map(|force| format!("residual force up to {} N", shown(force))));
+    let of_path = found.acceleration_error_max_m_per_s2.map(|value| Length::new(value, &LengthKind::M_PER_S2).into());
+    let of_arm = found.acceleration_error_max_rad_per_s2.map(|value| format!("{} rad/s²", shown(value)).into());
+    words.extend(
+        of_path.or(of_arm).map(|value: Value| text!("error of the acceleration, by the shape, up to {}", value)),
+    );
+    words.extend(found.residual_max_n.map(|force| text!("residual force up to {} N", shown(force))));
     if let (Some(low), Some(high)) = (found.contact_force_min_n, found.contact_force_max_n) {
         let stress =
             found.contact_stress_max_mpa.map_or(String::new(), |stress| format!(", up to {} MPa", shown(stress)));
-        words.push(format!("force along the normal {} to {} N{stress}", shown(low), shown(high)));
+        words.push(text!("force along the normal {} to {} N{}", shown(low), shown(high), stress));
         if low <= 0.0 && !is_closed {
             words.push("the follower leaves the cam".into());
         }

@@ -48,7 +48,7 @@ macro_rules! figures_of_its_disc {
             self.$disc.touching()
         }
 
-        fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<String> {
+        fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<camgen_kernel::text::Remedy> {
             self.$sized.stress_remedies(largest, limit)
         }
 
@@ -60,11 +60,11 @@ macro_rules! figures_of_its_disc {
             self.$disc.least_closing_force()
         }
 
-        fn preload_that_holds(&self, speed: f64) -> Option<String> {
+        fn preload_that_holds(&self, speed: f64) -> Option<camgen_kernel::text::KeyChange> {
             self.$disc.preload_that_holds(speed)
         }
 
-        fn remedy(&self) -> Option<String> {
+        fn remedy(&self) -> Option<camgen_kernel::text::Text> {
             self.$sized.remedy()
         }
     };

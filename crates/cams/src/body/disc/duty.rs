@@ -9,6 +9,7 @@ use crate::machine::Machine;
 use crate::report::{Rolled, Section, Shaft};
 use camgen_kernel::motion::Motion;
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::Text;
 use std::fmt;
 use std::sync::Arc;
 
@@ -36,7 +37,7 @@ pub trait Duty: fmt::Debug + Send + Sync {
     fn measures(&self, _disc: &Disc, _of: &mut Measures<'_>, _subject: &Subject<'_>) {}
 
     /// A change with which its motion keeps `limits.continuity`, tried before it is named.
-    fn smoother(&self, _machine: &Machine) -> Option<String> {
+    fn smoother(&self, _machine: &Machine) -> Option<Text> {
         None
     }
 

@@ -10,6 +10,7 @@ use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::Jet;
 use camgen_kernel::profile::outline;
 use camgen_kernel::profile::{Contact, Worst};
+use camgen_kernel::text::{KeyChange, Remedy, Text, text};
 use nalgebra::Vector2;
 
 impl Figures for Disc {
@@ -58,7 +59,7 @@ impl Figures for Disc {
         if self.program_follower.crown_radius.is_some() { ContactKind::Crown } else { ContactKind::Line }
     }
 
-    fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<String> {
+    fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<Remedy> {
         self.keeping_stress(largest, limit)
     }
 
@@ -79,15 +80,15 @@ impl Figures for Disc {
         self.is_closed()
     }
 
-    fn preload_that_holds(&self, speed: f64) -> Option<String> {
+    fn preload_that_holds(&self, speed: f64) -> Option<KeyChange> {
         self.holding(speed)
     }
 
-    fn smoother(&self) -> Option<String> {
+    fn smoother(&self) -> Option<Text> {
         self.duty.as_ref()?.smoother(&self.machine)
     }
 
-    fn remedy(&self) -> Option<String> {
+    fn remedy(&self) -> Option<Text> {
         if let Some(main) = &self.main {
             return conjugate::remedy_of_counter(main);
         }
@@ -95,14 +96,15 @@ impl Figures for Disc {
             let largest = (self.follower.prime_radii().1 - self.curves().offset()).min(LARGEST_BASE);
             let of_size = || self.on(largest).and_then(|disc| disc.broken());
             let limit = if self.has_corner() { Some("undercut") } else { of_size() };
-            return Some(no_radius(limit, self.motion.program().is_some()));
+            return Some(no_radius(limit, self.motion.program().is_some()).into());
         };
         // A cam that no drawing holds is no remedy.
         let passes = match self.machine.cam.track.breadth {
             // The breadth of a yoke grows by twice the base radius.
             Some(breadth) => {
                 let passing = MILLIMETRES * (breadth + 2.0 * (base - self.base_radius()));
-                format!("cam.breadth = \"{} mm\" would pass", shown(passing))
+                let change = KeyChange::new("cam.breadth", format!("{} mm", shown(passing)));
+                text!("{} would pass", Remedy::new([change]))
             }
             None => passing(base),
         };

@@ -15,6 +15,7 @@ use camgen_kernel::numeric::digits::three_digits_up;
 use camgen_kernel::numeric::root;
 use camgen_kernel::profile::extremes::{self, JumpRange};
 use camgen_kernel::profile::{Contact, Worst};
+use camgen_kernel::text::KeyChange;
 use std::sync::{Arc, OnceLock};
 
 /// Spring, guide, crown and vibration, which only the follower of a motion program has.
@@ -307,7 +308,7 @@ impl Disc {
     }
 
     /// As [`Figures::preload_that_holds`](crate::body::Figures::preload_that_holds).
-    pub(super) fn holding(&self, speed: f64) -> Option<String> {
+    pub(super) fn holding(&self, speed: f64) -> Option<KeyChange> {
         let pressing = self.pressing().filter(|_| self.is_of_program() && !self.is_closed())?;
         let faster = pressing.at_speed(speed * pressing.speed);
         let missing = self.largest_force(|piece, angle| -faster.at(&self.motion.jet(piece, angle))).value;
@@ -315,11 +316,11 @@ impl Disc {
         Some(match self.motion.quantity() {
             Quantity::Length => {
                 let needed = (follower.preload.unwrap_or(0.0) + missing).ceil() + 1.0;
-                format!("{}.preload = \"{needed} N\"", follower.path)
+                KeyChange::new(format!("{}.preload", follower.path), format!("{needed} N"))
             }
             Quantity::Angle => {
                 let needed = self.program_follower.spring.map_or(0.0, |spring| spring.preload) + missing;
-                format!("spring.preload = \"{} N*m\"", three_digits_up(needed.max(1.0 / MILLIMETRES)))
+                KeyChange::new("spring.preload", format!("{} N*m", three_digits_up(needed.max(1.0 / MILLIMETRES))))
             }
         })
     }

@@ -4,6 +4,7 @@ use super::Disc;
 use crate::check::{Check, CheckExplanation, CheckScope, Measure, Subject};
 use crate::report::{Bound, shown};
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::{Text, text};
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -53,8 +54,8 @@ pub(super) fn measure(disc: &Disc, subject: &Subject<'_>) -> Option<Measure> {
         _ => "4-5-6-7 suits",
     };
     let remedy =
-        (!kept).then(|| format!("at this ratio of periods {law}; a longer movement or a stiffer train leaves less"));
-    let note = std::iter::once(worst_note).chain(remedy).collect::<Vec<_>>().join("; ");
+        (!kept).then(|| text!("at this ratio of periods {}; a longer movement or a stiffer train leaves less", law));
+    let note = Text::from(worst_note).and("; ", remedy.unwrap_or_default());
     let (place, _) = (subject.at)(&Worst { value: largest.residual, at: largest.angles.1, z: 0.0 });
     Some(CHECK.measure(largest.residual, limit).noted(note).placed(place))
 }

@@ -14,6 +14,7 @@ use camgen_kernel::geometry::contour::{Contour, Edge, Extents, Vertex};
 use camgen_kernel::geometry::{Entity, MILLIMETRES, polar};
 use camgen_kernel::profile::envelope;
 use camgen_kernel::profile::outline::{OutlineError, pitch};
+use camgen_kernel::text::Text;
 use camgen_kernel::units::LengthUnit;
 use nalgebra::Vector2;
 
@@ -83,7 +84,7 @@ pub(super) fn view(disc: &Disc, steepest: &Disc, drawn: &Drawn) -> Result<SheetV
         marks: marks.into_iter().flatten().collect(),
         tables: part.map_or_else(Vec::new, |part| profile_table(&disc.machine, disc.curves(), &part.outline.contour)),
         facts: TitleFacts::of(&disc.machine, part.and_then(|part| part.weight(&disc.machine).mass_kg)),
-        notes: nothing_left.then(|| NOTHING_LEFT.to_owned()).into_iter().chain(rollers_of_pair(disc)).collect(),
+        notes: nothing_left.then(|| NOTHING_LEFT.into()).into_iter().chain(rollers_of_pair(disc)).collect(),
         lost: if disc.least_radius().value <= disc.curves().offset().abs() {
             figures::lost_motion(disc.curves(), &|at| disc.place(at))
         } else {
@@ -93,15 +94,15 @@ pub(super) fn view(disc: &Disc, steepest: &Disc, drawn: &Drawn) -> Result<SheetV
 }
 
 /// How a pair sets its rollers, for the main disc.
-fn rollers_of_pair(disc: &Disc) -> Option<String> {
+fn rollers_of_pair(disc: &Disc) -> Option<Text> {
     let (counter, _) = disc.other.as_ref()?;
-    conjugate::spacing(disc, &**counter, disc.machine.units())
+    conjugate::spacing(disc, &**counter)
 }
 
 /// A circle about the shaft with its radius, mm, in the legend.
 fn circle((class, name): (&'static str, &str), radius: f64, units: LengthUnit) -> ShapeGroup {
     let shapes = vec![SheetShape::Entity(Entity::Circle(Vector2::zeros(), radius))];
-    ShapeGroup::new(class, &format!("{name} R {}", units.dimension(radius)), shapes).with_legend()
+    ShapeGroup::new(class, format!("{name} R {}", units.dimension(radius)), shapes).with_legend()
 }
 
 /// Largest distance of an outline from the exact one, mm, at which its parallel is shown: a fifth of a thin pen.

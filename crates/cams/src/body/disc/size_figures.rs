@@ -1,9 +1,10 @@
 //! The section of the report on a size that was to be chosen.
 
 use super::Disc;
-use crate::report::{Section, shown};
+use crate::report::Section;
 use camgen_kernel::follower::FollowerPlacement;
 use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::text::{Length, Text, text};
 use serde::Serialize;
 
 /// The section `size`.
@@ -96,7 +97,7 @@ impl Disc {
 
     /// These figures in words.
     #[must_use]
-    pub fn size_words(&self, figures: &SizeFigures) -> Vec<String> {
+    pub fn size_words(&self, figures: &SizeFigures) -> Vec<Text> {
         let mut words = Vec::new();
         if let (Some(radius), Some(binding)) = (figures.smallest_base_radius_mm, figures.binding) {
             let why = match (binding, figures.binding_cam_deg) {
@@ -105,7 +106,7 @@ impl Disc {
                 (limit, Some(at)) => format!("breaks limits.{limit} at {at:.3}°"),
                 (limit, None) => format!("breaks limits.{limit}"),
             };
-            words.push(format!("smallest base radius {radius:.4} mm: a smaller one {why}"));
+            words.push(text!("smallest base radius {}: a smaller one {}", Length::mm(radius).decimals(4), why));
         }
         if let (Some(placed), Some(best)) = (self.placed(), figures.best) {
             let name =
@@ -113,11 +114,15 @@ impl Disc {
             let (chosen, exact) = (MILLIMETRES * placed.chosen, MILLIMETRES * placed.best.0);
             let of = best.prime_radius_mm;
             let exactly = if self.machine.cam.base_radius.is_some() {
-                format!("the least pressure angle is at {exact:.4} mm")
+                text!("the least pressure angle is at {}", Length::mm(exact).decimals(4))
             } else {
-                format!("the best is {exact:.4} mm with a prime radius of {of:.4} mm")
+                text!(
+                    "the best is {} with a prime radius of {}",
+                    Length::mm(exact).decimals(4),
+                    Length::mm(of).decimals(4)
+                )
             };
-            words.push(format!("{name} {} mm chosen; {exactly}", shown(chosen)));
+            words.push(text!("{} {} chosen; {}", name, Length::mm(chosen), exactly));
         }
         words
     }

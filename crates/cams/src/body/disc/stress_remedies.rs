@@ -3,20 +3,21 @@
 use super::Disc;
 use crate::body::Figures;
 use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::text::{KeyChange, Remedy};
 
 /// A base radius so many times as large is looked at to lower a stress.
 const LARGEST_GROWTH: f64 = 4.0;
 
 impl Disc {
     /// A thickness, and a base radius, that keep a limit of the contact stress.
-    pub(super) fn keeping_stress(&self, largest: f64, limit: f64) -> Vec<String> {
+    pub(super) fn keeping_stress(&self, largest: f64, limit: f64) -> Vec<Remedy> {
         // Under a crown the thickness does not matter.
         let straight = self.program_follower.crown_radius.is_none();
         let thickness = straight.then(|| crate::body::stress::length_for(&self.machine, largest, limit)).flatten();
         // A counter disc has no base radius of its own; a yoke gets it from its breadth.
         let free = self.main.is_none() && self.machine.cam.track.breadth.is_none();
         let sized = free.then(|| self.base_for_stress(limit)).flatten();
-        let base = sized.map(|base| format!("cam.base_radius = \"{base} mm\""));
+        let base = sized.map(|base| Remedy::new([KeyChange::new("cam.base_radius", format!("{base} mm"))]));
         thickness.into_iter().chain(base).collect()
     }
 

@@ -5,6 +5,7 @@ use camgen_kernel::follower::Element;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::profile::size::{self, NoRadius, SizeLimits, SmallestSize};
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::{KeyChange, Remedy, text};
 
 /// Halvings of a limit that is relaxed until a size keeps it.
 const HALVINGS: u32 = 12;
@@ -68,7 +69,8 @@ impl Disc {
              follower works only up to about {base_mm:.3} mm"
         );
         let refusal = Refusal::new(what);
-        Some(if fits > 0.0 { refusal.remedy(format!("cam.bore_radius = \"{fits} mm\" would pass")) } else { refusal })
+        let change = KeyChange::new("cam.bore_radius", format!("{fits} mm"));
+        Some(if fits > 0.0 { refusal.remedy(text!("{} would pass", Remedy::new([change]))) } else { refusal })
     }
 
     /// The pressure angle alone: the least limit that a size keeps.
@@ -93,9 +95,16 @@ impl Disc {
             *(if with(middle).is_some() { &mut kept } else { &mut broken }) = middle;
         }
         let limit = (TENTHS * kept.to_degrees()).ceil() / TENTHS;
-        let of_return = self.machine.limits.pressure_angle_return.map(|_| " and limits.pressure_angle_return as much");
-        let keys = format!("limits.pressure_angle = \"{limit} deg\"{}", of_return.unwrap_or(""));
-        Some(refusal.remedy(format!("{keys} would pass; a longer rise lowers the angle")))
+        let key = KeyChange::new("limits.pressure_angle", format!("{limit} deg"));
+        let remedy = match self.machine.limits.pressure_angle_return {
+            None => Remedy::new([key]),
+            Some(_) => {
+                let words = format!("{key} and limits.pressure_angle_return as much");
+                let of_return = KeyChange::new("limits.pressure_angle_return", key.value.clone());
+                Remedy::new([key, of_return]).named(words)
+            }
+        };
+        Some(refusal.remedy(text!("{} would pass; a longer rise lowers the angle", remedy)))
     }
 
     /// The curvature alone: the largest limit that a size keeps.
@@ -111,15 +120,15 @@ impl Disc {
         let by_ratio = offset > 0.0 && limits.min_convex_radius.is_none();
         let key = if by_ratio {
             let ratio = (HUNDREDTHS * kept / offset).floor() / HUNDREDTHS;
-            format!("limits.min_convex_pitch_radius_over_roller = \"{ratio}\"")
+            KeyChange::new("limits.min_convex_pitch_radius_over_roller", ratio.to_string())
         } else {
             let radius = (HUNDREDTHS * MILLIMETRES * (kept - offset)).floor() / HUNDREDTHS;
-            format!("limits.min_convex_radius = \"{radius} mm\"")
+            KeyChange::new("limits.min_convex_radius", format!("{radius} mm"))
         };
         let what = format!("{NoRadius}: the profile is too sharp on every cam in reach of the follower");
-        Some(
-            Refusal::new(what)
-                .remedy(format!("{key} would pass; a smaller roller or a smoother law too, where they bend it less")),
-        )
+        Some(Refusal::new(what).remedy(text!(
+            "{} would pass; a smaller roller or a smoother law too, where they bend it less",
+            Remedy::new([key])
+        )))
     }
 }

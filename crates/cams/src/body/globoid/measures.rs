@@ -8,6 +8,7 @@ use crate::report::{Bound, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::profile::Worst;
 use camgen_kernel::profile::size::{first_that_keeps, rounded_up};
+use camgen_kernel::text::{KeyChange, Remedy, Text, text};
 
 /// Rounding of an angle at an end.
 const AT_END: f64 = 1e-9;
@@ -99,7 +100,7 @@ impl SweptMeasures for Globoid {
     }
 
     /// A distance of the turret with which the pressure angle, the flanks and the walls keep their limits.
-    fn remedy(&self) -> Option<String> {
+    fn remedy(&self) -> Option<Text> {
         let limits = self.groove.machine.limits;
         let least_wall = limits.least_wall(self.groove.machine.cam.bore_radius);
         let keeps = |distance: f64| {
@@ -112,7 +113,8 @@ impl SweptMeasures for Globoid {
         let distance = self.turret.distance;
         let found = first_that_keeps(distance, LARGEST_GROWTH * distance, keeps).map(rounded_up)?;
         keeps(found)
-            .then(|| format!("cam.turret_distance = \"{} mm\" would keep every limit", shown(MILLIMETRES * found)))
+            .then(|| KeyChange::new("cam.turret_distance", format!("{} mm", shown(MILLIMETRES * found))))
+            .map(|change| text!("{} would keep every limit", Remedy::new([change])))
     }
 
     fn longest(&self) -> f64 {
@@ -125,9 +127,9 @@ impl SweptMeasures for Globoid {
             let (count, at) = self.least_touching();
             let kept = count >= 1.0;
             let note = (!kept).then(|| {
-                format!(
-                    "cam.end_angle is {:.3} deg; a larger one keeps more rollers in contact",
-                    self.end_angle.to_degrees()
+                text!(
+                    "cam.end_angle is {} deg; a larger one keeps more rollers in contact",
+                    format!("{:.3}", self.end_angle.to_degrees())
                 )
             });
             MESHING.measure(count, Some(1.0)).kept(kept).noted(note).at(subject, &Worst { value: count, at, z: 0.0 })

@@ -6,6 +6,7 @@ use crate::body::flank_switch::SwitchFigures;
 use crate::body::swept::{pressure_angles, sharpest_curvature};
 use crate::report::{Section, shown};
 use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::text::{Length, Text, text};
 use serde::Serialize;
 
 /// The section `globoid`.
@@ -80,43 +81,43 @@ pub(super) fn section(globoid: &Globoid, found: &DrawingEvidence<'_>, switches: 
     Section::new("globoid", &value).with_words(words).with_figures(figures)
 }
 
-fn words(section: &GloboidSection, globoid: &Globoid) -> Vec<String> {
+fn words(section: &GloboidSection, globoid: &Globoid) -> Vec<Text> {
     let mut words = vec![
-        format!(
-            "turret with {} rollers Ø{} mm, its axis {} mm from that of the cam; a turn of the cam moves it on by {}°",
+        text!(
+            "turret with {} rollers Ø{}, its axis {} from that of the cam; a turn of the cam moves it on by {}°",
             section.rollers,
-            shown(2.0 * section.roller_radius_mm),
-            shown(section.turret_distance_mm),
+            Length::mm(2.0 * section.roller_radius_mm),
+            Length::mm(section.turret_distance_mm),
             shown(section.index_deg)
         ),
-        format!(
-            "hollow outside R {} mm about the turret, waist Ø{} mm, ends Ø{} mm, {} mm long, conical ends at {}°",
-            shown(section.outside_about_turret_mm),
-            shown(2.0 * section.waist_radius_mm),
-            shown(2.0 * section.outer_radius_mm),
-            shown(section.blank_length_mm),
+        text!(
+            "hollow outside R {} about the turret, waist Ø{}, ends Ø{}, {} long, conical ends at {}°",
+            Length::mm(section.outside_about_turret_mm),
+            Length::mm(2.0 * section.waist_radius_mm),
+            Length::mm(2.0 * section.outer_radius_mm),
+            Length::mm(section.blank_length_mm),
             shown(section.end_angle_deg)
         ),
-        format!(
-            "{} {} mm wide and {} mm deep; the rollers reach {} mm into {}",
+        text!(
+            "{} {} wide and {} deep; the rollers reach {} into {}",
             if section.advance == 1 { "one groove".to_owned() } else { format!("{} grooves", section.advance) },
-            shown(section.groove_width_mm),
-            shown(section.groove_depth_mm),
-            shown(section.roller_height_mm),
+            Length::mm(section.groove_width_mm),
+            Length::mm(section.groove_depth_mm),
+            Length::mm(section.roller_height_mm),
             if section.advance == 1 { "it" } else { "them" }
         ),
-        format!(
-            "largest pressure angle {}°; thinnest rib {} mm; the turret rests over {}° of a turn",
+        text!(
+            "largest pressure angle {}°; thinnest rib {}; the turret rests over {}° of a turn",
             shown(section.pressure_angle_deg),
-            shown(section.thinnest_rib_mm),
+            Length::mm(section.thinnest_rib_mm),
             shown(section.rest_deg)
         ),
     ];
     if let Some(deviation) = section.spline_deviation_mm {
-        words.push(format!("solid: spline flanks off the exact ones by {} mm between their nodes", shown(deviation)));
+        words.push(text!("solid: spline flanks off the exact ones by {} between their nodes", Length::mm(deviation)));
     }
     if let Some(mass) = section.mass_kg {
-        words.push(format!("mass {} kg", shown(mass)));
+        words.push(text!("mass {} kg", shown(mass)));
     }
     if globoid.groove.holes().is_empty() {
         words.push("without a bore".into());

@@ -20,14 +20,20 @@ pub(super) fn fill(globoid: &Globoid, view: &mut SheetView) {
     view.groups = section(globoid);
     view.tables = tables(globoid);
     let sense = if globoid.groove.is_clockwise() { "clockwise" } else { "counter-clockwise" };
-    view.notes.push(format!(
-        "Section through the axes of cam and turret. The cam turns {sense} seen from above; its rollers move up."
-    ));
-    view.notes.push(format!(
-        "{} rollers; a turn of the cam moves the turret on by {}°.",
-        globoid.turret.rollers,
-        rounded(globoid.turret.index().to_degrees())
-    ));
+    view.notes.push(
+        format!(
+            "Section through the axes of cam and turret. The cam turns {sense} seen from above; its rollers move up."
+        )
+        .into(),
+    );
+    view.notes.push(
+        format!(
+            "{} rollers; a turn of the cam moves the turret on by {}°.",
+            globoid.turret.rollers,
+            rounded(globoid.turret.index().to_degrees())
+        )
+        .into(),
+    );
     marks(globoid, view);
 }
 

@@ -6,6 +6,7 @@ use crate::body::{Body, Figures, flank_switch, stress};
 use crate::check::{Measures, Subject, curvature};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::profile::{Contact, Worst};
+use camgen_kernel::text::Text;
 
 impl Figures for Groove {
     figures_of_its_disc!(disc, sized: disc);
@@ -67,12 +68,9 @@ impl Groove {
     pub(super) fn measured_outside(&self, of: &mut Measures<'_>, subject: &Subject<'_>) {
         let (Some((curves, worst)), true) = (self.outer(), self.flanks.len() > 1) else { return };
         let (least, radius) = (worst.least_radius(curves), curves.offset().abs());
-        let outer = |note: Option<String>| {
-            std::iter::once("the outer flank".to_owned()).chain(note).collect::<Vec<_>>().join("; ")
-        };
         of.add(&curvature::UNDERCUT, |_| {
             let measure = curvature::undercut(&least, radius, Vec::new, subject);
-            let note = outer(measure.note.clone());
+            let note = Text::from("the outer flank").and("; ", measure.note.clone().unwrap_or_default());
             measure.noted(note)
         });
         of.add(&flank_switch::CHECK, |_| flank_switch::measure(self.flank_switches(), subject));

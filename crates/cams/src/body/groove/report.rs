@@ -3,8 +3,9 @@
 use super::{Groove, RING};
 use crate::body::flank_switch::SwitchFigures;
 use crate::body::{Body, DrawingEvidence};
-use crate::report::{OutlineMeasures, Rolled, Section, shown};
+use crate::report::{OutlineMeasures, Rolled, Section};
 use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::text::{Length, Text, text};
 use serde::Serialize;
 
 /// A flank.
@@ -66,22 +67,24 @@ pub(super) fn section(groove: &Groove, found: &DrawingEvidence<'_>) -> Section {
     Section::new(groove.kind.keys, &value).with_words(words)
 }
 
-fn words(section: &TrackSection) -> Vec<String> {
+fn words(section: &TrackSection) -> Vec<Text> {
     let TrackSection { blank_radius_mm, width_mm, clearance_mm, depth_mm, flanks, switches } = section;
     let size = match (width_mm, clearance_mm) {
         (Some(width), Some(clearance)) => {
-            let deep = depth_mm.map_or(String::new(), |depth| format!(", {} mm deep", shown(depth)));
-            format!("groove {} mm wide{deep}, clearance {} mm; ", shown(*width), shown(*clearance))
+            let deep = depth_mm.map(|depth| text!(", {} deep", Length::mm(depth)));
+            text!("groove {} wide{}, clearance {}; ", Length::mm(*width), deep, Length::mm(*clearance))
         }
-        _ => String::new(),
+        _ => Text::default(),
     };
-    let mut words = vec![format!("{size}blank Ø{} mm", shown(2.0 * blank_radius_mm))];
+    let mut words = vec![text!("{}blank Ø{}", size, Length::mm(2.0 * blank_radius_mm))];
     words.extend(flanks.iter().filter_map(|flank| {
         let rolled = flank.rolling.as_ref()?;
         let (layer, arcs) = (flank.layer, flank.outline.as_ref()?.arcs);
-        Some(format!(
-            "{layer}: {arcs} arcs, off the exact flank by {} mm where it is rolled on",
-            shown(rolled.gap_mm.abs())
+        Some(text!(
+            "{}: {} arcs, off the exact flank by {} where it is rolled on",
+            layer,
+            arcs,
+            Length::mm(rolled.gap_mm.abs())
         ))
     }));
     words.extend(switches.iter().map(SwitchFigures::words));

@@ -5,6 +5,7 @@ use crate::body::disc::delegate::figures_of_its_disc;
 use crate::body::{Figures, largest};
 use crate::check::{Measures, Subject, curvature};
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::Text;
 
 impl Figures for Rib {
     figures_of_its_disc!(outer, sized: middle);
@@ -69,8 +70,7 @@ impl Rib {
         let radius = self.inner.curves().offset().abs();
         of.add(&curvature::UNDERCUT, |_| {
             let measure = curvature::undercut(&least, radius, Vec::new, subject);
-            let note = std::iter::once("the inner flank".to_owned()).chain(measure.note.clone());
-            let note = note.collect::<Vec<_>>().join("; ");
+            let note = Text::from("the inner flank").and("; ", measure.note.clone().unwrap_or_default());
             measure.noted(note)
         });
     }

@@ -4,9 +4,10 @@ use super::Rib;
 use crate::body::{Body, DrawingEvidence, Drawn, Figures, Layer};
 use crate::report::sheet::Dimensions;
 use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView};
-use crate::report::{OutlineMeasures, Rolled, Section, shown};
+use crate::report::{OutlineMeasures, Rolled, Section};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::profile::outline::OutlineError;
+use camgen_kernel::text::{Length, text};
 use nalgebra::Vector2;
 use serde::Serialize;
 
@@ -49,11 +50,11 @@ pub(super) fn section(rib: &Rib, found: &DrawingEvidence<'_>) -> Section {
         wall_mm: rib.wall().map(|(wall, _)| MILLIMETRES * wall),
         flanks: rib.flanks().into_iter().enumerate().map(flank).collect(),
     };
-    let wall = value.wall_mm.map_or(String::new(), |wall| format!(", wall {} mm where it is thinnest", shown(wall)));
-    let mut words = vec![format!("rollers {} mm apart{wall}", shown(value.roller_distance_mm))];
+    let wall = value.wall_mm.map(|wall| text!(", wall {} where it is thinnest", Length::mm(wall)));
+    let mut words = vec![text!("rollers {} apart{}", Length::mm(value.roller_distance_mm), wall)];
     words.extend(value.flanks.iter().filter_map(|flank| {
         let (arcs, off) = (flank.outline.as_ref()?.arcs, flank.rolling.as_ref()?.gap_mm.abs());
-        Some(format!("{}: {arcs} arcs, off the exact flank by {} mm where it is rolled on", flank.layer, shown(off)))
+        Some(text!("{}: {} arcs, off the exact flank by {} where it is rolled on", flank.layer, arcs, Length::mm(off)))
     }));
     Section::new("rib", &value).with_words(words)
 }

@@ -6,7 +6,7 @@ use crate::body::disc::program;
 use crate::body::in_groove::{self, GrooveForces};
 use crate::body::part;
 use crate::body::picture::RIGID;
-use crate::body::sheet::{keyway_note, tolerance_note};
+use crate::body::sheet::notes;
 use crate::body::{Body, Cut, DrawError, DrawingEvidence, Drawn, Kind, Request, SweptFlanks};
 use crate::check::Measures;
 use crate::machine::Machine;
@@ -126,7 +126,7 @@ impl<B: SweptBody> Body for B {
                 thickness_mm: Some(MILLIMETRES * (top - bottom)),
                 ..TitleFacts::of(machine, swept.map(|swept| self.groove().mass(swept.solid.volume)))
             },
-            notes: tolerance_note(machine).into_iter().chain(keyway_note(machine)).collect(),
+            notes: notes(machine),
             ..SheetView::default()
         };
         self.fill_sheet(swept, &mut view);

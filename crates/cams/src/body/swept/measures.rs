@@ -8,11 +8,12 @@ use crate::check::{Measures, Subject, continuity, curvature, cutter_radius, pres
 use crate::report::Place;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::Text;
 
 /// Takes the measures of a cam.
 pub(crate) fn take_measures<B: SweptBody>(body: &B, of: &mut Measures<'_>) {
     let groove = body.groove();
-    let at = |worst: &Worst| -> (Place, Option<String>) { (body.place(worst.at), None) };
+    let at = |worst: &Worst| -> (Place, Option<Text>) { (body.place(worst.at), None) };
     let remedy = || body.remedy();
     let speed = groove.speed();
     let subject = Subject { machine: &groove.machine, curves: None, speed, at: &at, remedy: &remedy };

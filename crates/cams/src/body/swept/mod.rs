@@ -4,6 +4,7 @@
 //! frame of its sheet and its report follow from these here, once: every [`SweptBody`] is a [`Body`](super::Body). The proof of its files needs only
 //! [`SweptFlanks`].
 
+use camgen_kernel::text::Text;
 mod figures;
 mod flanks;
 mod forces;
@@ -115,7 +116,7 @@ pub(crate) trait SweptGeometry: Debug + Send + Sync {
 /// What is checked of such a cam.
 pub(crate) trait SweptMeasures {
     /// A change of the machine file with which every limit is kept.
-    fn remedy(&self) -> Option<String>;
+    fn remedy(&self) -> Option<Text>;
 
     /// Least metal, m, and where it varies along the cam its place.
     fn wall(&self) -> (f64, Option<Worst>);

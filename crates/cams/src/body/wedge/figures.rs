@@ -5,6 +5,7 @@ use crate::body::{Figures, stress};
 use crate::check::contact_stress::ContactKind;
 use camgen_kernel::motion::Motion;
 use camgen_kernel::profile::{Contact, Worst};
+use camgen_kernel::text::{Remedy, Text};
 
 impl Figures for Wedge {
     fn pressure_angles(&self) -> [Worst; 2] {
@@ -45,7 +46,7 @@ impl Figures for Wedge {
         if self.machine.follower.crown_radius.is_some() { ContactKind::Crown } else { ContactKind::Line }
     }
 
-    fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<String> {
+    fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<Remedy> {
         let along_a_line = self.machine.follower.crown_radius.is_none();
         along_a_line.then(|| stress::length_for(&self.machine, largest, limit)).flatten().into_iter().collect()
     }
@@ -60,7 +61,7 @@ impl Figures for Wedge {
         Some(Worst { value: -least.value, ..least })
     }
 
-    fn remedy(&self) -> Option<String> {
+    fn remedy(&self) -> Option<Text> {
         self.longer_stroke()
     }
 }

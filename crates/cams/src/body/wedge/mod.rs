@@ -21,6 +21,7 @@ mod motion;
 mod report;
 mod sheet;
 
+use camgen_kernel::text::{Length, Text, text};
 pub use motion::PlateMotion;
 
 use super::{Figures, Kind, WorstPlaces, broken_limit, largest};
@@ -260,8 +261,8 @@ impl Wedge {
         size::first_that_keeps(1.0, LONGEST_STRETCH, keeps)
     }
 
-    /// A stroke that keeps every limit, as a key of the machine file.
-    fn longer_stroke(&self) -> Option<String> {
+    /// A stroke that keeps every limit. All lengths of the program change with it, so that it is not the change of a key.
+    fn longer_stroke(&self) -> Option<Text> {
         if self.least_radius().value <= 0.0 {
             return Some("no stroke would pass: the velocity of the follower jumps; avoid that by other states or laws of the segments that meet there".into());
         }
@@ -274,9 +275,10 @@ impl Wedge {
         } else {
             ""
         };
-        Some(format!(
-            "motion.stroke = \"{} mm\" with all lengths of the program in proportion{sizes} would pass",
-            (MILLIMETRES * stroke).round()
+        Some(text!(
+            "motion.stroke = \"{}\" with all lengths of the program in proportion{} would pass",
+            Length::mm((MILLIMETRES * stroke).round()),
+            sizes
         ))
     }
 

@@ -2,12 +2,12 @@
 
 use super::Wedge;
 use crate::body::{Body, CORNER_REACH, DrawingEvidence, Figures};
-use crate::report::sheet::rounded;
 use crate::report::{Section, Weight, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::Motion;
 use camgen_kernel::motion::program::{EndClass, Program, SegmentSummary};
 use camgen_kernel::numeric::extremum;
+use camgen_kernel::text::{Length, LengthKind, Text, text};
 use nalgebra::Vector2;
 use serde::Serialize;
 
@@ -109,28 +109,34 @@ fn cam(wedge: &Wedge, weight: Weight) -> Section {
     };
     let follower = value
         .roller_radius_mm
-        .map_or("knife edge".to_owned(), |radius| format!("roller Ø{} mm", rounded(2.0 * radius)));
+        .map_or(Text::from("knife edge"), |radius| text!("roller Ø{}", Length::mm(2.0 * radius).rounded()));
     let inclined = if value.drive_angle_deg == 0.0 {
         String::new()
     } else {
         format!(", path inclined by {}°", shown(value.drive_angle_deg))
     };
-    let size = format!("plate {} × {} mm", rounded(value.length_mm), rounded(value.height_mm));
-    let lift = format!("lift {:.3} mm over a stroke of {} mm", value.max_lift_mm, shown(value.stroke_mm));
+    let size =
+        text!("plate {} × {}", Length::mm(value.length_mm).rounded().bare(), Length::mm(value.height_mm).rounded());
+    let lift =
+        text!("lift {} over a stroke of {}", Length::mm(value.max_lift_mm).decimals(3), Length::mm(value.stroke_mm));
     let mut words = vec![
-        format!(
-            "{size}, {:.3} mm at its thinnest (x = {:.2} mm), run-in {} mm, {follower}{inclined}, {lift}",
-            value.thinnest_mm,
-            value.thinnest_at_x_mm,
-            shown(value.run_in_mm)
+        text!(
+            "{}, {} at its thinnest (x = {}), run-in {}, {}{}, {}",
+            size.clone(),
+            Length::mm(value.thinnest_mm).decimals(3),
+            Length::mm(value.thinnest_at_x_mm).decimals(2),
+            Length::mm(value.run_in_mm),
+            follower.clone(),
+            inclined,
+            lift.clone()
         ),
         match shortest {
-            Some(shortest) => format!("shortest stroke for the limit of the pressure angle {} mm", shown(shortest)),
-            None => "no stroke keeps the limit of the pressure angle on this inclined path".to_owned(),
+            Some(shortest) => text!("shortest stroke for the limit of the pressure angle {}", Length::mm(shortest)),
+            None => "no stroke keeps the limit of the pressure angle on this inclined path".into(),
         },
     ];
     words.extend(value.weight.words());
-    let figures = [format!("{size}, {follower}"), lift].into_iter().chain(value.weight.figure()).collect();
+    let figures: Vec<Text> = [text!("{}, {}", size, follower), lift].into_iter().chain(value.weight.figure()).collect();
     Section::new("cam", &value).with_words(words).with_figures(figures)
 }
 
@@ -138,8 +144,8 @@ fn motion(wedge: &Wedge, program: &Program) -> Section {
     let rows = |index: usize| program.rows().iter().find(|rows| rows.segment == Some(index)).map(|rows| rows.count);
     let all = program.segments().iter().enumerate();
     let segments: Vec<SegmentFigures> = all.map(|(index, summary)| segment(wedge, summary, rows(index))).collect();
-    let mut words: Vec<String> = segments.iter().map(line).collect();
-    words.extend(program.rows().iter().flat_map(|rows| rows.told.iter().cloned()));
+    let mut words: Vec<Text> = segments.iter().map(line).collect();
+    words.extend(program.rows().iter().flat_map(|rows| rows.told.iter().cloned().map(Text::from)));
     let (from, to) = wedge.stroke();
     let value = MotionSection { unit: "mm", stroke_mm: MILLIMETRES * (to - from), segments };
     Section::new("motion", &value).with_words(words)
@@ -190,26 +196,32 @@ fn segment(wedge: &Wedge, summary: &SegmentSummary, rows: Option<usize>) -> Segm
     }
 }
 
-fn line(segment: &SegmentFigures) -> String {
+fn line(segment: &SegmentFigures) -> Text {
     let SegmentFigures { law, class, from_x_mm, to_x_mm, from, to, overshoot, peaks, shortest_mm, rows, .. } = segment;
-    let range = format!("x {} to {} mm {law}", shown(*from_x_mm), shown(*to_x_mm));
+    let range = text!("x {} to {} {}", Length::mm(*from_x_mm).bare(), Length::mm(*to_x_mm), law);
     if peaks.velocity_mm_per_mm == 0.0 {
-        return format!("{range} at {} mm", shown(*from));
+        return text!("{} at {}", range, Length::mm(*from));
     }
-    let jerk = peaks.jerk_mm_per_mm3.map_or(", j unbounded".to_owned(), |jerk| format!(", j {} mm/mm³", shown(jerk)));
+    let jerk = peaks
+        .jerk_mm_per_mm3
+        .map_or(Text::from(", j unbounded"), |jerk| text!(", j {}", Length::new(jerk, &LengthKind::MM_PER_MM3)));
     let through = rows.map_or(String::new(), |rows| format!(" through {rows} rows"));
-    let mut text = format!(
-        "{range}{through} {class} from {} to {} mm: v {} mm/mm, a {} mm/mm²{jerk}",
-        shown(*from),
-        shown(*to),
+    let mut words = text!(
+        "{}{} {} from {} to {}: v {} mm/mm, a {}{}",
+        range,
+        through,
+        class,
+        Length::mm(*from).bare(),
+        Length::mm(*to),
         shown(peaks.velocity_mm_per_mm),
-        shown(peaks.acceleration_mm_per_mm2)
+        Length::new(peaks.acceleration_mm_per_mm2, &LengthKind::MM_PER_MM2),
+        jerk
     );
     if let Some(shortest) = shortest_mm {
-        text.push_str(&format!("; at least {} mm long for the pressure angle", shown(*shortest)));
+        words += text!("; at least {} long for the pressure angle", Length::mm(*shortest));
     }
     if *overshoot > 0.0 {
-        text.push_str(&format!("; it overshoots its ends by {} mm", shown(*overshoot)));
+        words += text!("; it overshoots its ends by {}", Length::mm(*overshoot));
     }
-    text
+    words
 }

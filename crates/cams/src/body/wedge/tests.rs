@@ -213,7 +213,7 @@ fn the_stroke_of_the_remedy_passes() {
     let text = file("50 mm", &RISE.replace("80 mm", "50 mm"), "").replace("60 deg", "30 deg");
     let machine = Machine::from_toml("plate.toml", &text, &[]).expect("a machine");
     let wedge = Wedge::of(&machine, &machine.motion().expect("a motion").0).expect("a plate");
-    let remedy = wedge.remedy().expect("a remedy");
+    let remedy = wedge.remedy().expect("a remedy").to_string();
     let stroke: f64 =
         remedy.split('"').nth(1).and_then(|text| text.strip_suffix(" mm")?.parse().ok()).expect("a stroke");
     // 2 · 25/tan 30° = 86.6 mm.

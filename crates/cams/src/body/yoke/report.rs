@@ -4,11 +4,12 @@ use super::Yoke;
 use crate::body::Body;
 use crate::body::disc::Disc;
 use crate::body::part::point_as_turned;
+use crate::report::Section;
 use crate::report::sheet::Dimensions;
 use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView};
-use crate::report::{Section, shown};
 use camgen_kernel::follower::Element;
 use camgen_kernel::geometry::{Entity, MILLIMETRES};
+use camgen_kernel::text::{Length, text};
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 
@@ -29,8 +30,8 @@ pub(super) fn section(yoke: &Yoke) -> Section {
     let roller = yoke.disc.curves().roller_radius().map(|radius| MILLIMETRES * radius);
     let centres = roller.map(|radius| breadth + 2.0 * radius);
     let value = serde_json::json!({ "breadth_mm": breadth, "roller_distance_mm": centres });
-    let between_centres = centres.map_or(String::new(), |centres| format!(", {} mm between centres", shown(centres)));
-    let words = format!("breadth {} mm between {}{between_centres}", shown(breadth), between(yoke));
+    let between_centres = centres.map(|centres| text!(", {} between centres", Length::mm(centres)));
+    let words = text!("breadth {} between {}{}", Length::mm(breadth), between(yoke), between_centres);
     Section::new("yoke", &value).with_words(vec![words])
 }
 

@@ -107,7 +107,7 @@ impl PanelPaper<'_> {
         };
         let group = |class: &'static str, what: &str, shapes: Vec<SheetShape>| ShapeGroup {
             id: format!("diagram-{what}-{}", self.index),
-            label: format!("{}: {}", panel.name, what.replace('-', " ")),
+            label: format!("{}: {}", panel.name, what.replace('-', " ")).into(),
             ..ShapeGroup::new(class, "", shapes)
         };
         let limit = ShapeGroup { colour: Some("#b3261e".into()), ..group("curve", "limit", limit_lines) };

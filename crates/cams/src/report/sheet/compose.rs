@@ -6,7 +6,6 @@ use super::panels::{self, PanelWriter, SheetPanel};
 use super::paper::{ENLARGEMENTS, PaperSize, REDUCTIONS, frame_and_grid, papers, rectangle};
 use super::placing::OccupiedPaper;
 use super::{Mark, STROKE, ShapeGroup, Sheet, SheetShape, SheetView, TextAnchor, TitleFacts, font, words};
-use crate::report::restated::sentence;
 use crate::report::trace::{self, Trace};
 use crate::report::{Finding, Report, failed};
 use camgen_kernel::geometry::contour::Extents;
@@ -57,13 +56,8 @@ struct Layout {
 #[must_use]
 pub fn compose(view: &SheetView, report: &Report, extras: &SheetExtras<'_>) -> Sheet {
     let view = &with_missing_letters(view, report);
-    let view = &in_units(view, report.units);
-    let (report, papers) = (&*report.for_people(), papers(report.units));
-    let checks = match report.units {
-        LengthUnit::Millimetre => Cow::Borrowed(extras.checks),
-        LengthUnit::Inch => extras.checks.iter().map(Finding::in_inches).collect(),
-    };
-    let extras = &SheetExtras { checks: &checks, ..*extras };
+    let view = &in_unit(view, report.units);
+    let papers = papers(report.units);
     let covered = super::extents_of(&view.groups);
     let covered = if covered.size().iter().all(|size| size.is_finite() && *size >= 0.0) {
         covered
@@ -102,22 +96,22 @@ pub fn compose(view: &SheetView, report: &Report, extras: &SheetExtras<'_>) -> S
     }
 }
 
-/// The view with its words in the unit of the sheet; its dimensions are.
-fn in_units(view: &SheetView, units: LengthUnit) -> Cow<'_, SheetView> {
+/// What ASME Y14.5 has on a drawing in inches.
+const INCHES: &str = "UNLESS OTHERWISE SPECIFIED, DIMENSIONS ARE IN INCHES";
+
+/// The view with its words in the unit of the sheet.
+fn in_unit(view: &SheetView, units: LengthUnit) -> Cow<'_, SheetView> {
     if units == LengthUnit::Millimetre {
         return Cow::Borrowed(view);
     }
     let mut view = view.clone();
     for label in view.groups.iter_mut().map(|group| &mut group.label) {
-        *label = sentence(label);
+        *label = label.in_unit(units).into();
     }
-    view.notes = view.notes.iter().map(|note| sentence(note)).collect();
-    view.notes.insert(0, INCHES.to_owned());
+    view.notes =
+        std::iter::once(INCHES.into()).chain(view.notes.iter().map(|note| note.in_unit(units).into())).collect();
     Cow::Owned(view)
 }
-
-/// What ASME Y14.5 has on a drawing in inches.
-const INCHES: &str = "UNLESS OTHERWISE SPECIFIED, DIMENSIONS ARE IN INCHES";
 
 /// The view with a note of the letters that would be boxes.
 fn with_missing_letters<'a>(view: &'a SheetView, report: &Report) -> Cow<'a, SheetView> {
@@ -127,7 +121,7 @@ fn with_missing_letters<'a>(view: &'a SheetView, report: &Report) -> Cow<'a, She
     }
     let codes: Vec<String> = missing.iter().map(|letter| format!("U+{:04X}", u32::from(*letter))).collect();
     let mut view = view.clone();
-    view.notes.push(format!("letters that are missing in the font of this sheet: {}", codes.join(", ")));
+    view.notes.push(format!("letters that are missing in the font of this sheet: {}", codes.join(", ")).into());
     Cow::Owned(view)
 }
 

@@ -5,6 +5,7 @@
 //! font, and placed where it touches no line, no other text and no frame.
 
 pub(super) mod block;
+use camgen_kernel::text::Text;
 mod compose;
 mod dimension;
 pub mod font;
@@ -20,7 +21,6 @@ pub use dimension::Dimensions;
 pub use view::extents_of;
 pub use view::{Mark, PlaceTable, ProfileTolerance, SheetView, TitleFacts};
 
-use crate::report::shown;
 use camgen_kernel::geometry::Entity;
 use camgen_kernel::geometry::contour::Extents;
 use nalgebra::Vector2;
@@ -70,7 +70,7 @@ pub struct ShapeGroup {
     /// The class that gives its style.
     pub class: &'static str,
     /// Name for people.
-    pub label: String,
+    pub label: Text,
     /// Colour of its lines, where the colour carries information.
     pub colour: Option<String>,
     /// What is in it.
@@ -82,7 +82,7 @@ pub struct ShapeGroup {
 impl ShapeGroup {
     /// A group whose style class is its name.
     #[must_use]
-    pub fn new(id: &'static str, label: &str, shapes: Vec<SheetShape>) -> Self {
+    pub fn new(id: &'static str, label: impl Into<Text>, shapes: Vec<SheetShape>) -> Self {
         Self { id: id.into(), class: id, label: label.into(), colour: None, shapes, in_legend: false }
     }
 
@@ -149,12 +149,4 @@ pub(crate) fn words(at: Vector2<f64>, height: f64, anchor: TextAnchor, text: imp
     SheetShape::Text { at, height, anchor, text: text.into() }
 }
 
-/// A number for a person: at most three decimals, no trailing zeros.
-#[must_use]
-pub fn rounded(value: f64) -> String {
-    if !value.is_finite() {
-        return "none".into();
-    }
-    let rounded = (value * 1e3).round() / 1e3 + 0.0;
-    if rounded == 0.0 { shown(value) } else { rounded.to_string() }
-}
+pub use camgen_kernel::text::rounded;

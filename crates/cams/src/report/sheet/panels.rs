@@ -134,15 +134,14 @@ pub(super) fn checks(
     writer.done()
 }
 
-/// The start of the note of a check whose keys are absent.
-const NOT_RUN: &str = "not run";
-
 fn cells(finding: &Finding, units: LengthUnit) -> [String; 5] {
-    let limit = finding.limit_words().unwrap_or_default();
-    let place =
-        if finding.place == Place::default() { String::new() } else { format!("at {}", finding.place.words(units)) };
-    let run = finding.note.as_ref().is_none_or(|note| !note.starts_with(NOT_RUN));
-    let value = if run { finding.value_words() } else { NOT_RUN.into() };
+    let limit = finding.limit_words(units).unwrap_or_default();
+    let place = if finding.place == Place::default() {
+        String::new()
+    } else {
+        format!("at {}", finding.place.text().in_unit(units))
+    };
+    let value = if finding.is_unknown { "not run".to_owned() } else { finding.shown_value(units).to_string() };
     [finding.verdict.word().into(), finding.check.replace('_', " "), value, limit, place]
 }
 
@@ -150,7 +149,7 @@ fn cells(finding: &Finding, units: LengthUnit) -> [String; 5] {
 pub(super) fn figures(mut writer: PanelWriter, report: &Report) -> SheetPanel {
     writer.heading("Figures");
     for figure in report.figures() {
-        writer.paragraph("facts", &figure);
+        writer.paragraph("facts", &figure.in_unit(report.units));
     }
     writer.done()
 }
@@ -159,7 +158,7 @@ pub(super) fn figures(mut writer: PanelWriter, report: &Report) -> SheetPanel {
 pub(super) fn legend(mut writer: PanelWriter, view: &SheetView) -> SheetPanel {
     writer.heading("Lines");
     let listed: Vec<&ShapeGroup> = view.groups.iter().filter(|group| group.in_legend).collect();
-    let longest = listed.iter().map(|group| font::width(&group.label, TEXT)).fold(0.0, f64::max);
+    let longest = listed.iter().map(|group| font::width(&group.label.to_string(), TEXT)).fold(0.0, f64::max);
     let each = SAMPLE + 2.0 + longest + 4.0;
     let fits = (writer.width / each).floor().clamp(1.0, 3.0);
     let mut column = 0.0;
@@ -172,10 +171,15 @@ pub(super) fn legend(mut writer: PanelWriter, view: &SheetView) -> SheetPanel {
         let sample = SheetShape::Line(Vector2::new(x * writer.k, y), Vector2::new((x + SAMPLE) * writer.k, y));
         let colour = group.colour.clone();
         let id = format!("legend-{index}");
-        writer.groups.push(ShapeGroup { id, colour, ..ShapeGroup::new(group.class, &group.label, vec![sample]) });
+        writer.groups.push(ShapeGroup {
+            id,
+            colour,
+            ..ShapeGroup::new(group.class, group.label.clone(), vec![sample])
+        });
         let room = writer.width / fits - SAMPLE - 3.0;
-        let (_, size) = font::fitted_in_one(&group.label, TEXT, room);
-        writer.text("facts", x + SAMPLE + 2.0, size, TextAnchor::Start, group.label.clone());
+        let label = group.label.to_string();
+        let (_, size) = font::fitted_in_one(&label, TEXT, room);
+        writer.text("facts", x + SAMPLE + 2.0, size, TextAnchor::Start, label);
         column = if column + 1.0 < fits { column + 1.0 } else { 0.0 };
     }
     writer.done()
@@ -185,10 +189,10 @@ pub(super) fn legend(mut writer: PanelWriter, view: &SheetView) -> SheetPanel {
 pub(super) fn notes(mut writer: PanelWriter, view: &SheetView, report: &Report) -> SheetPanel {
     writer.heading("Notes");
     for lost in &view.lost {
-        writer.paragraph("fail", lost);
+        writer.paragraph("fail", &lost.in_unit(report.units));
     }
     for note in view.notes.iter().chain(&report.notes).take(MOST_NOTES) {
-        writer.paragraph("facts", note);
+        writer.paragraph("facts", &note.in_unit(report.units));
     }
     let more = (view.notes.len() + report.notes.len()).saturating_sub(MOST_NOTES);
     if more > 0 {

@@ -3,6 +3,7 @@
 use super::{ShapeGroup, SheetShape};
 use crate::machine::Title;
 use camgen_kernel::geometry::contour::{Extents, Segment};
+use camgen_kernel::text::Text;
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -151,9 +152,9 @@ pub struct SheetView {
     /// For the title block.
     pub facts: TitleFacts,
     /// Further notes, a sentence each.
-    pub notes: Vec<String>,
+    pub notes: Vec<Text>,
     /// Sentences about motion that is lost.
-    pub lost: Vec<String>,
+    pub lost: Vec<Text>,
 }
 
 /// What groups cover, mm.

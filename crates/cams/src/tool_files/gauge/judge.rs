@@ -15,6 +15,7 @@ use crate::report::{Bound, Finding, Verdict, shown};
 use crate::verify::{Evidence, place};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::{Contour, Edge, Segment};
+use camgen_kernel::text::{Length, text};
 use nalgebra::Vector2;
 
 pub(super) const CHECK: Check = Check {
@@ -40,10 +41,10 @@ const SAME: f64 = 1e-6;
 pub(super) fn judge(evidence: &Evidence<'_>, table: &Result<GaugeRows, String>) -> Finding {
     let limit = evidence.tolerance_mm;
     match table.as_ref().map_err(Clone::clone).and_then(|rows| judged(evidence, rows)) {
-        Err(why) => Finding { note: Some(why), ..CHECK.found(f64::INFINITY, Some(limit), Verdict::Fail) },
+        Err(why) => Finding { note: Some(why.into()), ..CHECK.found(f64::INFINITY, Some(limit), Verdict::Fail) },
         Ok((value, at, words)) => {
             let found = CHECK.found(value, Some(limit), Verdict::of(value <= limit));
-            Finding { note: Some(words), place: place(evidence.body, at), ..found }
+            Finding { note: Some(words.into()), place: place(evidence.body, at), ..found }
         }
     }
 }
@@ -90,7 +91,7 @@ fn judged(evidence: &Evidence<'_>, read: &GaugeRows) -> Result<(f64, Vector2<f64
         }
     }
     let follower =
-        read.radius.map_or("a flat face".into(), |radius| format!("a ball or roller Ø{} mm", shown(2.0 * radius)));
+        read.radius.map_or("a flat face".into(), |radius| text!("a ball or roller Ø{}", Length::mm(2.0 * radius)));
     let on = if exact.is_some() { "the exact profile" } else { "the outline as read from the cut file" };
     Ok((worst.0, worst.1, format!("{} rows of {follower} on {on}", read.rows.len())))
 }

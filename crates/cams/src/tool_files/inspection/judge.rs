@@ -80,7 +80,7 @@ pub(super) fn judge(evidence: &Evidence<'_>, lists: &[WrittenInspection]) -> Opt
         match compare(evidence, list) {
             Err(why) => {
                 let found = CHECK.found(f64::INFINITY, Some(limit), Verdict::Fail);
-                return Some(Finding { note: Some(why), ..found });
+                return Some(Finding { note: Some(why.into()), ..found });
             }
             Ok((distance, at, places)) => {
                 count += places;
@@ -96,7 +96,7 @@ pub(super) fn judge(evidence: &Evidence<'_>, lists: &[WrittenInspection]) -> Opt
     let on = if evidence.outlines.is_empty() { "the exact profile" } else { "the outline as read from the cut file" };
     let note = format!("{count} places as read, on {on}");
     let found = CHECK.found(worst.0, Some(limit), Verdict::of(worst.0 <= limit));
-    Some(Finding { place: place(evidence.body, worst.1), note: Some(note), ..found })
+    Some(Finding { place: place(evidence.body, worst.1), note: Some(note.into()), ..found })
 }
 
 /// The largest distance of the places of a list, where, and how many there are.

@@ -10,6 +10,7 @@ use crate::report::sheet::{Mark, PlaceTable, SheetExtras, compose};
 use crate::write::number::{plain, shortest};
 use crate::write::{Rendering, svg};
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::{Length, text};
 use camgen_kernel::units::LengthUnit;
 
 /// The files of a list: a table, lines of `no x y z nx ny nz`, and a DMIS program.
@@ -109,11 +110,11 @@ pub(super) fn sheet(cam: &Rendering<'_>, list: &InspectionList) -> Result<Vec<u8
         PlaceTable { title, heads: heads.clone(), rows: rows.clone().into(), every: *every }
     };
     view.tables = LISTED.iter().map(table).collect();
-    view.notes = vec![format!(
-        "{} places, one for each degree of the cam; ball Ø{} mm; zone ±{} mm along the normal",
+    view.notes = vec![text!(
+        "{} places, one for each degree of the cam; ball Ø{}; zone ±{} along the normal",
         list.places.len(),
-        shortest(2.0 * list.ball_radius),
-        shortest(list.zone)
+        Length::mm(2.0 * list.ball_radius),
+        Length::mm(list.zone)
     )];
     let deviates = svg::deviation_words(&cam.fit, cam.report.units);
     let (checks, passed_otherwise) = svg::listed_checks(&cam.report.checks, cam.body.machine().catalogue());

@@ -72,7 +72,7 @@ pub(super) fn judge(evidence: &Evidence<'_>, tables: &[WrittenPoints]) -> Option
     };
     let mut finding = CHECK.found(worst.worst, Some(limit), verdict);
     let motion = motion_words(evidence, &found);
-    finding.note = Some(format!("{}{motion}", words(&worst.written.table, tables.len())));
+    finding.note = Some(format!("{}{motion}", words(&worst.written.table, tables.len())).into());
     finding.place = worst.at;
     Some(finding)
 }
@@ -125,7 +125,7 @@ fn motion_words(evidence: &Evidence<'_>, found: &[TableDeviation<'_>]) -> String
 
 /// The finding on a table that there is not, or that is none of the cam.
 pub(super) fn no_table(limit: f64, why: String) -> Finding {
-    Finding { note: Some(why), ..CHECK.found(f64::INFINITY, Some(limit), Verdict::Fail) }
+    Finding { note: Some(why.into()), ..CHECK.found(f64::INFINITY, Some(limit), Verdict::Fail) }
 }
 
 /// The largest distance of a table, and the errors of the follower's motion on it.

@@ -61,7 +61,7 @@ pub(super) fn judge(evidence: &Evidence<'_>, tables: &[WrittenServo]) -> Option<
         match judged {
             Err(why) => {
                 let found = CHECK.found(f64::INFINITY, Some(limit), Verdict::Fail);
-                return Some(Finding { note: Some(format!("{format}: {why}")), ..found });
+                return Some(Finding { note: Some(format!("{format}: {why}").into()), ..found });
             }
             Ok((found, rows)) => {
                 let straight = table.as_ref().is_ok_and(|rows| rows.straight);
@@ -83,7 +83,7 @@ pub(super) fn judge(evidence: &Evidence<'_>, tables: &[WrittenServo]) -> Option<
     let kept = value <= limit && share <= VELOCITY_SHARE;
     let note = format!("{words}; the velocity off by {} of the largest", shown(share));
     let place = evidence.body.place(found.at);
-    Some(Finding { place, note: Some(note), ..CHECK.found(value, Some(limit), Verdict::of(kept)) })
+    Some(Finding { place, note: Some(note.into()), ..CHECK.found(value, Some(limit), Verdict::of(kept)) })
 }
 
 /// A row in SI units.

@@ -32,10 +32,10 @@ const OFF: i32 = 4;
 /// The finding on a table as it was read.
 pub(super) fn judge(evidence: &Evidence<'_>, table: Result<NumberTable, String>) -> Finding {
     match table.and_then(|table| judged(evidence, &table)) {
-        Err(why) => Finding { note: Some(why), ..CHECK.found(f64::INFINITY, Some(1.0), Verdict::Fail) },
+        Err(why) => Finding { note: Some(why.into()), ..CHECK.found(f64::INFINITY, Some(1.0), Verdict::Fail) },
         Ok((value, words, place)) => {
             let found = CHECK.found(value, Some(1.0), Verdict::of(value <= 1.0));
-            Finding { note: Some(words), place, ..found }
+            Finding { note: Some(words.into()), place, ..found }
         }
     }
 }

@@ -10,6 +10,7 @@ use crate::report::diagram::Diagram;
 use crate::report::mechanism::{CoordinateTrack, MechanismView, MovingMechanism, RigidPart, RingSolid};
 use crate::report::{Bound, Finding, Place, Report, Section, Verdict, shown, worst_first};
 use crate::table::Table;
+use camgen_kernel::text::Text;
 use serde_json::{Map, Value, json};
 
 /// Most steps of a turn, and most rows of the table over all sections.
@@ -148,7 +149,7 @@ pub(super) fn report_page(report: &Report) -> Value {
         "inputs": report.inputs,
         "checks": worst_first(report.checks.clone()).iter().map(check).collect::<Vec<Value>>(),
         "sections": report.sections.iter().map(section).collect::<Vec<Value>>(),
-        "notes": report.notes,
+        "notes": report.notes.iter().map(Text::to_string).collect::<Vec<_>>(),
         "notModelled": report.not_modelled,
         "files": report.files.iter().filter_map(|file| file.rsplit(['/', '\\']).next()).collect::<Vec<&str>>(),
         "notRun": not_run(report),
@@ -156,7 +157,7 @@ pub(super) fn report_page(report: &Report) -> Value {
 }
 
 pub(super) fn check(finding: &Finding) -> Value {
-    let place = (finding.place != Place::default()).then(|| finding.place.to_string());
+    let place = (finding.place != Place::default()).then(|| finding.place.text().to_string());
     json!({
         "check": finding.check,
         "about": finding.about,
@@ -168,14 +169,14 @@ pub(super) fn check(finding: &Finding) -> Value {
         "camDeg": finding.place.cam_deg,
         "xMm": finding.place.x_mm,
         "verdict": finding.verdict,
-        "note": finding.note,
+        "note": finding.note.as_ref().map(Text::to_string),
     })
 }
 
 /// Checks that could not be judged, and what they need.
 fn not_run(report: &Report) -> Vec<Value> {
     let silent = report.checks.iter().filter(|finding| finding.verdict == Verdict::Info && !finding.value.is_finite());
-    silent.filter_map(|finding| Some(json!([finding.check, finding.note.as_ref()?]))).collect()
+    silent.filter_map(|finding| Some(json!([finding.check, finding.note.as_ref()?.to_string()]))).collect()
 }
 
 /// A section with its values one by one: name, value, unit.
@@ -191,8 +192,9 @@ fn section(section: &Section) -> Value {
         other => other.clone(),
     };
     flatten(&section.key, &value, &mut values);
-    // A line in columns belongs to the table.
-    let words: Vec<&String> = section.words.iter().filter(|line| !line.contains("   ")).collect();
+    // The values have the rows as a table.
+    let sentences = section.words.iter().filter(|line| !line.is_row);
+    let words: Vec<String> = sentences.map(|line| line.text.to_string()).collect();
     json!({"key": section.key, "title": units::words(&section.key), "words": words, "values": values, "tables": tables})
 }
 

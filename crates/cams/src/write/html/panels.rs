@@ -224,6 +224,7 @@ mod tests {
             unit: "mm".into(),
             place: Place::default(),
             verdict: Verdict::Pass,
+            is_unknown: false,
             about: None,
             note: None,
         };

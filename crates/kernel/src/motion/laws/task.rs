@@ -1,6 +1,7 @@
 //! A task for a law: its ends, inflection and parameters; and why it may fail.
 
 use crate::refusal::Refusal;
+use crate::text::Text;
 use std::fmt;
 
 /// How a segment begins or ends (VDI 2143: R, G, U).
@@ -104,7 +105,7 @@ impl LawError {
         Self { input, refusal: Refusal::new(what) }
     }
 
-    pub(crate) fn remedy(self, remedy: impl Into<String>) -> Self {
+    pub(crate) fn remedy(self, remedy: impl Into<Text>) -> Self {
         Self { refusal: self.refusal.remedy(remedy), ..self }
     }
 

@@ -199,7 +199,8 @@ struct PieceSource {
 
 /// Refuses an impossible segment given by code: from one position to another over a width (angle or length).
 fn possible_segment(number: usize, (from, to): (f64, f64), width: f64, rests: bool) -> Result<(), Refusal> {
-    let refused = |what: String, remedy: &str| Err(Refusal::new(format!("segment {number}: {what}")).remedy(remedy));
+    let refused =
+        |what: String, remedy: &'static str| Err(Refusal::new(format!("segment {number}: {what}")).remedy(remedy));
     if ![from, to, width].iter().all(|value| value.is_finite()) {
         return refused("a number is not finite".into(), "give finite numbers");
     }

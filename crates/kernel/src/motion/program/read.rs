@@ -249,6 +249,7 @@ fn lengths(segments: &[TableReader<'_>], start: f64) -> Vec<f64> {
 /// Reports why a segment cannot be made, at the key that is responsible.
 fn report_error(segment: &TableReader<'_>, error: LawError) {
     let Refusal { what, remedy, .. } = error.refusal;
+    let remedy = remedy.map(|remedy| remedy.to_string());
     match error.input {
         "inflection" => segment.fail(&INFLECTION, what, remedy),
         "velocity" => segment.fail(&VELOCITY, what, remedy),

@@ -6,8 +6,8 @@ use crate::brake::checks::{BELT_RANGE, FRAME_REACH, GRIP, SELF_LOCKING, TENSION,
 use crate::brake::machine::{BeltMode, BrakeMachine, BrakeModel};
 use crate::brake::mechanics::{Brake, PaperRoll};
 use camgen_cams::check::Measure;
-use camgen_cams::report::shown;
 use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::text::{KeyChange, Length, Remedy, text};
 
 /// Largest friction / friction at which the brake jams.
 const LOCKING: f64 = 1.0 / 1.5;
@@ -25,16 +25,16 @@ pub(super) fn measures(
     let TensionRange { least, largest } = tensions;
     let mut all = Vec::new();
     if !disc {
-        let note = format!(
-            "{:.2} N at {} mm, {:.2} N at {} mm",
-            least.value,
-            shown(MILLIMETRES * least.at),
-            largest.value,
-            shown(MILLIMETRES * largest.at)
+        let note = text!(
+            "{} N at {}, {} N at {}",
+            format_args!("{:.2}", least.value),
+            Length::mm(MILLIMETRES * least.at),
+            format_args!("{:.2}", largest.value),
+            Length::mm(MILLIMETRES * largest.at)
         );
-        let remedy = "; a disc on the frame's shaft holds it (--cam with [brake.cam]), or another frame (--synthesize)";
+        let remedy = "a disc on the frame's shaft holds it (--cam with [brake.cam]), or another frame (--synthesize)";
         let value = spread(least.value, largest.value);
-        let note = if value > limits.tension_spread { note + remedy } else { note };
+        let note = if value > limits.tension_spread { note.and("; ", remedy) } else { note };
         all.push(TENSION.measure(value, Some(limits.tension_spread)).noted(note));
     }
     all.push(self_locking(braking));
@@ -63,10 +63,11 @@ fn self_locking(braking: &LoadedBrake<'_>) -> Measure {
     let worst = braking.largest(|pose| pose.locking_friction().map_or(0.0, |lock| friction / lock));
     let note = if worst.value > 0.0 {
         let (lock, radius) = (friction / worst.value, MILLIMETRES * worst.at);
-        let place = format!("the brake jams with a friction of {lock:.4} at {} mm", shown(radius));
+        let place =
+            text!("the brake jams with a friction of {} at {}", format_args!("{:.4}", lock), Length::mm(radius));
         let remedy =
-            "; turn the roll the other way (brake.rotation), or move the pivot to the other side of the tight span";
-        if worst.value > LOCKING { place + remedy } else { place }
+            "turn the roll the other way (brake.rotation), or move the pivot to the other side of the tight span";
+        if worst.value > LOCKING { place.and("; ", remedy) } else { place }
     } else {
         "the brake does not jam at any friction".into()
     };
@@ -95,11 +96,12 @@ fn grip(braking: &LoadedBrake<'_>) -> Measure {
         BrakeModel::Printed => brake.weight_for_printed(data.tension, pose),
     });
     let needed = data.grip * weight.value;
-    let note = format!(
-        "least at {} mm; holding {} times the wanted tension over the whole roll needs a weight of {needed:.2} N: brake.weight = \"{:.2} N\"",
-        shown(MILLIMETRES * worst.at),
+    let note = text!(
+        "least at {}; holding {} times the wanted tension over the whole roll needs a weight of {} N: {}",
+        Length::mm(MILLIMETRES * worst.at),
         data.grip,
-        (100.0 * needed).ceil() / 100.0
+        format_args!("{:.2}", needed),
+        Remedy::new([KeyChange::new("brake.weight", format!("{:.2} N", (100.0 * needed).ceil() / 100.0))])
     );
     GRIP.measure(worst.value, Some(data.grip)).noted(note)
 }

@@ -7,6 +7,7 @@ use crate::brake::machine::{BeltMode, BrakeData, BrakeModel};
 use crate::brake::mechanics::{FramePose, PaperRoll, Web};
 use camgen_cams::report::{Section, shown};
 use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::text::{Length, Text, text};
 use serde::Serialize;
 
 /// Change of the friction for which tensions are also reported, as a share.
@@ -57,16 +58,16 @@ fn end(braking: &LoadedBrake<'_>, pose: &FramePose) -> FrameEnd {
 pub(super) fn frame(braking: &LoadedBrake<'_>) -> Section {
     let ends = [0, 1].map(|index| braking.ends.get(index).map(|pose| end(braking, pose)));
     let words = ends.iter().flatten().map(|end| {
-        format!(
-            "at {:.0} mm: frame {:.3}°, wrap {:.3}°, K {:.6}; arms: weight {:.2}, press {:.2}, tight span {:.2}, slack span {:.2} mm",
-            end.roll_radius_mm,
-            end.frame_deg,
-            end.wrap_deg,
-            end.k,
-            end.weight_arm_mm,
-            end.press_arm_mm,
-            end.tight_arm_mm,
-            end.slack_arm_mm
+        text!(
+            "at {}: frame {}°, wrap {}°, K {}; arms: weight {}, press {}, tight span {}, slack span {}",
+            Length::mm(end.roll_radius_mm).decimals(0),
+            format_args!("{:.3}", end.frame_deg),
+            format_args!("{:.3}", end.wrap_deg),
+            format_args!("{:.6}", end.k),
+            format_args!("{:.2}", end.weight_arm_mm),
+            format_args!("{:.2}", end.press_arm_mm),
+            format_args!("{:.2}", end.tight_arm_mm),
+            Length::mm(end.slack_arm_mm).decimals(2)
         )
     });
     let words = words.collect();
@@ -139,25 +140,28 @@ fn newtons_or_jams(tension: Option<f64>) -> String {
     tension.map_or("the brake jams".to_owned(), |tension| format!("{tension:.2} N"))
 }
 
-fn describe_brake(figures: &BrakeFigures) -> Vec<String> {
+fn describe_brake(figures: &BrakeFigures) -> Vec<Text> {
     let mut lines = vec![
-        format!(
-            "weight {:.2} N; {} N on the full roll needs {:.2} N, or {:.2} N by the printed moment (5)",
-            figures.weight_n, figures.tension_wanted_n, figures.weight_exact_n, figures.weight_printed_n
+        text!(
+            "weight {} N; {} N on the full roll needs {} N, or {} N by the printed moment (5)",
+            format_args!("{:.2}", figures.weight_n),
+            figures.tension_wanted_n,
+            format_args!("{:.2}", figures.weight_exact_n),
+            format_args!("{:.2}", figures.weight_printed_n)
         ),
-        format!(
-            "web tension from {:.2} N at {:.1} mm to {:.2} N at {:.1} mm: {:.3} % of the largest",
-            figures.tension_least_n,
-            figures.tension_least_roll_radius_mm,
-            figures.tension_largest_n,
-            figures.tension_largest_roll_radius_mm,
-            100.0 * figures.tension_spread
+        text!(
+            "web tension from {} N at {} to {} N at {}: {} % of the largest",
+            format_args!("{:.2}", figures.tension_least_n),
+            Length::mm(figures.tension_least_roll_radius_mm).decimals(1),
+            format_args!("{:.2}", figures.tension_largest_n),
+            Length::mm(figures.tension_largest_roll_radius_mm).decimals(1),
+            format_args!("{:.3}", 100.0 * figures.tension_spread)
         ),
     ];
     lines.extend(figures.other_friction.iter().map(|other| {
-        format!(
-            "with a friction of {:.3}: {} on the full roll, {} on the run-down roll",
-            other.friction,
+        text!(
+            "with a friction of {}: {} on the full roll, {} on the run-down roll",
+            format_args!("{:.3}", other.friction),
             newtons_or_jams(other.tension_full_n),
             newtons_or_jams(other.tension_run_down_n)
         )
@@ -200,17 +204,18 @@ pub(super) fn printed(braking: &LoadedBrake<'_>) -> Section {
         tension_in_truth_run_down_n: braking.brake.tension(weight, run_down),
     };
     let words = vec![
-        format!(
-            "(8) press force {:.2} N, weight {:.2} N at V_z/V = {}; (9) V_z/V = {:.6} on the run-down roll; (10) range {:.3} % of V",
-            figures.press_full_n,
-            weight,
+        text!(
+            "(8) press force {} N, weight {} N at V_z/V = {}; (9) V_z/V = {} on the run-down roll; (10) range {} % of V",
+            format_args!("{:.2}", figures.press_full_n),
+            format_args!("{:.2}", weight),
             figures.belt_speed_ratio_full,
-            by_9,
-            100.0 * figures.belt_speed_range
+            format_args!("{:.6}", by_9),
+            format_args!("{:.3}", 100.0 * figures.belt_speed_range)
         ),
-        format!(
-            "in fact the speed of a slipping belt regulates nothing: that weight makes {:.2} N on the full roll, and {:.2} N on the run-down roll",
-            figures.tension_in_truth_n, figures.tension_in_truth_run_down_n
+        text!(
+            "in fact the speed of a slipping belt regulates nothing: that weight makes {} N on the full roll, and {} N on the run-down roll",
+            format_args!("{:.2}", figures.tension_in_truth_n),
+            format_args!("{:.2}", figures.tension_in_truth_run_down_n)
         ),
     ];
     Section::new("printed", &figures).with_words(words)
@@ -263,23 +268,30 @@ pub(super) fn web(data: &BrakeData, roll: Option<&PaperRoll>) -> Option<Section>
         acceleration_tension_n: speeding,
     };
     let mut words = vec![
-        format!(
-            "stress {:.4} MPa at {wanted} N; of {:.1} W of power {belt:.1} W go to the belt drive and {heat:.1} W become heat",
-            figures.stress_mpa,
-            belt + heat
+        text!(
+            "stress {} MPa at {} N; of {} W of power {} W go to the belt drive and {} W become heat",
+            format_args!("{:.4}", figures.stress_mpa),
+            wanted,
+            format_args!("{:.1}", belt + heat),
+            format_args!("{:.1}", belt),
+            format_args!("{:.1}", heat)
         ),
-        format!(
-            "without slip V_z/V = {:.6} (printed (14): {:.6}); a change of it by 0.01 % changes the tension by {:.2} %",
-            exact,
-            figures.belt_speed_ratio_printed,
-            0.01 * figures.speed_sensitivity
+        text!(
+            "without slip V_z/V = {} (printed (14): {}); a change of it by 0.01 % changes the tension by {} %",
+            format_args!("{:.6}", exact),
+            format_args!("{:.6}", figures.belt_speed_ratio_printed),
+            format_args!("{:.2}", 0.01 * figures.speed_sensitivity)
         ),
     ];
-    words.extend(figures.stretch_mm.map(|stretch| format!("stretch to the printing nip (15) {stretch:.4} mm")));
+    words.extend(
+        figures.stretch_mm.map(|stretch| text!("stretch to the printing nip (15) {}", Length::mm(stretch).decimals(4))),
+    );
     words.extend(speeding.zip(inertia).map(|(tension, inertia)| {
-        format!(
-            "speeding up at {} m/s² adds {tension:.3} N on the full roll ({inertia:.3} kg·m²), and less as it runs down",
-            data.acceleration
+        text!(
+            "speeding up at {} m/s² adds {} N on the full roll ({} kg·m²), and less as it runs down",
+            data.acceleration,
+            format_args!("{:.3}", tension),
+            format_args!("{:.3}", inertia)
         )
     }));
     Some(Section::new("web", &figures).with_words(words))
@@ -325,23 +337,24 @@ pub(super) fn disc(braking: &LoadedBrake<'_>, held: &TensionDisc<'_>) -> Section
         tension_as_cut_error_max_n: cut.map(|cut| (cut.largest.tension - wanted).max(wanted - cut.least.tension)),
     };
     let mut words = vec![
-        format!(
-            "a disc that turns {} times as far as the frame, to {}°, takes {} J from its spring; lift {} mm on the full roll",
+        text!(
+            "a disc that turns {} times as far as the frame, to {}°, takes {} J from its spring; lift {} on the full roll",
             shown(figures.turns_per_frame_turn),
             shown(figures.cam_end_deg),
             shown(figures.work_j),
-            shown(figures.lift_full_mm)
+            Length::mm(figures.lift_full_mm)
         ),
-        format!(
+        text!(
             "spring at most {} N; moment on the frame {} N·m on the run-down roll",
             shown(figures.spring_force_max_n),
             shown(figures.moment_run_down_nm)
         ),
     ];
     words.extend(cut.map(|cut| {
-        format!(
-            "as cut the web tension is between {:.3} and {:.3} N over the whole roll",
-            cut.least.tension, cut.largest.tension
+        text!(
+            "as cut the web tension is between {} and {} N over the whole roll",
+            format_args!("{:.3}", cut.least.tension),
+            format_args!("{:.3}", cut.largest.tension)
         )
     }));
     words.push(

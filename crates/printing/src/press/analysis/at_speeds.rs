@@ -13,6 +13,7 @@ use camgen_cams::report::plot::{PlotCurve, PlotPanel};
 use camgen_cams::report::shown;
 use camgen_cams::table::ListedColumn;
 use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::text::{Length, Text, text};
 
 /// A volume of less than this share of the cylinders' is rounding.
 const NO_VOLUME: f64 = 1e-12;
@@ -111,15 +112,17 @@ pub(super) struct ColumnReset {
 pub(super) fn volume(resets: &[ColumnReset], own: f64) -> Measure {
     let rounding = NO_VOLUME * own;
     let least = resets.iter().map(|reset| reset.added_mm3).fold(f64::INFINITY, f64::min);
-    let below: Vec<String> = resets
+    let below: Vec<Text> = resets
         .iter()
         .filter(|reset| reset.added_mm3 < -rounding)
-        .map(|reset| format!("to {:.3} mm for {} rpm", reset.column_mm, reset.rpm))
+        .map(|reset| text!("to {} for {} rpm", Length::mm(reset.column_mm).decimals(3), reset.rpm))
         .collect();
-    let note =
-        format!("air would have to be taken away; shorten the column by its screw instead, {}", below.join(", "));
+    let note = (!below.is_empty()).then(|| {
+        let below = Text::joined(below, ", ");
+        text!("air would have to be taken away; shorten the column by its screw instead, {}", below)
+    });
     let least = if least.abs() <= rounding { 0.0 } else { least };
-    ADDED_VOLUME.measure(least, Some(0.0)).noted((!below.is_empty()).then_some(note))
+    ADDED_VOLUME.measure(least, Some(0.0)).noted(note)
 }
 
 /// A number with so many decimals; what is 0 with them has no sign.

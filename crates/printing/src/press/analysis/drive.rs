@@ -13,6 +13,7 @@ use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::{Input, NamedChoice};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::numeric::extremum;
+use camgen_kernel::text::{Length, Text, text};
 use serde::Serialize;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -386,35 +387,47 @@ fn slowest(drive_figures: &DriveFigures) -> String {
     format!(", least {least:.5} at {at:.3}° of phase 2 (−{:.3} %), {end:.5} at the end", 100.0 * drop)
 }
 
-fn describe(drive_figures: &DriveFigures) -> Vec<String> {
+fn describe(drive_figures: &DriveFigures) -> Vec<Text> {
     let mut lines = vec![
-        format!(
-            "{}; stroke {} mm, force of all at its end {} N, work over the bed's energy {}",
+        text!(
+            "{}; stroke {}, force of all at its end {} N, work over the bed's energy {}",
             drive_figures.cylinders.describe(),
-            shown(drive_figures.stroke_mm),
+            Length::mm(drive_figures.stroke_mm),
             shown(drive_figures.end_force_n),
             shown(drive_figures.work_over_energy)
         ),
-        format!("crank {:.5} rad/s before braking", drive_figures.omega_before_rad_per_s) + &slowest(drive_figures),
-        format!("time of the first phase {:.6} s", drive_figures.lead_time_s)
-            + &drive_figures.crank_time_s.map_or(String::new(), |time| format!(", of the second {time:.6} s")),
+        text!(
+            "crank {} rad/s before braking{}",
+            format_args!("{:.5}", drive_figures.omega_before_rad_per_s),
+            slowest(drive_figures)
+        ),
+        text!(
+            "time of the first phase {} s{}",
+            format_args!("{:.6}", drive_figures.lead_time_s),
+            drive_figures.crank_time_s.map(|time| text!(", of the second {} s", format_args!("{time:.6}")))
+        ),
     ];
     if let (Some(before), Some(least)) = (drive_figures.motor_rpm_before, drive_figures.motor_rpm_least) {
-        lines.push(format!("motor {before:.1} rpm, least {least:.1} rpm"));
+        lines.push(format!("motor {before:.1} rpm, least {least:.1} rpm").into());
     }
     if let (Some(torque), Some(swing)) = (drive_figures.torque_max_nm, drive_figures.energy_swing_j) {
-        lines.push(format!("for its own inertia the drive needs {torque:.2} N·m at most, and exchanges {swing:.3} J"));
+        lines.push(
+            format!("for its own inertia the drive needs {torque:.2} N·m at most, and exchanges {swing:.3} J").into(),
+        );
     }
     let paper = &drive_figures.paper;
     let order = paper
         .order
         .map_or(String::new(), |order| format!("; in the first phase the error is of order {order:.2} in the step"));
-    lines.push(format!(
-        "the paper's sections of {}° err by up to {:.4} % of the speed{order}",
-        shown(paper.step_deg),
-        100.0 * paper.omega_error_share
-    ));
-    lines.extend(paper.failure.clone());
+    lines.push(
+        format!(
+            "the paper's sections of {}° err by up to {:.4} % of the speed{order}",
+            shown(paper.step_deg),
+            100.0 * paper.omega_error_share
+        )
+        .into(),
+    );
+    lines.extend(paper.failure.clone().map(Text::from));
     lines
 }
 

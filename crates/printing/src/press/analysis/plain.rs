@@ -16,6 +16,7 @@ use crate::press::scatter::fault::FrozenBuffer;
 use crate::press::scatter::settings::extremes_of_fixed;
 use camgen_cams::analysis::{Analysis, Listing, Picture, places};
 use camgen_cams::machine::Machine;
+use camgen_cams::report::ReportLine;
 use camgen_cams::report::plot::{Plot, PlotCurve, PlotPanel};
 use camgen_cams::report::{Section, Speeds, shown};
 use camgen_cams::table::{ListedColumn, Table};
@@ -319,15 +320,15 @@ fn family_curve(press: &Press, end: f64) -> Vec<FamilyPlace> {
         .collect()
 }
 
-fn describe(found: &PlainBuffers<'_>) -> Vec<String> {
-    let mut lines =
-        vec![format!("fixed bottoms without a cam; reset: {}; {}", found.reset, found.cylinders.describe())];
-    lines.push(format!(
+fn describe(found: &PlainBuffers<'_>) -> Vec<ReportLine> {
+    let mut lines: Vec<ReportLine> =
+        vec![format!("fixed bottoms without a cam; reset: {}; {}", found.reset, found.cylinders.describe()).into()];
+    lines.push(ReportLine::row(format!(
         "{:>8} {:>11} {:>13} {:>13} {:>11} {:>8} {:>9} {:>10} {:>9}",
         "rpm", "column/mm", "V each/cm³", "V all/cm³", "left/N", "left/%", "at x/mm", "end/N", "p_end/at"
-    ));
+    )));
     lines.extend(found.speeds.iter().map(|row| {
-        format!(
+        ReportLine::row(format!(
             "{:>8} {:>11.3} {:>13} {:>13} {:>11.2} {:>8.3} {:>9.3} {:>10} {:>9.4}",
             shown(row.rpm),
             row.column_length_mm,
@@ -338,15 +339,15 @@ fn describe(found: &PlainBuffers<'_>) -> Vec<String> {
             row.residual_at_mm,
             unsigned_zero(row.end_residual_n, 3),
             row.end_pressure_pa / TECHNICAL_ATMOSPHERE
-        )
+        ))
     }));
     lines.push("cylinders for other end pressures at the design speed, and the bottom of a cam with the returning and the matched column:".into());
-    lines.push(format!(
+    lines.push(ReportLine::row(format!(
         "{:>8} {:>9} {:>11} {:>11} {:>9} {:>9} {:>9} {:>12} {:>11}",
         "p_end/at", "each Ø/mm", "column/mm", "left/N", "at x/mm", "Δx/mm", "at x/mm", "matched/mm", "its Δx/mm"
-    ));
+    )));
     lines.extend(found.end_pressures.iter().map(|row| {
-        format!(
+        ReportLine::row(format!(
             "{:>8.3} {:>9.2} {:>11.3} {:>11.2} {:>9.3} {:>9.3} {:>9.3} {:>12.3} {:>11.3}",
             row.end_pressure_pa / TECHNICAL_ATMOSPHERE,
             row.cylinders.bore_mm,
@@ -357,7 +358,7 @@ fn describe(found: &PlainBuffers<'_>) -> Vec<String> {
             row.dx_max_at_x_mm,
             row.matched_column_length_mm,
             row.matched_dx_max_mm
-        )
+        ))
     }));
     lines
 }

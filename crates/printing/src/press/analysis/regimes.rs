@@ -20,12 +20,14 @@ use crate::press::scatter::fault::FrozenBuffer;
 use camgen_cams::analysis::{Analysis, Picture, places};
 use camgen_cams::body::Kind;
 use camgen_cams::machine::Machine;
+use camgen_cams::report::ReportLine;
 use camgen_cams::report::plot::Plot;
 use camgen_cams::report::{Section, Speeds, shown};
 use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::{Input, NamedChoice};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::refusal::{Refusal, WorkBound};
+use camgen_kernel::text::{Length, text};
 use camgen_kernel::units::TECHNICAL_ATMOSPHERE;
 use serde::Serialize;
 
@@ -242,15 +244,18 @@ fn force_place(regime: &Regime, rpm: f64, crank: f64, x: f64, deceleration: f64)
     }
 }
 
-fn describe(regimes: &Regimes<'_>) -> Vec<String> {
-    let mut lines = vec![format!(
-        "cam for {} rpm, column {:.3} mm there; reset: {}; {}",
-        regimes.cam_rpm,
-        regimes.column_length_mm,
-        regimes.reset,
-        regimes.cylinders.describe()
-    )];
-    lines.push(format!(
+fn describe(regimes: &Regimes<'_>) -> Vec<ReportLine> {
+    let mut lines: Vec<ReportLine> = vec![
+        text!(
+            "cam for {} rpm, column {} there; reset: {}; {}",
+            regimes.cam_rpm,
+            Length::mm(regimes.column_length_mm).decimals(3),
+            regimes.reset,
+            regimes.cylinders.describe()
+        )
+        .into(),
+    ];
+    lines.push(ReportLine::row(format!(
         "{:>8} {:>11} {:>8} {:>12} {:>12} {:>11} {:>10} {:>8} {:>9} {:>10} {:>9} {:>11} {:>11}",
         "rpm",
         "column/mm",
@@ -265,9 +270,9 @@ fn describe(regimes: &Regimes<'_>) -> Vec<String> {
         "p_end/at",
         "crank/Nm",
         "cam/Nm"
-    ));
+    )));
     lines.extend(regimes.speeds.iter().map(|row| {
-        format!(
+        ReportLine::row(format!(
             "{:>8} {:>11.3} {:>8.5} {:>12} {:>12} {:>11.2} {:>10.2} {:>8.3} {:>9.3} {:>10} {:>9.4} {:>11.2} {:>11.2}",
             row.rpm,
             row.column_length_mm,
@@ -282,7 +287,7 @@ fn describe(regimes: &Regimes<'_>) -> Vec<String> {
             row.end_pressure_pa / TECHNICAL_ATMOSPHERE,
             row.crank_torque_max_nm,
             row.camshaft_torque_max_nm
-        )
+        ))
     }));
     lines
 }

@@ -13,6 +13,7 @@ use camgen_cams::analysis::{Analysis, PLACES, Picture, places};
 use camgen_cams::body::Kind;
 use camgen_cams::check::Measure;
 use camgen_cams::machine::Machine;
+use camgen_cams::report::ReportLine;
 use camgen_cams::report::plot::{self, Plot, PlotCurve, PlotPanel};
 use camgen_cams::report::{Section, Speeds, shown};
 use camgen_cams::table::{ListedColumn, Table};
@@ -255,12 +256,12 @@ fn bodies_of(machine: &Machine, sets: &[SpringAtSpeed]) -> Option<SpringBodies> 
 }
 
 fn section_of_bodies(rows: &[SpringBodyRow]) -> Section {
-    let mut words = vec![format!(
+    let mut words = vec![ReportLine::row(format!(
         "{:>10} {:>10} {:>9} {:>9} {:>8} {:>10} {:>9} {:>9} {:>9}",
         "N/mm each", "N each", "wire/mm", "coil/mm", "coils", "stress/MPa", "surge/Hz", "solid/mm", "free/mm"
-    )];
+    ))];
     words.extend(rows.iter().map(|row| {
-        format!(
+        ReportLine::row(format!(
             "{:>10.3} {:>10.1} {:>9.3} {:>9.2} {:>8.2} {:>10.1} {:>9.2} {:>9.1} {:>9.1}",
             row.stiffness_n_per_mm,
             row.force_max_n,
@@ -271,7 +272,7 @@ fn section_of_bodies(rows: &[SpringBodyRow]) -> Section {
             row.surge_hz,
             row.solid_length_mm,
             row.free_length_mm
-        )
+        ))
     }));
     Section::new("spring_bodies", &serde_json::json!({ "springs": rows })).with_words(words)
 }
@@ -374,27 +375,28 @@ fn curve(press: &Press, set: &SpringAtSpeed) -> Vec<SpringRow> {
     }
 }
 
-fn describe(springs: &Springs<'_>, press: &Press) -> Vec<String> {
+fn describe(springs: &Springs<'_>, press: &Press) -> Vec<ReportLine> {
     let design = press.design_rpm;
     let fastest = springs.settings.iter().map(|row| row.rpm).fold(design, f64::max);
     let faster = spring::least_stiffness(&braked_by(press), fastest) / MILLIMETRES;
     let faster = (fastest > design).then(|| format!(", at {} rpm more than {faster:.4}", shown(fastest)));
-    let mut lines = vec![
-        format!("{}; a spring under the bottom of each", springs.cylinders.describe()),
+    let mut lines: Vec<ReportLine> = vec![
+        format!("{}; a spring under the bottom of each", springs.cylinders.describe()).into(),
         format!(
             "at the design speed of {} rpm more than {:.4} N/mm each are needed{}; a fixed bottom leaves {:.2} N there",
             shown(design),
             springs.least_stiffness_n_per_mm,
             faster.unwrap_or_default(),
             springs.residual_fixed_bottom_max_n
-        ),
-        format!(
+        )
+        .into(),
+        ReportLine::row(format!(
             "{:>10} {:>8} {:>10} {:>9} {:>9} {:>11} {:>9} {:>9} {:>11}",
             "N/mm each", "rpm", "travel/mm", "air/mm", "left/mm", "residual/N", "at x/mm", "screw/mm", "N each"
-        ),
+        )),
     ];
     lines.extend(springs.settings.iter().map(|row| {
-        format!(
+        ReportLine::row(format!(
             "{:>10.3} {:>8} {:>10.3} {:>9.3} {:>9.3} {:>11.2} {:>9.3} {:>9} {:>11.1}",
             row.stiffness_n_per_mm,
             shown(row.rpm),
@@ -405,7 +407,7 @@ fn describe(springs: &Springs<'_>, press: &Press) -> Vec<String> {
             row.residual_at_mm,
             row.screw_mm.map_or("–".into(), |screw| format!("{screw:.3}")),
             row.spring_force_max_n
-        )
+        ))
     }));
     lines
 }

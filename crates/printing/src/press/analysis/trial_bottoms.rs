@@ -8,7 +8,6 @@ use crate::press::motion::equation_18::{BedDirection, ExactOn, Solver};
 use crate::press::wedge::{LAW_TOLERANCE, Wedge};
 use camgen_cams::machine::Machine;
 use camgen_cams::report::plot::{PlotCurve, PlotPanel};
-use camgen_cams::report::shown;
 use camgen_cams::table::ListedColumn;
 use camgen_kernel::geometry::MILLIMETRES;
 
@@ -73,7 +72,12 @@ pub(super) fn panel(rows: &[TrialRow]) -> Option<(String, PlotPanel)> {
         let x = rows.first().map_or(f64::NAN, |row| MILLIMETRES * row.x);
         let right = rows.iter().map(|row| [MILLIMETRES * row.off, row.right]).collect();
         let left = rows.iter().map(|row| [MILLIMETRES * row.off, row.left]).collect();
-        curves.push(PlotCurve { name: format!("x = {} mm", shown(x)), colour, bold: true, points: right });
+        curves.push(PlotCurve {
+            name: format!("x = {} mm", camgen_kernel::text::shown(x)),
+            colour,
+            bold: true,
+            points: right,
+        });
         curves.push(PlotCurve { name: String::new(), colour, bold: false, points: left });
     }
     let name = "Equation (18) at four places of the bed, N: right side (bold) and left side (thin); they meet where the bottom balances";

@@ -4,6 +4,7 @@ use crate::press::load::{ForceBalanced, USEFUL};
 use crate::press::machine::PressCams;
 use camgen_cams::check::{AsWritten, Check, CheckExplanation, CheckScope, Measure, Subject};
 use camgen_cams::report::{Bound, Verdict, shown, to_type};
+use camgen_kernel::text::{Length, Text, text};
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -37,11 +38,11 @@ pub fn measure(of: &dyn ForceBalanced, written: &AsWritten<'_>, subject: &Subjec
     let verdict = verdict(share, without_cam, given);
     let note = match verdict {
         _ if !share.is_finite() => Some(hits(of, written)),
-        Verdict::Fail | Verdict::Warn => Some(residual_note(of, written, force, given)),
+        Verdict::Fail | Verdict::Warn => Some(residual_note(of, written, force, given).into()),
         _ => None,
     };
     let measure = CHECK.measure(share, Some(given.unwrap_or(without_cam))).judged(verdict).placed(place);
-    let measure = measure.noted(joined(along, note));
+    let measure = measure.noted(Text::from(along).and("; ", note));
     if written.foreign || given.is_some() { measure } else { with_other_way(of, measure, subject) }
 }
 
@@ -55,11 +56,6 @@ fn verdict(share: f64, without_cam: f64, given: Option<f64>) -> Verdict {
         None if !useful => Verdict::Warn,
         None => Verdict::Pass,
     }
-}
-
-fn joined(first: Option<String>, second: Option<String>) -> Option<String> {
-    let words: Vec<String> = first.into_iter().chain(second).collect();
-    (!words.is_empty()).then(|| words.join("; "))
 }
 
 /// The residual force with and without the cam, and a remedy.
@@ -83,20 +79,20 @@ fn residual_note(of: &dyn ForceBalanced, written: &AsWritten<'_>, force: f64, gi
 }
 
 /// The bottom hits the piston: why, and what keeps them apart.
-fn hits(of: &dyn ForceBalanced, written: &AsWritten<'_>) -> String {
+fn hits(of: &dyn ForceBalanced, written: &AsWritten<'_>) -> Text {
     let astray = written.rolled.is_some_and(|rolled| !(rolled.gap_mm.abs() <= written.tolerance_mm));
     if astray {
         return "the bottom hits the piston with this outline".into();
     }
     let air = of.least_air().map_or(0.0, |air| 1e3 * air.value);
     let hits =
-        format!("the bottom hits the piston: the balance leaves {} mm of air, and the outline may miss it", shown(air));
+        text!("the bottom hits the piston: the balance leaves {} of air, and the outline may miss it", Length::mm(air));
     match of.as_cut(1e-3 * written.tolerance_mm) {
         Some(fits) => {
             let speed = fits.speed.map(|rpm| format!("at {rpm} rpm and less"));
             let tolerance = format!("with a tolerance of {} um", to_type(1e6 * fits.tolerance));
             let both: Vec<String> = speed.into_iter().chain([tolerance]).collect();
-            format!("{hits}; {} it fits", both.join(", or "))
+            hits.and("; ", text!("{} it fits", both.join(", or ")))
         }
         None => hits,
     }
@@ -115,12 +111,12 @@ fn with_other_way(of: &dyn ForceBalanced, measure: Measure, subject: &Subject<'_
     );
     let remedies = of.remedies_of_other_way();
     let remedy = if remedies.is_empty() {
-        "neither friction angle nor efficiency nor a longer roller arm alone brings it below".to_owned()
+        Text::from("neither friction angle nor efficiency nor a longer roller arm alone brings it below")
     } else {
-        format!("{} would bring it below", remedies.join(" or "))
+        text!("{} would bring it below", Text::joined(remedies.into_iter().map(Text::from), " or "))
     };
     let verdict = if measure.verdict == Some(Verdict::Fail) { Verdict::Fail } else { Verdict::Warn };
     let place = if measure.verdict == Some(Verdict::Pass) { (subject.at)(&back).0 } else { measure.place };
-    let note = joined(measure.note.clone(), Some(format!("{way}; {remedy}")));
+    let note = Text::from(measure.note.clone()).and("; ", way).and("; ", remedy);
     measure.judged(verdict).placed(place).noted(note)
 }

@@ -3,6 +3,7 @@
 use crate::press::load::RunUp;
 use camgen_cams::check::{Check, CheckExplanation, CheckScope, Measure};
 use camgen_cams::report::{Bound, Verdict};
+use camgen_kernel::text::{KeyChange, Remedy, text};
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -31,7 +32,8 @@ fn in_degrees(width: f64) -> f64 {
 pub fn measure(run_up: &RunUp) -> Measure {
     let beyond = run_up.travel > run_up.stroke;
     let note = beyond.then(|| {
-        format!("run-up lift exceeds the stroke; transition.width = \"{} deg\" would not", in_degrees(run_up.width))
+        let change = KeyChange::new("transition.width", format!("{} deg", in_degrees(run_up.width)));
+        text!("run-up lift exceeds the stroke; {} would not", Remedy::new([change]))
     });
     let verdict = if beyond { Verdict::Warn } else { Verdict::Pass };
     CHECK.measure(1e3 * run_up.travel, Some(1e3 * run_up.stroke)).judged(verdict).noted(note)

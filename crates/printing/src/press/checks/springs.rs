@@ -101,8 +101,5 @@ pub fn of_coils(coils: f64, wire: f64, index: f64) -> [Measure; 3] {
 pub fn of_buckling(share: f64) -> Measure {
     let keeps = share <= 1.0;
     let note = (!keeps).then_some("give the spring a guide in its coils or around them");
-    BUCKLING
-        .measure(share, Some(1.0))
-        .judged(if keeps { Verdict::Pass } else { Verdict::Warn })
-        .noted(note.map(str::to_owned))
+    BUCKLING.measure(share, Some(1.0)).judged(if keeps { Verdict::Pass } else { Verdict::Warn }).noted(note)
 }

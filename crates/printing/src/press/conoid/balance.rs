@@ -7,6 +7,7 @@ use camgen_cams::body::Figures;
 use camgen_kernel::follower::TranslatingRoller;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::{KeyChange, Remedy};
 use std::sync::Arc;
 
 /// Rollers so many times as large are tried to lower a stress.
@@ -46,14 +47,14 @@ impl Conoid {
     }
 
     /// A larger roller that lowers a contact stress to a limit, as a key of the machine file; the cam is solved for it.
-    pub(super) fn roller_for_stress(&self, stress: f64, limit: f64) -> Option<String> {
+    pub(super) fn roller_for_stress(&self, stress: f64, limit: f64) -> Option<Remedy> {
         // By Hertz a pressure of spheres falls with the power 2/3 of their radii: smaller rollers are not tried.
         LARGER_ROLLERS
             .into_iter()
             .filter(|factor| factor * factor * limit.powi(3) >= stress.powi(3))
             .map(|factor| (factor * MILLIMETRES * self.roller.radius).ceil())
             .find(|radius| self.stress_with_roller(radius / MILLIMETRES).is_some_and(|stress| stress.value <= limit))
-            .map(|radius| format!("follower.roller.radius = \"{radius} mm\""))
+            .map(|radius| Remedy::new([KeyChange::new("follower.roller.radius", format!("{radius} mm"))]))
     }
 
     /// The contact stress of the cam solved for a roller of another radius, m.

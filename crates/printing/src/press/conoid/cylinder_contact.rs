@@ -4,6 +4,7 @@ use super::Conoid;
 use camgen_cams::check::{Check, CheckExplanation, CheckScope, Measure, Subject};
 use camgen_cams::machine::Crown;
 use camgen_cams::report::Bound;
+use camgen_kernel::text::{KeyChange, Remedy, text};
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -35,6 +36,7 @@ pub(super) fn measure(conoid: &Conoid, tolerance_mm: f64, subject: &Subject<'_>)
     });
     let kept = gap.value <= tolerance_mm;
     let note = (!kept)
-        .then(|| "the roller touches with its edge; follower.roller.crown = \"sphere\" would avoid that".to_owned());
+        .then(|| Remedy::new([KeyChange::new("follower.roller.crown", "sphere")]))
+        .map(|remedy| text!("the roller touches with its edge; {} would avoid that", remedy));
     Some(CHECK.measure(gap.value, Some(tolerance_mm)).kept(kept).noted(note).at(subject, &gap))
 }

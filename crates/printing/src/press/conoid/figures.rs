@@ -8,6 +8,7 @@ use camgen_cams::check::contact_stress::ContactKind;
 use camgen_cams::check::continuity::RunMotion;
 use camgen_kernel::profile::size::rounded_up;
 use camgen_kernel::profile::{Worst, extremes};
+use camgen_kernel::text::{Remedy, Text};
 
 impl Figures for Conoid {
     /// The angle between the roller's path and the normal of the section, over every place of the roller.
@@ -85,19 +86,19 @@ impl Figures for Conoid {
         ContactKind::Sphere
     }
 
-    fn stress_remedies(&self, stress: f64, limit: f64) -> Vec<String> {
+    fn stress_remedies(&self, stress: f64, limit: f64) -> Vec<Remedy> {
         self.roller_for_stress(stress, limit).into_iter().collect()
     }
 
-    fn smoother(&self) -> Option<String> {
+    fn smoother(&self) -> Option<Text> {
         smoother(&self.machine, |press| self.speeds.iter().map(|rpm| bottom_law_at(press, &self.data, *rpm)).collect())
     }
 
-    fn remedy(&self) -> Option<String> {
+    fn remedy(&self) -> Option<Text> {
         let base = rounded_up(self.smallest_prime_radius? - self.roller.radius);
         let mut other = self.clone();
         other.resize(base + self.roller.radius);
-        Some(if broken_limit(&other).is_none() { passing(base) } else { no_radius(None, false) })
+        Some(if broken_limit(&other).is_none() { passing(base) } else { no_radius(None, false).into() })
     }
 }
 

@@ -29,6 +29,7 @@ use camgen_kernel::profile::envelope::NoEnvelope;
 use camgen_kernel::profile::outline::{self, Fit, MotionTolerance, Outline, OutlineError};
 use camgen_kernel::profile::{Contact, boundary, extremes, followed};
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::{Length, Text, text};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
 
@@ -232,8 +233,8 @@ impl Body for Conoid {
         Some(self)
     }
 
-    fn along_axis(&self, z: f64) -> Option<String> {
-        (self.speeds.first() != self.speeds.last()).then(|| format!("at z = {:.3} mm", MILLIMETRES * z))
+    fn along_axis(&self, z: f64) -> Option<Text> {
+        (self.speeds.first() != self.speeds.last()).then(|| text!("at z = {}", Length::mm(MILLIMETRES * z).decimals(3)))
     }
 
     fn holes_within(&self, _outline: &Contour) -> Vec<Entity> {

@@ -8,10 +8,10 @@ use crate::press::report::CylinderMeasures;
 use crate::press::scatter::other_cams::{self, LawAtSpeed};
 use camgen_cams::body::part::{Part, bore};
 use camgen_cams::body::{DrawingEvidence, flank_of};
-use camgen_cams::report::sheet::rounded;
-use camgen_cams::report::{Section, degrees, lobes_words, shown};
+use camgen_cams::report::{ReportLine, Section, degrees, lobes_words, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::numeric::parallel;
+use camgen_kernel::text::{Length, LengthKind, Text, text};
 use serde::Serialize;
 
 /// The outlines of all sections together.
@@ -108,14 +108,15 @@ pub(super) fn sections(conoid: &Conoid, found: &DrawingEvidence<'_>) -> Vec<Sect
         all.push(SectionMeasures::new(conoid, *cut, part, *error));
     }
     let (left, straight) = (conoid.residual_between(), conoid.residual_of_strips());
-    let mut words: Vec<String> = all.iter().map(SectionMeasures::describe).collect();
+    let mut words: Vec<ReportLine> = all.iter().map(|section| ReportLine::row(section.describe())).collect();
     if all.len() == 1 {
         let rpm = all.first().map_or(f64::NAN, |section| section.rpm);
-        words.push(format!(
+        let alone = text!(
             "for {} rpm alone, the design speed where --rpm gives no other: every section is the same; several speeds, such as \
              --rpm 20,25,30,35, give one for each",
             shown(rpm)
-        ));
+        );
+        words.push(alone.into());
     }
     let outlines = parts.map(Outlines::new);
     let mut sections = vec![ConoidMeasures::new(conoid, found).section()];
@@ -158,17 +159,19 @@ impl SectionMeasures {
         }
     }
 
-    fn describe(&self) -> String {
-        let arcs = self.arcs.map_or(String::new(), |arcs| format!(", {arcs} arcs"));
-        let variable = self.v.map_or(String::new(), |v| format!("v {}, ", shown(v)));
-        format!(
-            "{:>6} rpm  {variable}z {:.3} mm, column {:.3} mm, slope at the start {:.4}, Δx {:.3} mm at x = {:.2} mm{arcs}",
-            shown(self.rpm),
-            self.z_mm,
-            self.column_length_mm,
-            self.start_slope,
-            self.dx_max_mm,
-            self.dx_max_at_x_mm
+    fn describe(&self) -> Text {
+        let arcs = self.arcs.map(|arcs| text!(", {} arcs", arcs));
+        let variable = self.v.map(|v| text!("v {}, ", shown(v)));
+        text!(
+            "{} rpm  {}z {}, column {}, slope at the start {}, Δx {} at x = {}{}",
+            format_args!("{:>6}", shown(self.rpm)),
+            variable,
+            Length::mm(self.z_mm).decimals(3),
+            Length::mm(self.column_length_mm).decimals(3),
+            format_args!("{:.4}", self.start_slope),
+            Length::mm(self.dx_max_mm).decimals(3),
+            Length::mm(self.dx_max_at_x_mm).decimals(2),
+            arcs
         )
     }
 }
@@ -198,41 +201,42 @@ impl ConoidMeasures {
     fn section(&self) -> Section {
         let smallest = self.smallest_prime_radius_mm.map_or_else(
             || "no radius keeps the limits".into(),
-            |radius| format!("smallest possible {} mm", shown(radius)),
+            |radius| text!("smallest possible {}", Length::mm(radius)),
         );
-        let mut words = vec![format!(
-            "base radius {} mm, roller Ø{} mm, prime radius {} mm ({smallest}), lift {:.3} mm, z {} to {} mm \
-             (overhang {} mm)",
-            shown(self.base_radius_mm),
-            shown(2.0 * self.roller_radius_mm),
-            shown(self.prime_radius_mm),
-            self.max_lift_mm,
-            shown(self.z_min_mm),
-            shown(self.z_max_mm),
-            shown(self.overhang_mm)
+        let mut words = vec![text!(
+            "base radius {}, roller Ø{}, prime radius {} ({}), lift {}, z {} to {} \
+             (overhang {})",
+            Length::mm(self.base_radius_mm),
+            Length::mm(2.0 * self.roller_radius_mm),
+            Length::mm(self.prime_radius_mm),
+            smallest,
+            Length::mm(self.max_lift_mm).decimals(3),
+            Length::mm(self.z_min_mm).bare(),
+            Length::mm(self.z_max_mm),
+            Length::mm(self.overhang_mm)
         )];
         let mut figures = vec![
-            format!(
-                "base radius {} mm, roller Ø{} mm",
-                rounded(self.base_radius_mm),
-                rounded(2.0 * self.roller_radius_mm)
+            text!(
+                "base radius {}, roller Ø{}",
+                Length::mm(self.base_radius_mm).rounded(),
+                Length::mm(2.0 * self.roller_radius_mm).rounded()
             ),
-            format!(
-                "lift {:.3} mm, z from {} to {} mm",
-                self.max_lift_mm,
-                rounded(self.z_min_mm),
-                rounded(self.z_max_mm)
+            text!(
+                "lift {}, z from {} to {}",
+                Length::mm(self.max_lift_mm).decimals(3),
+                Length::mm(self.z_min_mm).rounded().bare(),
+                Length::mm(self.z_max_mm).rounded()
             ),
-            format!("overhang {} mm at either end", rounded(self.overhang_mm)),
+            text!("overhang {} at either end", Length::mm(self.overhang_mm).rounded()),
         ];
         if self.lobes > 1 {
             let lobes = lobes_words(self.lobes);
-            words.push(lobes.clone());
-            figures.push(lobes);
+            words.push(lobes.clone().into());
+            figures.push(lobes.into());
         }
         if let (Some(volume), Some(mass)) = (self.volume_mm3, self.mass_kg) {
-            words.push(format!("volume {} mm³, mass {} kg", shown(volume), shown(mass)));
-            figures.push(format!("mass {mass:.2} kg"));
+            words.push(text!("volume {}, mass {} kg", Length::new(volume, &LengthKind::MM3), shown(mass)));
+            figures.push(text!("mass {} kg", format_args!("{:.2}", mass)));
         }
         Section::new("cam", self).with_words(words).with_figures(figures)
     }
@@ -253,17 +257,23 @@ impl SurfaceMeasures {
     }
 
     fn section(&self) -> Section {
-        let mut words = vec![format!(
-            "the contact wanders {:.4} mm along the axis; plane offsets would miss by {:.4} mm; axial force {:.1} N",
-            self.axial_wander_mm, self.plane_offset_error_max_mm, self.axial_force_max_n
+        let mut words = vec![text!(
+            "the contact wanders {} along the axis; plane offsets would miss by {}; axial force {} N",
+            Length::mm(self.axial_wander_mm).decimals(4),
+            Length::mm(self.plane_offset_error_max_mm).decimals(4),
+            format_args!("{:.1}", self.axial_force_max_n)
         )];
         if let (Some(patches), Some(deviation)) = (self.patches, self.deviation_max_mm) {
-            words.push(format!("{patches} spline patches, {:.4} µm from the exact surface", 1e3 * deviation));
+            words.push(text!(
+                "{} spline patches, {} from the exact surface",
+                patches,
+                Length::new(1e3 * deviation, &LengthKind::UM).decimals(4)
+            ));
         }
         let figures = vec![
-            format!("contact wanders {:.3} mm along the axis", self.axial_wander_mm),
-            format!("plane offsets would miss by {:.4} mm", self.plane_offset_error_max_mm),
-            format!("axial force at most {:.0} N", self.axial_force_max_n),
+            text!("contact wanders {} along the axis", Length::mm(self.axial_wander_mm).decimals(3)),
+            text!("plane offsets would miss by {}", Length::mm(self.plane_offset_error_max_mm).decimals(4)),
+            text!("axial force at most {} N", format_args!("{:.0}", self.axial_force_max_n)),
         ];
         Section::new("surface", self).with_words(words).with_figures(figures)
     }
@@ -281,15 +291,19 @@ impl Between {
     }
 
     fn section(&self) -> Section {
-        let words = vec![format!(
-            "{} N left at {:.3} rpm, {:.2}°, by splines in the {}; straight strips would leave {} N",
+        let words = vec![text!(
+            "{} N left at {} rpm, {}°, by splines in the {}; straight strips would leave {} N",
             shown(self.residual_max_n),
-            self.rpm,
-            self.cam_deg,
+            format_args!("{:.3}", self.rpm),
+            format_args!("{:.2}", self.cam_deg),
             self.splines_in,
             shown(self.residual_straight_strips_max_n)
         )];
-        let figure = format!("between sections {:.2} N at {:.2} rpm", self.residual_max_n, self.rpm);
+        let figure = text!(
+            "between sections {} N at {} rpm",
+            format_args!("{:.2}", self.residual_max_n),
+            format_args!("{:.2}", self.rpm)
+        );
         Section::new("between", self).with_words(words).with_figures(vec![figure])
     }
 }

@@ -9,6 +9,7 @@ use camgen_cams::report::sheet::{Mark, PlaceTable, ShapeGroup, SheetShape, Sheet
 use camgen_kernel::geometry::contour::{Contour, Extents};
 use camgen_kernel::geometry::{Entity, MILLIMETRES};
 use camgen_kernel::motion::Motion;
+use camgen_kernel::text::{Length, text};
 use camgen_kernel::units::LengthUnit;
 use nalgebra::Vector2;
 
@@ -44,7 +45,7 @@ pub(super) fn view(conoid: &Conoid, drawn: &Drawn) -> SheetView {
     // Of many sections every few are named.
     let every = cuts.len().div_ceil(MOST_NAMED);
     groups.extend(cuts.iter().zip(parts).enumerate().map(|(index, (cut, part))| {
-        let label = format!("section for {} rpm, z = {} mm", rounded(cut.rpm), rounded(MILLIMETRES * cut.z));
+        let label = text!("section for {} rpm, z = {}", rounded(cut.rpm), Length::mm(MILLIMETRES * cut.z).rounded());
         ShapeGroup {
             id: format!("section-{index}"),
             class: "section",

@@ -2,7 +2,8 @@
 
 use super::{Conoid, ROUNDING};
 use camgen_cams::check::{Check, CheckExplanation, CheckScope, Measure, Subject};
-use camgen_cams::report::{Bound, shown, to_type};
+use camgen_cams::report::{Bound, to_type};
+use camgen_kernel::text::{KeyChange, Length, Remedy, text};
 
 /// The check of the axial force, for the drive of the shift.
 pub const AXIAL_FORCE: Check = Check {
@@ -47,10 +48,14 @@ pub(super) fn axial_reach(conoid: &Conoid, subject: &Subject<'_>) -> Measure {
     let kept = beyond <= ROUNDING;
     let beyond = if kept { 0.0 } else { beyond };
     let note = if kept {
-        format!("the cam is longer than its travel by {} mm at either end", shown(1e3 * conoid.overhang()))
+        text!("the cam is longer than its travel by {} at either end", Length::mm(1e3 * conoid.overhang()))
     } else {
-        let needed = to_type(1e3 * conoid.needed_overhang());
-        format!("the roller rides on the edge of the cam; conoid.overhang = \"{needed} mm\" or \"auto\" would carry it")
+        let needed = format!("{} mm", to_type(1e3 * conoid.needed_overhang()));
+        text!(
+            "the roller rides on the edge of the cam; {} or {} would carry it",
+            Remedy::new([KeyChange::new("conoid.overhang", needed)]),
+            Remedy::new([KeyChange::new("conoid.overhang", "auto")]).named("\"auto\"")
+        )
     };
     AXIAL_REACH.measure(1e3 * beyond, Some(0.0)).kept(kept).noted(note).at(subject, &reach)
 }

@@ -6,6 +6,7 @@
 
 use super::{Conoid, bottom_law_at};
 use crate::press::machine::Shift;
+use camgen_cams::report::ReportLine;
 use camgen_cams::report::{Section, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use serde::Serialize;
@@ -77,22 +78,26 @@ fn setting(conoid: &Conoid, rpm: f64) -> WheelSetting {
 }
 
 impl Wheel {
-    fn describe(&self, design: f64) -> Vec<String> {
-        let mut words = vec![
+    fn describe(&self, design: f64) -> Vec<ReportLine> {
+        let mut words: Vec<ReportLine> = vec![
             format!(
                 "the shift follows v = (n/n_c)² (m/m_c)/(p0/p0_c), n_c = {} rpm, m_c and p0_c of the file: v from {} to {} balances speed, forme and \
                  weather together, exactly at the sections",
                 shown(design),
                 shown(self.v_min),
                 shown(self.v_max)
-            ),
-            format!("{:>8} {:>9} {:>9} {:>11} {:>25}", "v", "z/mm", "rpm", "column/mm", "or moving mass at n_c/kg"),
+            )
+            .into(),
+            ReportLine::row(format!(
+                "{:>8} {:>9} {:>9} {:>11} {:>25}",
+                "v", "z/mm", "rpm", "column/mm", "or moving mass at n_c/kg"
+            )),
         ];
         words.extend(self.settings.iter().map(|setting| {
-            format!(
+            ReportLine::row(format!(
                 "{:>8.4} {:>9.3} {:>9.3} {:>11.3} {:>25.1}",
                 setting.v, setting.z_mm, setting.rpm, setting.column_length_mm, setting.mass_kg
-            )
+            ))
         }));
         words
     }

@@ -1,5 +1,6 @@
 //! The load of the cams of a press: air that is to balance the inertia of the bed.
 
+use camgen_kernel::text::{Remedy, Text};
 mod air_buffer;
 mod shaft_work;
 
@@ -81,12 +82,12 @@ pub trait ForceBalanced {
     }
 
     /// Changes, each of which alone brings the residual force of that direction below what is left without a cam.
-    fn remedies_of_other_way(&self) -> Vec<String> {
+    fn remedies_of_other_way(&self) -> Vec<Remedy> {
         Vec::new()
     }
 
     /// A change that leaves less in both directions where the forces balance in neither.
-    fn remedy_of_mean(&self) -> Option<String> {
+    fn remedy_of_mean(&self) -> Option<Text> {
         None
     }
 

@@ -12,6 +12,7 @@ use super::section::{Percentiles, whole_newtons};
 use crate::press::buffer::Cylinder;
 use crate::press::buffer::crank_law::CrankLaw;
 use crate::press::machine::{PressCams, Shift};
+use camgen_cams::report::ReportLine;
 use camgen_cams::report::{Section, shown};
 use camgen_kernel::document::NamedChoice;
 use serde::Serialize;
@@ -92,19 +93,22 @@ pub fn of_conoid(cams: &PressCams, cylinder: &Cylinder, shift: Shift, laws: &[La
 }
 
 impl ConoidScatter {
-    fn describe(&self) -> Vec<String> {
+    fn describe(&self) -> Vec<ReportLine> {
         let names = self.followed.join(", ").replace('_', " ");
-        let mut lines = vec![format!(
-            "presses that differ from the machine file at the speeds of the sections; the shift follows {names}"
-        )];
-        lines.extend(self.speeds.iter().map(|at| {
+        let mut lines: Vec<ReportLine> = vec![
             format!(
+                "presses that differ from the machine file at the speeds of the sections; the shift follows {names}"
+            )
+            .into(),
+        ];
+        lines.extend(self.speeds.iter().map(|at| {
+            ReportLine::row(format!(
                 "{:>6} rpm  all bands at once leave {} to {} N{}",
                 shown(at.rpm),
                 whole_newtons(at.worst_strong_n),
                 whole_newtons(at.worst_weak_n),
                 at.left.describe(self.reset)
-            )
+            ))
         }));
         lines
     }

@@ -5,8 +5,10 @@ use super::reset::ScrewRule;
 use super::settings::VariableRange;
 use super::tables::{ParameterRow, PercentileRow, SettingRow};
 use crate::press::report::CylinderMeasures;
+use camgen_cams::report::ReportLine;
 use camgen_cams::report::{Section, shown};
 use camgen_kernel::document::NamedChoice;
+use camgen_kernel::text::{Length, Text, text};
 use serde::Serialize;
 
 /// One machine that differs.
@@ -77,22 +79,22 @@ impl LossReport {
 
     /// The values in words.
     #[must_use]
-    pub fn describe(&self) -> Vec<String> {
+    pub fn describe(&self) -> Vec<Text> {
         let fixed = self.residual_in_fixed_bottom_n.zip(self.residual_back_fixed_bottom_n).map(|(on_way_in, back)| {
-            format!("a fixed bottom with these losses: {} N on the way in, {} N back", shown(on_way_in), shown(back))
+            text!("a fixed bottom with these losses: {} N on the way in, {} N back", shown(on_way_in), shown(back))
         });
         let cam = [
-            format!(
-                "with its losses {} N at x = {} mm on the way in, {} N at x = {} mm back",
+            text!(
+                "with its losses {} N at x = {} on the way in, {} N at x = {} back",
                 shown(self.residual_in_n),
-                shown(self.residual_in_at_mm),
+                Length::mm(self.residual_in_at_mm),
                 shown(self.residual_back_n),
-                shown(self.residual_back_at_mm)
+                Length::mm(self.residual_back_at_mm)
             ),
-            format!(
-                "half of the loop {} N at x = {} mm, which neither cam nor screw takes out; the air loses {} J in a reversal, which bed and camshaft give; {} % of the air is still in the cylinder at its end",
+            text!(
+                "half of the loop {} N at x = {}, which neither cam nor screw takes out; the air loses {} J in a reversal, which bed and camshaft give; {} % of the air is still in the cylinder at its end",
                 shown(self.half_loop_n),
-                shown(self.half_loop_at_mm),
+                Length::mm(self.half_loop_at_mm),
                 shown(self.work_lost_j),
                 shown(100.0 * self.air_left)
             ),
@@ -174,13 +176,13 @@ impl BandsReport {
 
     /// The parameters in words, that which leaves most as built first.
     #[must_use]
-    pub fn describe(&self) -> Vec<String> {
-        let mut lines = vec![format!(
+    pub fn describe(&self) -> Vec<ReportLine> {
+        let mut lines = vec![ReportLine::row(format!(
             "{:<20} {:>10} {:>11} {:>10} {:>10} {:>10} {:>10}",
             "band of", "half width", "as built/N", "screw/mm", "then/N", "level/N", "variance/%"
-        )];
+        ))];
         lines.extend(self.ranked().into_iter().map(|row| {
-            format!(
+            ReportLine::row(format!(
                 "{:<20} {:>10} {:>11.2} {:>10.3} {:>10.2} {:>10.2} {:>10.2}",
                 row.parameter,
                 row.half_width_words(),
@@ -189,14 +191,17 @@ impl BandsReport {
                 row.residual_end_n.abs(),
                 row.residual_level_n.unwrap_or(f64::NAN),
                 100.0 * row.share_of_variance
-            )
+            ))
         }));
-        lines.push(format!(
-            "all at once as built: {} to {} N, standard deviation {} N",
-            shown(self.worst_strong_n),
-            shown(self.worst_weak_n),
-            shown(self.sigma_n)
-        ));
+        lines.push(
+            text!(
+                "all at once as built: {} to {} N, standard deviation {} N",
+                shown(self.worst_strong_n),
+                shown(self.worst_weak_n),
+                shown(self.sigma_n)
+            )
+            .into(),
+        );
         lines
     }
 }
@@ -235,25 +240,28 @@ impl ScatterReport<'_> {
     /// The section.
     #[must_use]
     pub fn section(&self) -> Section {
-        let mut words = vec![format!(
-            "cam for {} rpm, column {} mm, {}; a fixed bottom leaves {} N",
-            shown(self.cam_rpm),
-            shown(self.column_length_mm),
-            self.cylinders.bore_words(),
-            shown(self.residual_fixed_bottom_max_n)
-        )];
-        words.extend(self.fault.iter().flat_map(FaultReport::describe));
-        words.extend(self.losses.iter().flat_map(LossReport::describe));
+        let mut words: Vec<ReportLine> = vec![
+            text!(
+                "cam for {} rpm, column {}, {}; a fixed bottom leaves {} N",
+                shown(self.cam_rpm),
+                Length::mm(self.column_length_mm),
+                self.cylinders.bore_words(),
+                shown(self.residual_fixed_bottom_max_n)
+            )
+            .into(),
+        ];
+        words.extend(self.fault.iter().flat_map(FaultReport::describe).map(ReportLine::from));
+        words.extend(self.losses.iter().flat_map(LossReport::describe).map(ReportLine::from));
         words.extend(self.bands.describe());
-        words.extend(self.drawn());
-        words.push(self.useful.describe());
-        words.push(format!("settings by the rule {}:", self.reset));
-        words.push(format!(
+        words.extend(self.drawn().into_iter().map(ReportLine::from));
+        words.push(self.useful.describe().into());
+        words.push(text!("settings by the rule {}:", self.reset).into());
+        words.push(ReportLine::row(format!(
             "{:>6} {:>9} {:>10} {:>12} {:>12} {:>9} {:>11} {:>9}",
             "v", "rpm", "column/mm", "V each/cm³", "V all/cm³", "left/N", "fixed/mm", "left/N"
-        ));
+        )));
         words.extend(self.settings.iter().filter(|row| (20.0 * row.v).round() % 2.0 == 0.0).map(|row| {
-            format!(
+            ReportLine::row(format!(
                 "{:>6} {:>9.3} {:>10.2} {:>12.0} {:>12.0} {:>9.1} {:>11.2} {:>9.1}",
                 shown(row.v),
                 row.rpm,
@@ -263,26 +271,28 @@ impl ScatterReport<'_> {
                 row.residual_n,
                 row.fixed_column_mm,
                 row.fixed_residual_n
-            )
+            ))
         }));
         Section::new("scatter", self).with_words(words)
     }
 
     /// The percentiles in words.
-    fn drawn(&self) -> Vec<String> {
+    fn drawn(&self) -> Vec<Text> {
         if self.percentiles.is_empty() {
             return Vec::new();
         }
-        let mut lines = vec![format!("{} presses drawn, {}, seed {}", self.samples, self.distribution, self.seed)];
+        let mut lines = vec![text!("{} presses drawn, {}, seed {}", self.samples, self.distribution, self.seed)];
         for row in self.percentiles {
             let body = row.body.replace('-', " ");
             let state = match row.reset {
                 "none" => "as built".to_owned(),
                 rule => format!("reset to {rule}"),
             };
-            lines.push(format!(
-                "P{:.0} of a {body}, {state}: {} N ({} to {})",
-                row.percentile,
+            lines.push(text!(
+                "P{} of a {}, {}: {} N ({} to {})",
+                format_args!("{:.0}", row.percentile),
+                body,
+                state,
                 shown(row.residual_n),
                 shown(row.low_n),
                 shown(row.high_n)
@@ -293,23 +303,23 @@ impl ScatterReport<'_> {
 }
 
 impl FaultReport {
-    fn describe(&self) -> Vec<String> {
+    fn describe(&self) -> Vec<Text> {
         vec![
-            format!(
-                "this machine leaves {} N at x = {} mm, {} N at the end of the stroke; v = {}",
+            text!(
+                "this machine leaves {} N at x = {}, {} N at the end of the stroke; v = {}",
                 shown(self.residual_n),
-                shown(self.residual_at_mm),
+                Length::mm(self.residual_at_mm),
                 shown(self.residual_at_end_n),
                 shown(self.v)
             ),
-            format!(
-                "turn the screw by {:+.3} mm and {} N are left, by {:+.3} mm (level) {} N; the screw by {:+.3} mm and the port by {:+.3} mm: {} N",
-                self.screw_end_mm,
+            text!(
+                "turn the screw by {} and {} N are left, by {} (level) {} N; the screw by {} and the port by {}: {} N",
+                Length::mm(self.screw_end_mm).signed(3),
                 shown(self.residual_end_n.abs()),
-                self.screw_level_mm,
+                Length::mm(self.screw_level_mm).signed(3),
                 shown(self.residual_level_n.abs()),
-                self.screw_with_port_mm,
-                self.port_mm,
+                Length::mm(self.screw_with_port_mm).signed(3),
+                Length::mm(self.port_mm).signed(3),
                 shown(self.residual_with_port_n.abs())
             ),
         ]

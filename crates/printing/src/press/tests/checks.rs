@@ -69,7 +69,7 @@ fn holes_balance_the_metal_left() {
     assert_eq!(of(&findings("dpi", &good), "balance").verdict, Verdict::Pass);
     let narrow = [&light[..], &["cam.keyway.depth=30mm", "cam.balance=80mm .. 81mm"]].concat();
     let refused = findings("dpi", &narrow);
-    let note = of(&refused, "balance").note.clone().expect("a note");
+    let note = of(&refused, "balance").note_words();
     assert!(note.contains("at least ") && note.contains(" remain; "), "{note}");
     let band = note.split("cam.balance = \"").nth(1).and_then(|rest| rest.split('"').next()).expect(&note);
     let band = format!("cam.balance={band}");
@@ -77,11 +77,11 @@ fn holes_balance_the_metal_left() {
     assert_eq!(of(&findings("dpi", &wider), "balance").verdict, Verdict::Pass, "{band}");
     // The lift of the default cam is as large as its base circle: no row of holes balances that.
     let heavy = findings("dpi", &["cam.balance=40mm .. 85mm"]);
-    let note = of(&heavy, "balance").note.as_deref().expect("a note");
+    let note = of(&heavy, "balance").note_words();
     assert!(note.ends_with("no wider band would help"), "{note}");
     // Equal lobes balance each other.
     let lobes = findings("dpi", &["cam.cam_turns_per_crank_turn=0.3333", "cam.balance=40mm .. 85mm"]);
-    assert_eq!(of(&lobes, "balance").note.as_deref(), Some("nothing to balance"));
+    assert_eq!(of(&lobes, "balance").note_words(), "nothing to balance");
 }
 
 #[test]
@@ -90,8 +90,8 @@ fn a_refusal_names_what_would_pass() {
     let finding = of(&refused, "pressure_angle");
     assert_eq!(finding.verdict, Verdict::Fail);
     assert!(finding.value > 60.0 && finding.limit == Some(30.0), "{finding:?}");
-    let note = finding.note.as_deref().expect("a note");
-    let base = note.strip_prefix("a base radius of ").and_then(|n| n.strip_suffix(" would pass")).expect(note);
+    let note = finding.note_words();
+    let base = note.strip_prefix("a base radius of ").and_then(|n| n.strip_suffix(" would pass")).expect(&note);
     let passing = findings("dpi-paper", &[&format!("cam.base_radius={base}")]);
     assert!(passed(&passing), "{base}: {passing:?}");
 }
@@ -141,7 +141,7 @@ fn press(command: &str, name: &str, overrides: &[&str], rpm: f64, tolerance: f64
 
 /// The text between a mark and the next quotation mark or blank of a note.
 fn shown(finding: &Finding, mark: &str) -> String {
-    let note = finding.note.as_deref().expect("a note");
+    let note = finding.note_words();
     let rest = note.split(mark).nth(1).unwrap_or_else(|| panic!("no `{mark}` in {note}"));
     rest.trim_start_matches('"').split('"').next().expect("a value").to_owned()
 }
@@ -176,11 +176,11 @@ fn a_bottom_that_hits_the_piston_fails_and_the_note_gives_what_fits() {
     let found = press("disc", "dpi", &[], 1000.0, 5e-6);
     let residual = of(&found, "residual");
     assert!(residual.verdict == Verdict::Fail && !residual.value.is_finite(), "{residual:?}");
-    let note = residual.note.as_deref().expect("a note");
+    let note = residual.note_words();
     assert!(note.contains("the bottom hits the piston"), "{note}");
     let number = |after: &str, before: &str| -> f64 {
-        let rest = note.split(after).nth(1).expect(note);
-        rest.split(before).next().and_then(|text| text.trim().parse().ok()).expect(note)
+        let rest = note.split(after).nth(1).expect(&note);
+        rest.split(before).next().and_then(|text| text.trim().parse().ok()).expect(&note)
     };
     assert!((0.0015..0.0025).contains(&number("leaves ", " mm of air")), "{note}");
     let (speed, tolerance) = (number("; at ", " rpm"), number("tolerance of ", " um"));
@@ -232,7 +232,7 @@ fn a_run_up_longer_than_the_stroke_is_named() {
     let found = press("disc", "dpi", &[], 350.0, 5e-6);
     let run_up = of(&found, "run_up");
     assert!(run_up.verdict == Verdict::Warn && run_up.value > 180.0, "{run_up:?}");
-    assert!(run_up.note.as_deref().is_some_and(|note| note.contains("run-up lift exceeds the stroke")));
+    assert!(run_up.note_words().contains("run-up lift exceeds the stroke"));
     let width = shown(run_up, "transition.width = ");
     let narrower = press("disc", "dpi", &[&format!("transition.width={width}")], 350.0, 5e-6);
     assert_eq!(of(&narrower, "run_up").verdict, Verdict::Pass, "{width}");
@@ -279,10 +279,10 @@ fn a_face_is_as_wide_as_the_contact_wanders() {
     }
     // The quickest rise moves the contact farther to one side: an offset of the stem helps.
     let narrow = under("[follower.flat]\nwidth = \"30 mm\"\n", "mm").expect("a cam");
-    let note = of(&narrow, "face_width").note.as_deref().expect("a note");
-    let (_, offset) = note.split_once("offset = ").expect(note);
-    let (offset, needed) = offset.split_once(" it needs ").expect(note);
-    let needed: f64 = needed.trim_end_matches(" mm").parse().expect(note);
+    let note = of(&narrow, "face_width").note_words();
+    let (_, offset) = note.split_once("offset = ").expect(&note);
+    let (offset, needed) = offset.split_once(" it needs ").expect(&note);
+    let needed: f64 = needed.trim_end_matches(" mm").parse().expect(&note);
     let shifted = under(&format!("[follower.flat]\noffset = {offset}\n"), "mm").expect("a cam");
     assert!((of(&shifted, "face_width").value - needed).abs() < 2e-3, "{note}: {shifted:?}");
     assert!(needed < of(&narrow, "face_width").value, "{note}");
@@ -317,7 +317,7 @@ fn checks_of_a_radius_leave_a_knife_edge_out() {
     let metal = "[cam]\nthickness = \"10 mm\"\nmaterial = \"steel\"\n";
     let knife = under(&format!("[follower.knife]\npreload = \"100 N\"\n{metal}"), "mm").expect("a cam");
     assert!(passed(&knife) && knife.iter().all(|finding| finding.check != "min_convex_radius"), "{knife:?}");
-    assert!(of(&knife, "contact_stress").note.as_deref().is_some_and(|note| note.contains("knife edge")));
+    assert!(of(&knife, "contact_stress").note_words().contains("knife edge"));
     assert_eq!(of(&knife, "undercut").verdict, Verdict::Pass);
     let face = under("[follower.flat]\ntilt = \"40 deg\"\n", "mm").expect("a cam");
     let angle = of(&face, "pressure_angle");
@@ -343,14 +343,14 @@ fn the_motion_lost_under_a_swinging_face_is_what_rolling_shows() {
         .expect("a cam");
         let (undercut, rolling) = (of(&found, "undercut"), of(&found, "rolling"));
         assert_eq!(undercut.verdict, Verdict::Fail, "{found:?}");
-        let number = |note: &Option<String>, before: &str, after: &str| -> f64 {
-            let note = note.as_deref().expect("a note");
-            let (_, rest) = note.split_once(before).expect(note);
-            rest.split_once(after).and_then(|(value, _)| value.trim().parse().ok()).expect(note)
+        let number = |finding: &Finding, before: &str, after: &str| -> f64 {
+            let note = finding.note_words();
+            let (_, rest) = note.split_once(before).expect(&note);
+            rest.split_once(after).and_then(|(value, _)| value.trim().parse().ok()).expect(&note)
         };
         // A second loop would follow the first.
-        let lost = number(&undercut.note, "°, ", " mm at");
-        let lifted = 1e-3 * number(&rolling.note, "lift off by ", " µm");
+        let lost = number(undercut, "°, ", " mm at");
+        let lifted = 1e-3 * number(rolling, "lift off by ", " µm");
         assert!((lost - lifted).abs() < 5e-3 * lost, "{lost} {lifted}: {found:?}");
     }
 }

@@ -15,6 +15,7 @@ use camgen_cams::body::ROUNDING_OF_BALANCE;
 use camgen_cams::report::{Section, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::profile::{Worst, extremes};
+use camgen_kernel::text::{KeyChange, Remedy, Text, text};
 
 /// Steps in which friction angle (rad), efficiency and roller arm (m) are reported.
 const ANGLE_STEP: f64 = 0.1;
@@ -81,7 +82,7 @@ impl Wedge {
 
     /// Friction angle, efficiency and roller arm, each of which alone brings the residual force in the direction in which the forces
     /// are not to balance below what a fixed bottom leaves.
-    pub(super) fn worth_while(&self) -> Vec<String> {
+    pub(super) fn worth_while(&self) -> Vec<Remedy> {
         let data = self.data;
         let Some(way) = self.other_direction() else { return Vec::new() };
         let own = *self.mechanism();
@@ -97,9 +98,17 @@ impl Wedge {
             self.beats_fixed_bottom(&Mechanism { arm_ratio, ..own }, way)
         });
         let remedies = [
-            angle.map(|steps| format!("translating.friction_angle = \"{} deg\"", in_degrees(steps))),
-            share.map(|steps| format!("translating.efficiency = {}", steps / EFFICIENCY_STEPS)),
-            longer.map(|steps| format!("translating.roller_arm = \"{} mm\"", steps * ARM_STEP_MM)),
+            angle.map(|steps| {
+                Remedy::new([KeyChange::new("translating.friction_angle", format!("{} deg", in_degrees(steps)))])
+            }),
+            share.map(|steps| {
+                let efficiency = (steps / EFFICIENCY_STEPS).to_string();
+                let words = format!("translating.efficiency = {efficiency}");
+                Remedy::new([KeyChange::new("translating.efficiency", efficiency)]).named(words)
+            }),
+            longer.map(|steps| {
+                Remedy::new([KeyChange::new("translating.roller_arm", format!("{} mm", steps * ARM_STEP_MM))])
+            }),
         ];
         remedies.into_iter().flatten().collect()
     }
@@ -134,7 +143,7 @@ impl Wedge {
     }
 
     /// A longer air column that leaves less in both directions: the shortest that is useful, else the best one that fits the press.
-    pub(super) fn longer_column(&self) -> Option<String> {
+    pub(super) fn longer_column(&self) -> Option<Text> {
         let press = self.machine.press().ok()?;
         let (own, ways) = (self.mechanism().bottom_law.column(), [BedDirection::Braking, BedDirection::Return]);
         let (now, useful) = (self.left_by(self.mechanism(), &ways)?, USEFUL * self.residual_fixed_bottom());
@@ -149,7 +158,8 @@ impl Wedge {
         let tried: Vec<(f64, f64)> = tried.collect();
         let best = tried.iter().find(|(_, left)| *left < useful);
         let (column, left) = best.or_else(|| tried.iter().min_by(|a, b| a.1.total_cmp(&b.1)))?;
-        Some(format!("buffer.column = \"{} mm\" leaves {} N", shown(MILLIMETRES * column), shown(*left)))
+        let change = KeyChange::new("buffer.column", format!("{} mm", shown(MILLIMETRES * column)));
+        Some(text!("{} leaves {} N", change.to_string(), shown(*left)))
     }
 }
 

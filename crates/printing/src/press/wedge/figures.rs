@@ -5,6 +5,7 @@ use crate::press::load::{Balance, ColumnAtSpeed, ForceBalanced, RunUp};
 use crate::press::motion::equation_18::ExactOn;
 use camgen_cams::body::{Figures, LoadAsCut, stress};
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::{Remedy, Text};
 use nalgebra::Vector2;
 
 impl Figures for Wedge {
@@ -37,7 +38,7 @@ impl Figures for Wedge {
         )
     }
 
-    fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<String> {
+    fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<Remedy> {
         stress::length_for(&self.machine, largest, limit).into_iter().collect()
     }
 
@@ -61,11 +62,11 @@ impl ForceBalanced for Wedge {
         self.other_direction().map(|way| self.residual_max(way))
     }
 
-    fn remedies_of_other_way(&self) -> Vec<String> {
+    fn remedies_of_other_way(&self) -> Vec<Remedy> {
         self.worth_while()
     }
 
-    fn remedy_of_mean(&self) -> Option<String> {
+    fn remedy_of_mean(&self) -> Option<Text> {
         self.longer_column()
     }
 

@@ -16,6 +16,7 @@ use camgen_cams::table::{ListedColumn, Table, turned};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::profile::Worst;
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::{Length, Text, text};
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -265,28 +266,34 @@ impl CamUnderLoad {
         if self.has_sections() { Table::listed(&[SPEED, LIFT].concat(), &rows) } else { Table::listed(LIFT, &rows) }
     }
 
-    pub(super) fn describe(&self) -> Vec<String> {
+    pub(super) fn describe(&self) -> Vec<Text> {
         let twist = match self.shaft_twist {
-            Some(_) => format!(" ({:.4} mm of it twist)", MILLIMETRES * self.there.twist),
-            None => String::new(),
+            Some(_) => text!(" ({} of it twist)", Length::mm(MILLIMETRES * self.there.twist).decimals(4)),
+            None => Text::default(),
         };
-        let left = self.residual.map_or(String::new(), |left| {
-            format!("; a residual force of {:.2} N is left, at {:.3}°", left.value, left.at.to_degrees())
+        let left = self.residual.map(|left| {
+            text!(
+                "; a residual force of {} N is left, at {}°",
+                format_args!("{:.2}", left.value),
+                format_args!("{:.3}", left.at.to_degrees())
+            )
         });
-        let all = format!(
-            "the follower is up to {:.5} mm low{twist}, at {:.3}° of the cam under {} N{left}",
-            MILLIMETRES * self.largest.value,
-            self.largest.at.to_degrees(),
-            shown(self.there.force.round())
+        let all = text!(
+            "the follower is up to {} low{}, at {}° of the cam under {} N{}",
+            Length::mm(MILLIMETRES * self.largest.value).decimals(5),
+            twist,
+            format_args!("{:.3}", self.largest.at.to_degrees()),
+            shown(self.there.force.round()),
+            left
         );
         let mut lines = vec![all];
         for one in self.lift_errors() {
-            lines.push(format!(
-                "section for {} rpm: up to {:.5} mm low at {:.3}°, {:.2} N left",
+            lines.push(text!(
+                "section for {} rpm: up to {} low at {}°, {} N left",
                 shown(one.rpm),
-                one.lift_error_max_mm,
-                one.lift_error_cam_deg,
-                one.residual_max_n
+                Length::mm(one.lift_error_max_mm).decimals(5),
+                format_args!("{:.3}", one.lift_error_cam_deg),
+                format_args!("{:.2}", one.residual_max_n)
             ));
         }
         lines

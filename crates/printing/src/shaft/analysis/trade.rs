@@ -6,6 +6,7 @@ use crate::shaft::mechanics::exact::Statics;
 use crate::shaft::mechanics::{Beam, MOST_ORDER, Shaft, Whirl, exact, paper};
 use camgen_cams::analysis::{Analysis, Picture};
 use camgen_cams::body::Kind;
+use camgen_cams::report::ReportLine;
 use camgen_cams::report::chart::{self, Chart, ChartPanel, ChartPoint};
 use camgen_cams::report::{Section, Speeds, shown};
 use camgen_cams::table::Table;
@@ -197,16 +198,16 @@ fn advice(rows: &[ShaftTradeRow]) -> String {
     }
 }
 
-fn describe(truth: f64, rows: &[ShaftTradeRow], advice: &str) -> Vec<String> {
+fn describe(truth: f64, rows: &[ShaftTradeRow], advice: &str) -> Vec<ReportLine> {
     let first =
         format!("first critical speed {} rpm (Euler beam, planar); time the least of {ROUNDS} rounds", shown(truth));
-    let head = format!("{:<14} {:>16} {:>10} {:>10}", "setting", "n1/rpm", "error", "time/µs");
-    let mut lines = vec![first, head];
+    let head = ReportLine::row(format!("{:<14} {:>16} {:>10} {:>10}", "setting", "n1/rpm", "error", "time/µs"));
+    let mut lines = vec![first.into(), head];
     for row in rows {
         let (speed, error) = (shown(row.n1_rpm), shown(row.error));
-        lines.push(format!("{:<14} {:>16} {:>10} {:>10.1}", row.setting, speed, error, row.time_us));
+        lines.push(ReportLine::row(format!("{:<14} {:>16} {:>10} {:>10.1}", row.setting, speed, error, row.time_us)));
     }
-    lines.push(advice.to_owned());
+    lines.push(advice.to_owned().into());
     lines
 }
 

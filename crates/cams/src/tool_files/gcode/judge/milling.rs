@@ -47,7 +47,7 @@ pub(in super::super) fn no_program(evidence: &Evidence<'_>, why: String) -> Find
 fn failure(evidence: &Evidence<'_>, fault: ProgramFault) -> Finding {
     let found = CHECK.found(fault.value, Some(evidence.tolerance_mm), Verdict::Fail);
     let place = fault.at.map_or(found.place.clone(), |at| place(evidence.body, at));
-    Finding { place, note: Some(fault.why), ..found }
+    Finding { place, note: Some(fault.why.into()), ..found }
 }
 
 /// The finding on the programs of a cam.
@@ -63,7 +63,7 @@ pub(in super::super) fn judge(evidence: &Evidence<'_>, programs: &[WrittenProgra
     }
     let worst = worst?;
     let found = CHECK.found(worst.value, Some(limit), Verdict::Pass);
-    Some(Finding { place: place(evidence.body, worst.at), note: Some(worst.note), ..found })
+    Some(Finding { place: place(evidence.body, worst.at), note: Some(worst.note.into()), ..found })
 }
 
 /// Whether radius compensation is on for at least half of the level cutting moves.

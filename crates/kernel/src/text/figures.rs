@@ -43,6 +43,16 @@ fn exponent(value: f64) -> String {
     format!("{digits}·10{}", power.chars().map(raised).collect::<String>())
 }
 
+/// A number for a person: at most three decimals, no trailing zeros.
+#[must_use]
+pub fn rounded(value: f64) -> String {
+    if !value.is_finite() {
+        return "none".into();
+    }
+    let rounded = (value * 1e3).round() / 1e3 + 0.0;
+    if rounded == 0.0 { shown(value) } else { rounded.to_string() }
+}
+
 /// What is to be typed, such as a remedy: at most four decimals, and no more digits than are needed.
 #[must_use]
 pub fn to_type(value: f64) -> String {

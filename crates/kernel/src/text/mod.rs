@@ -1,0 +1,324 @@
+//! Sentences as data: templates with values that keep their kind, and changes of a machine file that were tried. Whoever shows a sentence
+//! says in which unit its lengths are; nobody takes a sentence apart.
+//!
+//! ```
+//! # use camgen_kernel as camgen;
+//! use camgen::text;
+//! use camgen::text::{KeyChange, Length, Remedy};
+//! use camgen::units::LengthUnit;
+//!
+//! let remedy = Remedy::new([KeyChange::new("cam.base_radius", "41 mm")]);
+//! let note = text!("the wall is {} thick; {} would pass", Length::mm(2.54), remedy);
+//! assert_eq!(note.to_string(), "the wall is 2.54 mm thick; cam.base_radius = \"41 mm\" would pass");
+//! assert!(note.in_unit(LengthUnit::Inch).starts_with("the wall is 0.1 in thick"));
+//! assert_eq!(note.remedies()[0].changes[0].key, "cam.base_radius");
+//! ```
+
+mod figures;
+mod length;
+mod remedy;
+
+pub use figures::{rounded, shown, to_type};
+pub use length::{Length, LengthKind};
+pub use remedy::{KeyChange, Remedy};
+
+use crate::units::LengthUnit;
+use std::borrow::Cow;
+use std::fmt::{self, Write};
+
+/// A sentence, or several.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Text {
+    phrases: Vec<Phrase>,
+}
+
+/// A template, in which each `{}` stands for a value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Phrase {
+    template: &'static str,
+    values: Vec<Value>,
+}
+
+/// What stands in a template.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Value {
+    /// Words, names, and numbers that have no length in their unit.
+    Words(Cow<'static, str>),
+    /// A length, or another quantity whose unit has a length.
+    Length(Length),
+    /// A unit behind several lengths: "at (3, 4) mm".
+    Unit(&'static LengthKind),
+    /// A sentence in a sentence.
+    Text(Text),
+    /// Changes of a machine file.
+    Remedy(Remedy),
+}
+
+/// A [`Text`](crate::text::Text) of a template and its values, in their order: `text!("{} deep", Length::mm(3.0))`.
+#[macro_export]
+macro_rules! text {
+    ($template:literal $(, $value:expr)* $(,)?) => {
+        $crate::text::Text::new($template, vec![$($crate::text::Value::from($value)),*])
+    };
+}
+pub use text;
+
+impl Text {
+    /// A template and its values, as [`text!`](crate::text!) makes it.
+    #[must_use]
+    pub fn new(template: &'static str, values: Vec<Value>) -> Self {
+        debug_assert_eq!(template.matches("{}").count(), values.len(), "{template}");
+        Self { phrases: vec![Phrase { template, values }] }
+    }
+
+    /// Whether there is nothing in it.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.phrases.is_empty()
+    }
+
+    /// Texts one after the other, with something between them.
+    #[must_use]
+    pub fn joined(texts: impl IntoIterator<Item = Text>, between: &'static str) -> Self {
+        texts.into_iter().fold(Self::default(), |all, text| all.and(between, text))
+    }
+
+    /// With a further text, and something between them where both have words.
+    #[must_use]
+    pub fn and(mut self, between: &'static str, next: impl Into<Text>) -> Self {
+        let next = next.into();
+        if !self.is_empty() && !next.is_empty() {
+            self.phrases.push(Phrase { template: between, values: Vec::new() });
+        }
+        self.phrases.extend(next.phrases);
+        self
+    }
+
+    /// The words, with lengths in a unit.
+    #[must_use]
+    pub fn in_unit(&self, unit: LengthUnit) -> String {
+        let mut words = String::new();
+        self.write(&mut words, unit);
+        words
+    }
+
+    fn write(&self, words: &mut String, unit: LengthUnit) {
+        for Phrase { template, values } in &self.phrases {
+            let mut values = values.iter();
+            for (index, fixed) in template.split("{}").enumerate() {
+                if index > 0 {
+                    values.next().into_iter().for_each(|value| value.write(words, unit));
+                }
+                words.push_str(fixed);
+            }
+        }
+    }
+
+    /// The changes of a machine file in it.
+    #[must_use]
+    pub fn remedies(&self) -> Vec<&Remedy> {
+        let mut found = Vec::new();
+        for value in self.phrases.iter().flat_map(|phrase| &phrase.values) {
+            match value {
+                Value::Remedy(remedy) => found.push(remedy),
+                Value::Text(text) => found.extend(text.remedies()),
+                Value::Words(_) | Value::Length(_) | Value::Unit(_) => {}
+            }
+        }
+        found
+    }
+}
+
+impl Value {
+    fn write(&self, words: &mut String, unit: LengthUnit) {
+        match self {
+            Value::Words(own) => words.push_str(own),
+            Value::Length(length) => words.push_str(&length.in_unit(unit)),
+            Value::Unit(kind) => words.push_str(kind.symbol(unit)),
+            Value::Text(text) => text.write(words, unit),
+            Value::Remedy(remedy) => words.push_str(&remedy.in_unit(unit)),
+        }
+    }
+}
+
+/// In millimetres.
+impl fmt::Display for Text {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.in_unit(LengthUnit::Millimetre))
+    }
+}
+
+impl From<&'static str> for Text {
+    fn from(words: &'static str) -> Self {
+        Self::from(Value::from(words))
+    }
+}
+
+impl From<String> for Text {
+    fn from(words: String) -> Self {
+        Self::from(Value::from(words))
+    }
+}
+
+impl From<Value> for Text {
+    fn from(value: Value) -> Self {
+        Self { phrases: vec![Phrase { template: "{}", values: vec![value] }] }
+    }
+}
+
+impl From<Remedy> for Text {
+    fn from(remedy: Remedy) -> Self {
+        Self::from(Value::Remedy(remedy))
+    }
+}
+
+/// Nothing where there is none.
+impl<T: Into<Text>> From<Option<T>> for Text {
+    fn from(text: Option<T>) -> Self {
+        text.map_or_else(Self::default, Into::into)
+    }
+}
+
+impl From<&Text> for Text {
+    fn from(text: &Text) -> Self {
+        text.clone()
+    }
+}
+
+/// Without values: two texts that read alike in millimetres.
+impl PartialEq<&str> for Text {
+    fn eq(&self, other: &&str) -> bool {
+        self.to_string() == *other
+    }
+}
+
+/// Without anything between them.
+impl std::ops::AddAssign<Text> for Text {
+    fn add_assign(&mut self, next: Text) {
+        self.phrases.extend(next.phrases);
+    }
+}
+
+impl From<&&str> for Value {
+    fn from(words: &&str) -> Self {
+        Value::from(*words)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(words: &str) -> Self {
+        Value::Words(Cow::Owned(words.to_owned()))
+    }
+}
+
+impl From<String> for Value {
+    fn from(words: String) -> Self {
+        Value::Words(Cow::Owned(words))
+    }
+}
+
+impl From<&String> for Value {
+    fn from(words: &String) -> Self {
+        Value::from(words.as_str())
+    }
+}
+
+impl From<Cow<'static, str>> for Value {
+    fn from(words: Cow<'static, str>) -> Self {
+        Value::Words(words)
+    }
+}
+
+impl From<fmt::Arguments<'_>> for Value {
+    fn from(words: fmt::Arguments<'_>) -> Self {
+        let mut written = String::new();
+        // Writing to a String cannot fail.
+        _ = written.write_fmt(words);
+        Value::from(written)
+    }
+}
+
+impl From<usize> for Value {
+    fn from(count: usize) -> Self {
+        Value::from(count.to_string())
+    }
+}
+
+impl From<u64> for Value {
+    fn from(count: u64) -> Self {
+        Value::from(count.to_string())
+    }
+}
+
+impl From<u32> for Value {
+    fn from(count: u32) -> Self {
+        Value::from(count.to_string())
+    }
+}
+
+impl From<f64> for Value {
+    /// All digits of a number without a length in its unit.
+    fn from(number: f64) -> Self {
+        Value::from(number.to_string())
+    }
+}
+
+impl From<Length> for Value {
+    fn from(length: Length) -> Self {
+        Value::Length(length)
+    }
+}
+
+impl From<&'static LengthKind> for Value {
+    fn from(kind: &'static LengthKind) -> Self {
+        Value::Unit(kind)
+    }
+}
+
+impl From<Text> for Value {
+    fn from(text: Text) -> Self {
+        Value::Text(text)
+    }
+}
+
+impl From<&Text> for Value {
+    fn from(text: &Text) -> Self {
+        Value::Text(text.clone())
+    }
+}
+
+impl From<Option<Text>> for Value {
+    fn from(text: Option<Text>) -> Self {
+        Value::Text(text.unwrap_or_default())
+    }
+}
+
+impl From<Remedy> for Value {
+    fn from(remedy: Remedy) -> Self {
+        Value::Remedy(remedy)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_are_joined_with_something_between_them() {
+        let empty = Text::default();
+        let all = [empty.clone(), Text::from("a"), empty, text!("b {} {}", 3_u32, Length::mm(2.54))];
+        let all = Text::joined(all, "; ");
+        assert_eq!(all, "a; b 3 2.54 mm");
+        assert_eq!(all.in_unit(LengthUnit::Inch), "a; b 3 0.1 in");
+        assert_eq!(Text::from("with {} braces"), "with {} braces");
+    }
+
+    #[test]
+    fn remedies_are_found_in_texts_of_texts() {
+        let remedy = |key: &'static str| Remedy::new([KeyChange::new(key, "3 mm")]);
+        let inner = text!("{} or {}", remedy("cam.a"), remedy("cam.b"));
+        let note = text!("{} would pass", inner).and("; ", remedy("cam.c"));
+        let keys: Vec<&str> = note.remedies().iter().map(|remedy| &*remedy.changes[0].key).collect();
+        assert_eq!(keys, ["cam.a", "cam.b", "cam.c"]);
+    }
+}
