@@ -45,7 +45,7 @@ fn by_controls(record: &EntityRecord<'_>, points: &[Vector2<f64>]) -> Result<Vec
         let (Some(&low), Some(&high)) = (knots.get(span), knots.get(span + 1)) else { continue };
         if high > low {
             let poles: Option<Vec<[f64; 3]>> =
-                (0..=degree).map(|at_high| blossom(degree, span, &knots, &poles, (low, high, at_high))).collect();
+                (0..=degree).map(|at_high| blossom(degree, span, &knots, &poles, low, high, at_high)).collect();
             curves.extend(poles.map(|poles| Bezier { poles }));
         }
     }

@@ -81,13 +81,13 @@ pub(super) fn read(key: &Key, path: &str, scalar: &Scalar) -> Result<KeyValue, M
         KeyForm::Quantity(dimension, bounds) => name.quantity(scalar, &[], dimension, bounds),
         KeyForm::LengthOrAngle(length, angle) => name.length_or_angle(scalar, length, angle),
         KeyForm::AngleOrLength(angle, length) => name.angle_or_length(scalar, angle, length),
-        KeyForm::LengthAngleOrShare(length, angle, share) => name.length_angle_or_share(scalar, (length, angle), share),
+        KeyForm::LengthAngleOrShare(length, angle, share) => name.length_angle_or_share(scalar, length, angle, share),
         KeyForm::Either(first, second) => name.either(scalar, first, second),
         KeyForm::Words(words) => name.word(scalar, words),
         KeyForm::WordsOrQuantity(words, dimension, bounds) => name.quantity(scalar, words, dimension, bounds),
         KeyForm::Band(dimension, bounds) => name.band(scalar, dimension, bounds),
         KeyForm::Pair(dimension, bounds) => name.pair(scalar, dimension, bounds),
-        KeyForm::Points(place, position) => name.points(scalar, place, position),
+        KeyForm::Points(place, position) => name.points(scalar, place.0, place.1, position.0, position.1),
     }
 }
 
@@ -226,8 +226,10 @@ impl KeyAtPath<'_> {
     fn points(
         &self,
         scalar: &Scalar,
-        (place_angle, place_length): (Bounds, Bounds),
-        (length, angle): (Bounds, Bounds),
+        place_angle: Bounds,
+        place_length: Bounds,
+        length: Bounds,
+        angle: Bounds,
     ) -> Result<KeyValue, Misfit> {
         let wrong = |what: String| misfit(format!("`{}` {what}", self.path), Some(self.example()));
         let typed: Cow<'_, [Scalar]> = match scalar {
@@ -344,7 +346,8 @@ impl KeyAtPath<'_> {
     fn length_angle_or_share(
         &self,
         scalar: &Scalar,
-        (length, angle): (Bounds, Bounds),
+        length: Bounds,
+        angle: Bounds,
         bounds: Bounds,
     ) -> Result<KeyValue, Misfit> {
         let typed = if let Scalar::Text(text) = scalar { text.trim().strip_suffix('%') } else { None };

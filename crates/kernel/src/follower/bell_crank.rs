@@ -72,7 +72,7 @@ impl Follower for BellCrank {
         Touch { curve, drive: Vector2::new(cos, -sin), drive_turn: -first }
     }
 
-    fn point_turned(&self, x: f64, _: (f64, f64), lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
+    fn point_turned(&self, x: f64, _: f64, _: f64, lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
         let [psi, ..] = self.lever(lift);
         let (sin, cos) = libm::sincos(self.delta + psi);
         let (along, up) = self.roller(x, psi);

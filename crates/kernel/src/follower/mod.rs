@@ -290,13 +290,13 @@ pub trait Follower: std::fmt::Debug + Send + Sync {
     fn touch(&self, parameter: f64, lift: &Jet) -> Touch;
 
     /// The follower where sine and cosine of the parameter are known, for several lifts at one place.
-    fn touch_turned(&self, parameter: f64, _sine_and_cosine: (f64, f64), lift: &Jet) -> Touch {
+    fn touch_turned(&self, parameter: f64, _sin: f64, _cos: f64, lift: &Jet) -> Touch {
         self.touch(parameter, lift)
     }
 
     /// Only the point of the curve and the drive, where sine and cosine of the parameter are known.
-    fn point_turned(&self, parameter: f64, sine_and_cosine: (f64, f64), lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
-        let Touch { curve, drive, .. } = self.touch_turned(parameter, sine_and_cosine, lift);
+    fn point_turned(&self, parameter: f64, sin: f64, cos: f64, lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
+        let Touch { curve, drive, .. } = self.touch_turned(parameter, sin, cos, lift);
         (curve.point, drive)
     }
 

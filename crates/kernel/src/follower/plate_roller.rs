@@ -64,7 +64,7 @@ impl Follower for PlateRoller {
         Touch { curve, drive, drive_turn: 0.0 }
     }
 
-    fn point_turned(&self, x: f64, _: (f64, f64), lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
+    fn point_turned(&self, x: f64, _: f64, _: f64, lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
         let drive = self.drive();
         (Vector2::x() * x + drive * lift.s, drive)
     }

@@ -97,17 +97,18 @@ impl Follower for SwingingRoller {
     }
 
     fn touch(&self, angle: f64, lift: &Jet) -> Touch {
-        self.touch_turned(angle, libm::sincos(angle), lift)
+        let (sin, cos) = libm::sincos(angle);
+        self.touch_turned(angle, sin, cos, lift)
     }
 
-    fn point_turned(&self, _: f64, (sin, cos): (f64, f64), lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
+    fn point_turned(&self, _: f64, sin: f64, cos: f64, lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
         let (l, t) = (self.arm, self.side);
         let (sp, cp) = libm::sincos(self.start + lift.s);
         let pivot = Vector2::new(self.pivot_distance, 0.0);
         (rotated(Vector2::new(-l * cp, -l * t * sp) + pivot, sin, cos), rotated(Vector2::new(sp, -t * cp), sin, cos))
     }
 
-    fn touch_turned(&self, _: f64, (sin, cos): (f64, f64), lift: &Jet) -> Touch {
+    fn touch_turned(&self, _: f64, sin: f64, cos: f64, lift: &Jet) -> Touch {
         let (a, l, t) = (self.pivot_distance, self.arm, self.side);
         let psi = self.start + lift.s;
         let (sp, cp) = libm::sincos(psi);

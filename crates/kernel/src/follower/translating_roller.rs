@@ -122,10 +122,11 @@ impl Follower for TranslatingRoller {
     }
 
     fn touch(&self, angle: f64, lift: &Jet) -> Touch {
-        self.touch_turned(angle, libm::sincos(angle), lift)
+        let (sin, cos) = libm::sincos(angle);
+        self.touch_turned(angle, sin, cos, lift)
     }
 
-    fn touch_turned(&self, _: f64, (sin, cos): (f64, f64), lift: &Jet) -> Touch {
+    fn touch_turned(&self, _: f64, sin: f64, cos: f64, lift: &Jet) -> Touch {
         let along = Vector2::new(cos, sin);
         let across = Vector2::new(-sin, cos);
         let (offset, u) = (self.offset, self.height + lift.s);
@@ -139,7 +140,7 @@ impl Follower for TranslatingRoller {
         Touch { curve, drive: along, drive_turn: 1.0 }
     }
 
-    fn point_turned(&self, _: f64, (sin, cos): (f64, f64), lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
+    fn point_turned(&self, _: f64, sin: f64, cos: f64, lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
         let along = Vector2::new(cos, sin);
         (along * (self.height + lift.s) + Vector2::new(-sin, cos) * self.offset, along)
     }

@@ -21,16 +21,11 @@ pub type Tangential<'a> = dyn Fn(f64) -> (Vector2<f64>, Vector2<f64>) + 'a;
 #[must_use]
 pub fn biarcs(curve: &Tangential<'_>, range: (f64, f64), tolerance: f64) -> Option<Vec<Segment>> {
     let mut found = Vec::new();
-    add(curve, range, (tolerance, HALVINGS), &mut found)?;
+    add(curve, range.0, range.1, tolerance, HALVINGS, &mut found)?;
     Some(found)
 }
 
-fn add(
-    curve: &Tangential<'_>,
-    (from, to): (f64, f64),
-    (tolerance, left): (f64, u32),
-    found: &mut Vec<Segment>,
-) -> Option<()> {
+fn add(curve: &Tangential<'_>, from: f64, to: f64, tolerance: f64, left: u32, found: &mut Vec<Segment>) -> Option<()> {
     let arcs = between(curve(from), curve(to));
     let off = (1..PLACES).map(|i| {
         let (place, _) = curve(from + (to - from) * f64::from(i) / f64::from(PLACES));
@@ -42,8 +37,8 @@ fn add(
     }
     let left = left.checked_sub(1)?;
     let middle = 0.5 * (from + to);
-    add(curve, (from, middle), (tolerance, left), found)?;
-    add(curve, (middle, to), (tolerance, left), found)
+    add(curve, from, middle, tolerance, left, found)?;
+    add(curve, middle, to, tolerance, left, found)
 }
 
 /// The bulge of an arc with a chord that leads from a direction to another, neither of unit length; 0 where it is as good as straight.

@@ -51,7 +51,7 @@ pub struct BoundaryStretch {
 impl BoundaryStretch {
     /// A range of a piece of the curve.
     #[must_use]
-    pub fn of_curve(piece: usize, (from, to): (f64, f64)) -> Self {
+    pub fn of_curve(piece: usize, from: f64, to: f64) -> Self {
         Self { kind: StretchKind::Curve { piece }, from, to }
     }
 

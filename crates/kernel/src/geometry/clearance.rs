@@ -31,17 +31,17 @@ enum Side {
 /// The metal between an outline and a hole within it, both counter-clockwise; `None` where a chain has no edge.
 #[must_use]
 pub fn around(outline: &Contour, hole: &Contour) -> Option<Clearance> {
-    least((outline, Side::Outside), (hole, Side::Inside))
+    least(outline, Side::Outside, hole, Side::Inside)
 }
 
 /// The metal between two holes, both counter-clockwise.
 #[must_use]
 pub fn between(one: &Contour, other: &Contour) -> Option<Clearance> {
-    least((one, Side::Outside), (other, Side::Outside))
+    least(one, Side::Outside, other, Side::Outside)
 }
 
 /// Each chain with the side on which it lies of the other one.
-fn least((first, of_second): (&Contour, Side), (second, of_first): (&Contour, Side)) -> Option<Clearance> {
+fn least(first: &Contour, of_second: Side, second: &Contour, of_first: Side) -> Option<Clearance> {
     let (outer, inner) = (EdgeTree::new(first), EdgeTree::new(second));
     let from_second = |point: Vector2<f64>| distance(&inner, of_second, point);
     let mut found: Vec<Clearance> = Vec::new();

@@ -245,7 +245,7 @@ impl Cubic {
 
     /// The largest distance from a point between two parameters, mm.
     #[must_use]
-    pub fn farthest_from(&self, point: Vector2<f64>, (from, to): (f64, f64)) -> f64 {
+    pub fn farthest_from(&self, point: Vector2<f64>, from: f64, to: f64) -> f64 {
         let within = self.stationary(point).into_iter().filter(|t| (from..=to).contains(t));
         [from, to].into_iter().chain(within).map(|t| (self.derivatives(t)[0] - point).norm()).fold(0.0, f64::max)
     }
@@ -322,7 +322,7 @@ mod tests {
                 assert!((nearest.left.abs() - least).abs() < 1e-6, "{curve:?} {point}: {nearest:?} {least}");
                 assert!(nearest.left.abs() <= least + 1e-14);
                 let most = scan(&curve, |p| (p - point).norm());
-                assert!((curve.farthest_from(point, (0.0, 1.0)) - most).abs() < 1e-6);
+                assert!((curve.farthest_from(point, 0.0, 1.0) - most).abs() < 1e-6);
                 let direction = point.normalize();
                 assert!((curve.farthest(direction) - scan(&curve, |p| p.dot(&direction))).abs() < 1e-6);
             }

@@ -97,7 +97,7 @@ impl CubicPath {
     }
 
     /// The largest distance from a point between two lengths, mm.
-    pub(super) fn farthest_from(&self, point: Vector2<f64>, (from, to): (f64, f64)) -> f64 {
-        self.cubic.farthest_from(point, (self.parameter(from), self.parameter(to)))
+    pub(super) fn farthest_from(&self, point: Vector2<f64>, from: f64, to: f64) -> f64 {
+        self.cubic.farthest_from(point, self.parameter(from), self.parameter(to))
     }
 }

@@ -2,8 +2,8 @@
 
 use super::cubic_path::CubicPath;
 use super::edge::Edge;
-use super::rotated;
 use super::segment::Segment;
+use super::{left_of, rotated};
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 
@@ -61,7 +61,7 @@ impl EdgePath {
     }
 
     /// Number of steps in which a range of it is followed.
-    pub(super) fn steps(&self, (from, to): (f64, f64)) -> f64 {
+    pub(super) fn steps(&self, from: f64, to: f64) -> f64 {
         match self {
             EdgePath::Arc(round) => ((to - from) * round.curvature.abs() / LONGEST_STEP).ceil().max(1.0),
             EdgePath::Cubic(_) => 1.0,
@@ -87,10 +87,10 @@ impl EdgePath {
     }
 
     /// The largest distance from a point between two lengths, mm.
-    pub(super) fn farthest_from(&self, point: Vector2<f64>, range: (f64, f64)) -> f64 {
+    pub(super) fn farthest_from(&self, point: Vector2<f64>, from: f64, to: f64) -> f64 {
         match self {
-            EdgePath::Arc(round) => round.farthest_from(point, range),
-            EdgePath::Cubic(cubic) => cubic.farthest_from(point, range),
+            EdgePath::Arc(round) => round.farthest_from(point, from, to),
+            EdgePath::Cubic(cubic) => cubic.farthest_from(point, from, to),
         }
     }
 }
@@ -201,13 +201,12 @@ impl ArcPath {
 
     /// The largest distance from a point between two lengths, mm.
     #[must_use]
-    pub(super) fn farthest_from(&self, point: Vector2<f64>, (from, to): (f64, f64)) -> f64 {
+    pub(super) fn farthest_from(&self, point: Vector2<f64>, from: f64, to: f64) -> f64 {
         let ends = (self.point_and_tangent(from).0 - point).norm().max((self.point_and_tangent(to).0 - point).norm());
         if self.curvature == 0.0 {
             return ends;
         }
-        let left = Vector2::new(-self.heading.y, self.heading.x);
-        let centre = self.start + left / self.curvature;
+        let centre = self.start + left_of(self.heading) / self.curvature;
         let away = centre - point;
         if !(away.norm() > 0.0) {
             return ends;
@@ -260,7 +259,7 @@ mod tests {
                     (path.point_and_tangent(range.0 + share * (range.1 - range.0)).0 - point).norm()
                 });
                 let scan = scan.fold(0.0, f64::max);
-                assert!((path.farthest_from(point, range) - scan).abs() < 1e-6, "{path:?} {point:?}");
+                assert!((path.farthest_from(point, range.0, range.1) - scan).abs() < 1e-6, "{path:?} {point:?}");
             }
         }
     }

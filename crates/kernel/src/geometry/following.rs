@@ -180,7 +180,8 @@ impl ChainWalk<'_, '_> {
     fn over(
         &mut self,
         path: &EdgePath,
-        (from, to): (f64, f64),
+        from: f64,
+        to: f64,
         foot: CurvePoint,
         parameter: f64,
     ) -> Result<ChainFoot, FollowingError> {
@@ -254,7 +255,7 @@ impl ChainWalk<'_, '_> {
                 return Ok(Ok(there));
             }
             let last = self.parameters().1;
-            let border = self.over(path, (from.length, to), end, last)?;
+            let border = self.over(path, from.length, to, end, last)?;
             self.cell(path, &from, &border, DEEPEST)?;
             if self.boundary.starts_at_corner(self.index + 1) {
                 return Ok(Err(border));
@@ -301,7 +302,7 @@ impl ChainWalk<'_, '_> {
             .boundary
             .point_at(self.index, parameter)
             .ok_or(FollowingError { why: FollowingFault::Away, at: a.point })?;
-        let between = self.over(path, (a.length, b.length), foot, parameter)?;
+        let between = self.over(path, a.length, b.length, foot, parameter)?;
         self.cell(path, a, &between, depth - 1)?;
         self.cell(path, &between, b, depth - 1)
     }
@@ -316,7 +317,7 @@ impl ChainWalk<'_, '_> {
         let mut place = (foot, parameter);
         for path in paths {
             let mut node = self.node(path, 0.0, place.0, place.1)?;
-            for to in steps(path, (0.0, path.length())) {
+            for to in steps(path, 0.0, path.length()) {
                 node = self.advance(path, node, to)?.unwrap_or_else(|corner| corner);
             }
             place = (node.foot, node.parameter);
@@ -349,7 +350,7 @@ impl ChainWalk<'_, '_> {
     /// From corner to corner.
     fn between_corners(&mut self, paths: &[EdgePath], corners: &[usize]) -> Result<(), FollowingError> {
         let lost = FollowingError { why: FollowingFault::Turns, at: self.worst.at };
-        let mut cuts: Vec<(usize, f64)> = Vec::new();
+        let mut cuts: Vec<ChainPlace> = Vec::new();
         for corner in corners {
             let corner = self.boundary.ends(*corner).ok_or(lost)?[0].point;
             let (distance, cut) = nearest(paths, corner).ok_or(lost)?;
@@ -369,26 +370,21 @@ impl ChainWalk<'_, '_> {
     }
 
     /// From the dividing point at a corner to that at the next.
-    fn corner_to_corner(
-        &mut self,
-        paths: &[EdgePath],
-        from: (usize, f64),
-        to: (usize, f64),
-    ) -> Result<(), FollowingError> {
+    fn corner_to_corner(&mut self, paths: &[EdgePath], from: ChainPlace, to: ChainPlace) -> Result<(), FollowingError> {
         let parts = parts(paths, from, to);
         let begin = self.worst.at;
         let mut side = FootPosition::Before;
-        for (path, (from, to)) in &parts {
+        for (path, (start, end)) in &parts {
             if let FootPosition::On(node) = side {
-                side = self.onto(path, *from, &node)?;
+                side = self.onto(path, *start, &node)?;
             }
-            let mut from = *from;
-            for to in steps(path, (from, *to)) {
-                side = self.step(path, (from, to), side)?;
+            let mut from = *start;
+            for to in steps(path, *start, *end) {
+                side = self.step(path, from, to, side)?;
                 from = to;
             }
         }
-        let at = paths.get(to.0).map_or(begin, |path| path.point_and_tangent(to.1).0);
+        let at = paths.get(to.segment).map_or(begin, |path| path.point_and_tangent(to.length).0);
         if !self.boundary.starts_at_corner(self.index + 1) {
             return Err(FollowingError { why: FollowingFault::Away, at });
         }
@@ -407,19 +403,20 @@ impl ChainWalk<'_, '_> {
     fn step(
         &mut self,
         path: &EdgePath,
-        (from, to): (f64, f64),
+        from: f64,
+        to: f64,
         side: FootPosition,
     ) -> Result<FootPosition, FollowingError> {
         let target = path.point_and_tangent(to).0;
         let node = match side {
-            FootPosition::Before => match self.leaves(path, (from, to))? {
+            FootPosition::Before => match self.leaves(path, from, to)? {
                 Some(node) => node,
                 None => return Ok(FootPosition::Before),
             },
             FootPosition::On(node) => node,
             FootPosition::Beyond => {
                 let corner = self.ends(target)?[1].point;
-                self.record(path.farthest_from(corner, (from, to)), target);
+                self.record(path.farthest_from(corner, from, to), target);
                 return Ok(FootPosition::Beyond);
             }
         };
@@ -427,7 +424,7 @@ impl ChainWalk<'_, '_> {
             Ok(node) => Ok(FootPosition::On(node)),
             Err(border) => {
                 let corner = self.ends(target)?[1].point;
-                self.record(path.farthest_from(corner, (border.length, to)), target);
+                self.record(path.farthest_from(corner, border.length, to), target);
                 Ok(FootPosition::Beyond)
             }
         }
@@ -445,11 +442,11 @@ impl ChainWalk<'_, '_> {
     }
 
     /// Where the foot leaves the corner at the start of a stretch, if it does so on a part of a segment.
-    fn leaves(&mut self, path: &EdgePath, (from, to): (f64, f64)) -> Result<Option<ChainFoot>, FollowingError> {
+    fn leaves(&mut self, path: &EdgePath, from: f64, to: f64) -> Result<Option<ChainFoot>, FollowingError> {
         let (begin, (target, tangent)) = (path.point_and_tangent(from).0, path.point_and_tangent(to));
         let corner = self.ends(target)?[0];
         if (target - corner.point).dot(&corner.tangent) <= NEAR || tangent.dot(&corner.tangent) < ACROSS {
-            self.record(path.farthest_from(corner.point, (from, to)), target);
+            self.record(path.farthest_from(corner.point, from, to), target);
             return Ok(None);
         }
         let parameter = self.parameters().0;
@@ -459,8 +456,8 @@ impl ChainWalk<'_, '_> {
             self.sliver(&node, corner.point);
             return Ok(Some(node));
         }
-        let node = self.over(path, (from, to), corner, parameter)?;
-        self.record(path.farthest_from(corner.point, (from, node.length)), node.point);
+        let node = self.over(path, from, to, corner, parameter)?;
+        self.record(path.farthest_from(corner.point, from, node.length), node.point);
         Ok(Some(node))
     }
 
@@ -539,39 +536,42 @@ pub(super) fn highest((a, rise): (f64, f64), (b, fall): (f64, f64), length: f64,
     top
 }
 
+/// A place on the chain, compared in its order.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+struct ChainPlace {
+    segment: usize,
+    /// From the start of the segment, mm.
+    length: f64,
+}
+
 /// The ends of the steps in which a range of a segment is followed.
-fn steps(path: &EdgePath, (from, to): (f64, f64)) -> impl Iterator<Item = f64> + use<> {
-    let count = path.steps((from, to));
+fn steps(path: &EdgePath, from: f64, to: f64) -> impl Iterator<Item = f64> + use<> {
+    let count = path.steps(from, to);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most eight")]
     let steps = count as u32;
     (1..=steps).map(move |step| if step == steps { to } else { from + (to - from) * f64::from(step) / count })
 }
 
 /// The segments from one place of the chain round to another, each with its range.
-fn parts(paths: &[EdgePath], from: (usize, f64), to: (usize, f64)) -> Vec<(EdgePath, (f64, f64))> {
+fn parts(paths: &[EdgePath], from: ChainPlace, to: ChainPlace) -> Vec<(EdgePath, (f64, f64))> {
     let count = paths.len();
-    let last = if from < to { to.0 } else { to.0 + count };
-    (from.0..=last)
-        .filter_map(|index| {
-            let path = *paths.get(index % count)?;
-            let start = if index == from.0 { from.1 } else { 0.0 };
-            let end = if index == last { to.1 } else { path.length() };
-            Some((path, (start, end)))
-        })
-        .filter(|(_, (from, to))| to - from > NEAR)
-        .collect()
+    let last = if from < to { to.segment } else { to.segment + count };
+    let parts = (from.segment..=last).filter_map(|index| {
+        let path = *paths.get(index % count)?;
+        let start = if index == from.segment { from.length } else { 0.0 };
+        let end = if index == last { to.length } else { path.length() };
+        (end - start > NEAR).then_some((path, (start, end)))
+    });
+    parts.collect()
 }
 
-/// The place of the chain nearest to a point: its distance, and the segment with the length along it.
-fn nearest(paths: &[EdgePath], point: Vector2<f64>) -> Option<(f64, (usize, f64))> {
-    paths
-        .iter()
-        .enumerate()
-        .map(|(index, path)| {
-            let along = path.nearest(point);
-            ((path.point_and_tangent(along).0 - point).norm(), (index, along))
-        })
-        .min_by(|a, b| a.0.total_cmp(&b.0))
+/// The place of the chain nearest to a point, and its distance, mm.
+fn nearest(paths: &[EdgePath], point: Vector2<f64>) -> Option<(f64, ChainPlace)> {
+    let places = paths.iter().enumerate().map(|(segment, path)| {
+        let length = path.nearest(point);
+        ((path.point_and_tangent(length).0 - point).norm(), ChainPlace { segment, length })
+    });
+    places.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 #[cfg(test)]

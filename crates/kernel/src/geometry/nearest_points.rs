@@ -11,14 +11,14 @@ use parry2d_f64::query::PointQuery;
 pub fn nearest_distances(points: &[Vector2<f64>]) -> Vec<f64> {
     let boxes: Vec<Aabb> = points.iter().map(|point| Aabb::new(parry(point), parry(point))).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-    points.iter().enumerate().map(|(index, point)| distance_to_others(&tree, points, (index, point))).collect()
+    points.iter().enumerate().map(|(index, point)| distance_to_others(&tree, points, index, point)).collect()
 }
 
 fn parry(point: &Vector2<f64>) -> Vector {
     Vector::new(point.x, point.y)
 }
 
-fn distance_to_others(tree: &Bvh, points: &[Vector2<f64>], (index, point): (usize, &Vector2<f64>)) -> f64 {
+fn distance_to_others(tree: &Bvh, points: &[Vector2<f64>], index: usize, point: &Vector2<f64>) -> f64 {
     let nearest = tree.find_best(
         f64::MAX,
         |node, _| node.aabb().distance_to_local_point(parry(point), true),

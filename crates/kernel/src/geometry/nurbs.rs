@@ -142,7 +142,7 @@ impl NurbsCurve {
             if high > low {
                 let row: Option<Vec<_>> = (0..=degree)
                     .map(|at_high| {
-                        let [x, y, z, _] = blossom(degree, span, knots, &poles, (low, high, at_high))?;
+                        let [x, y, z, _] = blossom(degree, span, knots, &poles, low, high, at_high)?;
                         Some(Vector3::new(x, y, z))
                     })
                     .collect();
@@ -259,7 +259,9 @@ pub fn blossom<const N: usize>(
     span: usize,
     knots: &[f64],
     poles: &[[f64; N]],
-    (low_knot, high_knot, at_high): (f64, f64, usize),
+    low_knot: f64,
+    high_knot: f64,
+    at_high: usize,
 ) -> Option<[f64; N]> {
     let mut row = [[0.0; N]; HIGHEST_DEGREE + 1];
     for (place, pole) in row.iter_mut().zip(poles.get(span.checked_sub(degree)?..=span)?) {

@@ -35,7 +35,7 @@ pub fn fitted(
     let mut found = f64::INFINITY;
     for _ in 0..DOUBLINGS {
         let all: Vec<(SplineSurface, [f64; 2])> =
-            parallel::map(stretches, |stretch| stretch.within((across, rings), allowed));
+            parallel::map(stretches, |stretch| stretch.within(across, rings, allowed));
         let [along, outwards] = all.iter().fold([0.0_f64; 2], |[a, b], (_, [c, d])| [larger(a, *c), larger(b, *d)]);
         found = larger(along, outwards);
         if found <= allowed {
@@ -53,11 +53,11 @@ fn parameter_at((start, end): (f64, f64), i: f64, of: u32) -> f64 {
 
 impl FlankStretch<'_> {
     /// A patch with as many spans along as it needs, and what it misses along and across, mm.
-    fn within(&self, rings: ((f64, f64), u32), allowed: f64) -> (SplineSurface, [f64; 2]) {
+    fn within(&self, across: (f64, f64), rings: u32, allowed: f64) -> (SplineSurface, [f64; 2]) {
         let mut spans = SPANS;
         loop {
-            let patch = self.patch(spans, rings);
-            let missed = self.missed(&patch, spans, rings);
+            let patch = self.patch(spans, across, rings);
+            let missed = self.missed(&patch, spans, across, rings);
             if !(missed[0] > allowed) || spans >= SPANS << DOUBLINGS {
                 return (patch, missed);
             }
@@ -65,7 +65,7 @@ impl FlankStretch<'_> {
         }
     }
 
-    fn patch(&self, spans: u32, (across, rings): ((f64, f64), u32)) -> SplineSurface {
+    fn patch(&self, spans: u32, across: (f64, f64), rings: u32) -> SplineSurface {
         let alongs: Vec<f64> = (0..=spans).map(|i| parameter_at(self.along, f64::from(i), spans)).collect();
         let acrosses: Vec<f64> = (0..=rings).map(|j| parameter_at(across, f64::from(j), rings)).collect();
         let columns: Vec<Vec<[Vector3<f64>; 2]>> =
@@ -98,7 +98,7 @@ impl FlankStretch<'_> {
     }
 
     /// What a patch misses at the middles of its spans, along on the rings, and between the rings, mm.
-    fn missed(&self, patch: &SplineSurface, spans: u32, (across, rings): ((f64, f64), u32)) -> [f64; 2] {
+    fn missed(&self, patch: &SplineSurface, spans: u32, across: (f64, f64), rings: u32) -> [f64; 2] {
         let along = (0..spans).flat_map(|i| (0..=rings).map(move |j| (f64::from(i) + 0.5, f64::from(j))));
         let between = (0..=spans).flat_map(|i| (0..rings).map(move |j| (f64::from(i), f64::from(j) + 0.5)));
         let off = |(i, j): (f64, f64)| {

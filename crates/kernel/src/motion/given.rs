@@ -97,7 +97,7 @@ fn derivatives_belong(motion: &dyn Motion, all: &[Vec<(f64, Jet)>], range: f64) 
             let scale = AGREES * largest + ROUNDING * range / power(width, order);
             for (at, jet) in samples {
                 let given = values(jet)[order];
-                let found = STEPS.map(|step| difference(motion, piece, (*at, step * width), order));
+                let found = STEPS.map(|step| difference(motion, piece, *at, step * width, order));
                 if !found.iter().any(|found| found.is_none_or(|found| (found - given).abs() <= scale)) {
                     let by = found.last().copied().flatten().unwrap_or(f64::NAN);
                     let what = format!("its {name} is {given:.6e}, but the finite difference is {by:.6e}");
@@ -115,7 +115,7 @@ fn power(width: f64, order: usize) -> f64 {
 }
 
 /// Finite difference of the next lower derivative; `None` near the ends of a piece.
-fn difference(motion: &dyn Motion, piece: usize, (at, step): (f64, f64), order: usize) -> Option<f64> {
+fn difference(motion: &dyn Motion, piece: usize, at: f64, step: f64, order: usize) -> Option<f64> {
     let own = motion.pieces().get(piece)?;
     if at - 2.0 * step < own.start || at + 2.0 * step > own.end {
         return None;

@@ -37,7 +37,7 @@ pub fn roots<const N: usize>(coefficients: &[f64; N]) -> Vec<f64> {
     if coefficients.first() == Some(&0.0) {
         found.push(0.0);
     }
-    search(coefficients, (0.0, 1.0), DEEPEST, &mut found);
+    search(coefficients, 0.0, 1.0, DEEPEST, &mut found);
     if coefficients.last() == Some(&0.0) {
         found.push(1.0);
     }
@@ -45,7 +45,7 @@ pub fn roots<const N: usize>(coefficients: &[f64; N]) -> Vec<f64> {
 }
 
 /// The roots between two places, without the ends.
-fn search<const N: usize>(part: &[f64; N], (low, high): (f64, f64), depth: u32, found: &mut Vec<f64>) {
+fn search<const N: usize>(part: &[f64; N], low: f64, high: f64, depth: u32, found: &mut Vec<f64>) {
     let signs = part.iter().filter(|value| **value != 0.0).map(|value| value.is_sign_positive());
     let changes = signs.clone().zip(signs.skip(1)).filter(|(a, b)| a != b).count();
     if changes == 0 {
@@ -63,11 +63,11 @@ fn search<const N: usize>(part: &[f64; N], (low, high): (f64, f64), depth: u32, 
         return;
     }
     let (before, after) = halves(part);
-    search(&before, (low, middle), depth - 1, found);
+    search(&before, low, middle, depth - 1, found);
     if after.first() == Some(&0.0) {
         found.push(middle);
     }
-    search(&after, (middle, high), depth - 1, found);
+    search(&after, middle, high, depth - 1, found);
 }
 
 /// The coefficients on both halves.

@@ -34,8 +34,8 @@ impl BlockMatrix {
         let (mut rows, mut sides) = (self.groups.as_mut_slice(), &mut *right);
         while let ([row, below @ ..], [side, others @ ..]) = (rows, sides) {
             match (below.first_mut(), others.first_mut()) {
-                (Some(next), Some(next_side)) => eliminate((row, side), (next, next_side)),
-                _ => eliminate((row, side), (&mut [[0.0; PAIR]; GROUP], &mut [[0.0; N]; GROUP])),
+                (Some(next), Some(next_side)) => eliminate(row, side, next, next_side),
+                _ => eliminate(row, side, &mut [[0.0; PAIR]; GROUP], &mut [[0.0; N]; GROUP]),
             }
             (rows, sides) = (below, others);
         }
@@ -60,20 +60,24 @@ impl BlockMatrix {
 /// Eliminates the unknowns of a group from the next one; its rows become the factors.
 #[inline]
 fn eliminate<const N: usize>(
-    (group, values): (&mut BlockRows, &mut [[f64; N]; GROUP]),
-    (next, others): (&mut BlockRows, &mut [[f64; N]; GROUP]),
+    group: &mut BlockRows,
+    values: &mut [[f64; N]; GROUP],
+    next: &mut BlockRows,
+    others: &mut [[f64; N]; GROUP],
 ) {
-    pivot::<0, N>((&mut *group, &mut *values), (&mut *next, &mut *others));
-    pivot::<1, N>((&mut *group, &mut *values), (&mut *next, &mut *others));
-    pivot::<2, N>((&mut *group, &mut *values), (&mut *next, &mut *others));
-    pivot::<3, N>((group, values), (next, others));
+    pivot::<0, N>(&mut *group, &mut *values, &mut *next, &mut *others);
+    pivot::<1, N>(&mut *group, &mut *values, &mut *next, &mut *others);
+    pivot::<2, N>(&mut *group, &mut *values, &mut *next, &mut *others);
+    pivot::<3, N>(group, values, next, others);
 }
 
 /// Eliminates one unknown of a group from all that follow. Its position is a constant, so that all loops have a fixed length.
 #[inline]
 fn pivot<const K: usize, const N: usize>(
-    (group, values): (&mut BlockRows, &mut [[f64; N]; GROUP]),
-    (next, others): (&mut BlockRows, &mut [[f64; N]; GROUP]),
+    group: &mut BlockRows,
+    values: &mut [[f64; N]; GROUP],
+    next: &mut BlockRows,
+    others: &mut [[f64; N]; GROUP],
 ) {
     let (row, value) = (group[K], values[K]);
     let inverse = 1.0 / row[K];

@@ -245,7 +245,7 @@ pub fn monotonic(intervals: &[NodeInterval], given: &[Given]) -> Result<Vec<[f64
     let mut bounds = Vec::new();
     for node in 0..nodes {
         let Some(interval) = interval(intervals, node).filter(|(_, rise)| *rise != 0.0) else { continue };
-        for bound in unknowns.conditions(node, interval) {
+        for bound in unknowns.conditions(node, interval.0, interval.1) {
             let kept = if bound.terms.is_empty() { bound.most >= -TAKEN } else { bound.sum(&start) < bound.most };
             if !kept {
                 return Err(NotMonotonic { interval: node });
@@ -295,7 +295,7 @@ impl Unknowns {
     }
 
     /// The sufficient conditions of an interval; those of given states alone have no unknowns.
-    fn conditions(&self, node: usize, (width, rise): (f64, f64)) -> Vec<Bound> {
+    fn conditions(&self, node: usize, width: f64, rise: f64) -> Vec<Bound> {
         let (h, next, up) = (width / self.width, (node + 1) % self.given.len(), rise.signum());
         let (v0, a0, v1, a1) = ((node, 1), (node, 2), (next, 1), (next, 2));
         // Five times the differences of neighbouring coefficients: V₀, V₀ + A₀/4, 5 D − 2 (V₀ + V₁) + (A₁ − A₀)/4, V₁ − A₁/4, V₁, with

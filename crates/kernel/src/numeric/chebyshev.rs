@@ -110,18 +110,19 @@ impl SearchStart {
 
 /// The largest value of `value` on `[low, high]`, where it is smooth, or what was known. Infinite where the function is infinite.
 pub fn largest(value: impl FnMut(f64) -> f64, range: (f64, f64), known: SearchStart) -> Extremum {
-    search(value, |value| value, range, known)
+    search(value, |value| value, range.0, range.1, known)
 }
 
 /// The largest size |value| on `[low, high]`, where `value`, with its sign, is smooth; as [`largest`].
 pub fn largest_size(value: impl FnMut(f64) -> f64, range: (f64, f64), known: SearchStart) -> Extremum {
-    search(value, f64::abs, range, known)
+    search(value, f64::abs, range.0, range.1, known)
 }
 
 fn search(
     value: impl FnMut(f64) -> f64,
     goal: impl Fn(f64) -> f64,
-    (low, high): (f64, f64),
+    low: f64,
+    high: f64,
     SearchStart { best, negligible }: SearchStart,
 ) -> Extremum {
     let mut search = ChebyshevSearch { value, goal, best, scale: 0.0, negligible };
@@ -226,13 +227,13 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> ChebyshevSearch<V, G> {
         let split = if turns { root::bracketed(|t| series(&slopes.second, t), from.at, to.at, 0.0).ok() } else { None };
         let Some(split) = split else {
             if from.slope * to.slope < 0.0 {
-                self.try_root(cell, slopes, (from.at, to.at));
+                self.try_root(cell, slopes, from.at, to.at);
             }
             return;
         };
         if from.slope * series(&slopes.first, split) < 0.0 {
-            self.try_root(cell, slopes, (from.at, split));
-            self.try_root(cell, slopes, (split, to.at));
+            self.try_root(cell, slopes, from.at, split);
+            self.try_root(cell, slopes, split, to.at);
         }
     }
 
@@ -251,7 +252,7 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> ChebyshevSearch<V, G> {
         slopes.slope_and_bend(place.at + ASIDE * (other - place.at))
     }
 
-    fn try_root(&mut self, cell: &ChebyshevCell, slopes: &CellDerivatives, (low, high): (f64, f64)) {
+    fn try_root(&mut self, cell: &ChebyshevCell, slopes: &CellDerivatives, low: f64, high: f64) {
         if let Ok(t) = root::bracketed(|t| series(&slopes.first, t), low, high, 0.0) {
             self.sample(cell.place(t));
         }

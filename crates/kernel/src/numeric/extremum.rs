@@ -216,10 +216,10 @@ pub fn largest_of_hills(
     sections: u32,
 ) -> Extremum {
     let points: Vec<Extremum> =
-        cell_ends(range, cells).into_iter().map(|at| Extremum { at, value: value(at) }).collect();
+        cell_ends(range.0, range.1, cells).into_iter().map(|at| Extremum { at, value: value(at) }).collect();
     let refined: Vec<Extremum> = highest_hills(&points, hills)
         .into_iter()
-        .flat_map(|about| golden_sections(&mut value, about, sections))
+        .flat_map(|about| golden_sections(&mut value, about.0, about.1, sections))
         .collect();
     highest_of(points.into_iter().chain(refined))
 }
@@ -231,13 +231,14 @@ pub fn largest_of_hills_in_parallel(
     (cells, hills): (u32, usize),
     sections: u32,
 ) -> Extremum {
-    let points = parallel::map(&cell_ends(range, cells), |at| Extremum { at: *at, value: value(*at) });
-    let refined =
-        parallel::map(&highest_hills(&points, hills), |about| golden_sections(&mut |at| value(at), *about, sections));
+    let points = parallel::map(&cell_ends(range.0, range.1, cells), |at| Extremum { at: *at, value: value(*at) });
+    let refined = parallel::map(&highest_hills(&points, hills), |about| {
+        golden_sections(&mut |at| value(at), about.0, about.1, sections)
+    });
     highest_of(points.into_iter().chain(refined.into_iter().flatten()))
 }
 
-fn cell_ends((low, high): (f64, f64), cells: u32) -> Vec<f64> {
+fn cell_ends(low: f64, high: f64, cells: u32) -> Vec<f64> {
     (0..=cells).map(|cell| low + (high - low) * (f64::from(cell) / f64::from(cells))).collect()
 }
 
@@ -271,11 +272,7 @@ fn highest_of(points: impl Iterator<Item = Extremum>) -> Extremum {
 }
 
 /// The two inner points of the last golden section.
-fn golden_sections(
-    value: &mut impl FnMut(f64) -> f64,
-    (mut left, mut right): (f64, f64),
-    sections: u32,
-) -> [Extremum; 2] {
+fn golden_sections(value: &mut impl FnMut(f64) -> f64, mut left: f64, mut right: f64, sections: u32) -> [Extremum; 2] {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     let mut inner = Extremum { at: right - golden * (right - left), value: 0.0 };
     let mut outer = Extremum { at: left + golden * (right - left), value: 0.0 };

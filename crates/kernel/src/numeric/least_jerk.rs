@@ -93,7 +93,7 @@ pub(super) fn forms(width: f64, rise: f64) -> [(f64, [f64; 4], f64); 3] {
 }
 
 /// The fifth derivative between two nodes.
-fn fifth((width, rise): (f64, f64), [v0, a0]: [f64; 2], [v1, a1]: [f64; 2]) -> f64 {
+fn fifth(width: f64, rise: f64, [v0, a0]: [f64; 2], [v1, a1]: [f64; 2]) -> f64 {
     let (h, square) = (width, width * width);
     (720.0 * rise - 360.0 * h * (v0 + v1) - 60.0 * square * (a0 - a1)) / (square * square * width)
 }
@@ -151,7 +151,7 @@ fn jumps(intervals: &[NodeInterval], states: &[[f64; 2]], count: usize) -> [f64;
         let around = [knot - 1, knot].map(|index| {
             let (interval, from, to) =
                 (intervals.get(index).copied().flatten()?, states.get(index)?, states.get(index + 1)?);
-            Some((fifth(interval, *from, *to), interval.0))
+            Some((fifth(interval.0, interval.1, *from, *to), interval.0))
         });
         let [Some((before, a)), Some((after, b))] = around else { return 0.0 };
         let width = a.min(b);

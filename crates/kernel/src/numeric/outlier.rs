@@ -99,14 +99,14 @@ pub fn chain(rows: &[(f64, f64)], rests: &[bool]) -> Vec<Sample> {
         all.push(Sample { at, value, row: Some(row) });
         let Some((next, _)) = rows.get(row + 1).copied() else { break };
         if rests.get(row) == Some(&true) {
-            all.extend(resting((at, next), value, spacing));
+            all.extend(resting(at, next, value, spacing));
         }
     }
     all
 }
 
 /// Samples within a rest, about a spacing apart, enough for both of its ends.
-fn resting((from, to): (f64, f64), value: f64, spacing: f64) -> Vec<Sample> {
+fn resting(from: f64, to: f64, value: f64, spacing: f64) -> Vec<Sample> {
     let most = u32::try_from(2 * AROUND).unwrap_or(u32::MAX);
     let parts = (1..=most).take_while(|parts| (to - from) / f64::from(*parts) > 0.75 * spacing).last().unwrap_or(1);
     let step = (to - from) / f64::from(parts);

@@ -27,7 +27,7 @@ pub fn stretches(curves: Curves<'_>, sharp: bool) -> Result<Vec<BoundaryStretch>
     let mut all = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
         for range in outline::parts(piece, &gaps, period) {
-            all.extend(cut(index, piece, range, period.is_none()));
+            all.extend(cut(index, piece, range.0, range.1, period.is_none()));
         }
         // At a concave corner of the pitch curve the roller turns in place: an arc of its own radius.
         if let Some(corner) = corners.iter().find(|corner| corner.turn < 0.0 && corner.at == piece.end)
@@ -54,7 +54,7 @@ pub fn of_centre(curves: Curves<'_>) -> Vec<BoundaryStretch> {
         .enumerate()
         .flat_map(|(index, piece)| {
             let ranges = outline::parts(piece, &[], period).into_iter();
-            ranges.flat_map(|range| cut(index, piece, range, period.is_none())).collect::<Vec<_>>()
+            ranges.flat_map(|range| cut(index, piece, range.0, range.1, period.is_none())).collect::<Vec<_>>()
         })
         .collect()
 }
@@ -76,7 +76,7 @@ pub fn of_cutter(curves: Curves<'_>, cutter_radius: f64) -> Result<Vec<BoundaryS
     for (index, piece) in pieces.iter().enumerate() {
         let ranges = outline::parts(piece, &spans, period);
         for range in &ranges {
-            all.extend(cut(index, piece, *range, period.is_none()));
+            all.extend(cut(index, piece, range.0, range.1, period.is_none()));
             if let Some(gap) = gaps.iter().find(|gap| gap.arc != 0.0 && outline::starts_at(gap, range.1, period)) {
                 let start = parallel.in_piece(index, range.1).point;
                 all.push(arc_stretch(start, parallel.point_at(gap.to, BreakSide::After).point, gap.arc));
@@ -108,7 +108,8 @@ fn arc_stretch(start: Vector2<f64>, end: Vector2<f64>, turn: f64) -> BoundaryStr
 pub fn cut(
     index: usize,
     piece: &Piece,
-    (from, to): (f64, f64),
+    from: f64,
+    to: f64,
     straight: bool,
 ) -> impl Iterator<Item = BoundaryStretch> + use<> {
     let count = match (piece.dwell, straight) {
@@ -120,5 +121,5 @@ pub fn cut(
         move |step: u32| if f64::from(step) >= count { to } else { from + (to - from) * (f64::from(step) / count) };
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a dozen")]
     let steps = count as u32;
-    (0..steps).map(move |step| BoundaryStretch::of_curve(index, (at(step), at(step + 1))))
+    (0..steps).map(move |step| BoundaryStretch::of_curve(index, at(step), at(step + 1)))
 }

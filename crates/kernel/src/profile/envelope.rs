@@ -24,7 +24,7 @@ use crate::follower::Element;
 use crate::geometry::CurvePoint;
 use crate::motion::Quantity;
 use crate::numeric::{extremum, quadrature, root};
-use fold::folds;
+use fold::{Fold, folds};
 use nalgebra::Vector2;
 
 /// How far the branches next to a fold are followed, as a share of the cam, and how often the step is doubled.
@@ -116,21 +116,21 @@ impl Parallel<'_> {
         self.in_piece(piece, inside)
     }
 
-    fn loop_of(&self, fold: (f64, f64)) -> Result<ParallelLoop, NoEnvelope> {
-        Branches::new(*self, fold).crossing().ok_or(NoEnvelope { parameter: fold.0 })
+    fn loop_of(&self, fold: Fold) -> Result<ParallelLoop, NoEnvelope> {
+        Branches::new(*self, fold).crossing().ok_or(NoEnvelope { parameter: fold.from })
     }
 
     /// Every loop of the curve, in the order of the parameter.
     pub(crate) fn loops(&self) -> Result<Vec<ParallelLoop>, NoEnvelope> {
-        let mut found: Vec<((f64, f64), ParallelLoop)> = Vec::new();
+        let mut found: Vec<(Fold, ParallelLoop)> = Vec::new();
         for mut fold in folds(*self) {
-            if found.last().is_some_and(|(_, last)| fold.1 <= last.to) {
+            if found.last().is_some_and(|(_, last)| fold.to <= last.to) {
                 continue;
             }
             let mut next = self.loop_of(fold)?;
             // Loops that overlap become one.
             while let Some((before, _)) = found.pop_if(|(_, last)| next.from < last.to) {
-                fold.0 = before.0;
+                fold.from = before.from;
                 next = self.loop_of(fold)?;
             }
             found.push((fold, next));
@@ -151,7 +151,7 @@ impl Parallel<'_> {
 struct Branches<'a> {
     parallel: Parallel<'a>,
     /// The cusps, or twice the corner.
-    fold: (f64, f64),
+    fold: Fold,
     /// Whether the branches are integrated from their speed.
     narrow: bool,
     /// Where the integrals start: the first cusp, looked at from before.
@@ -162,9 +162,9 @@ struct Branches<'a> {
 }
 
 impl<'a> Branches<'a> {
-    fn new(parallel: Parallel<'a>, fold: (f64, f64)) -> Self {
+    fn new(parallel: Parallel<'a>, fold: Fold) -> Self {
         let (before, after) =
-            (parallel.point_at(fold.0, BreakSide::Before), parallel.point_at(fold.1, BreakSide::After));
+            (parallel.point_at(fold.from, BreakSide::Before), parallel.point_at(fold.to, BreakSide::After));
         let by_points = after.point - before.point;
         let narrow = by_points.norm() <= NARROW * before.point.norm();
         let step = if narrow { parallel.step(fold) } else { by_points };
@@ -175,7 +175,7 @@ impl<'a> Branches<'a> {
     /// A point of the branch before the fold, relative to the first cusp.
     fn before(&self, parameter: f64) -> Vector2<f64> {
         if self.narrow {
-            return -self.parallel.sum((parameter, self.fold.0));
+            return -self.parallel.sum(parameter, self.fold.from);
         }
         self.parallel.point_at(parameter, BreakSide::Before).point - self.origin
     }
@@ -183,7 +183,7 @@ impl<'a> Branches<'a> {
     /// A point of the branch after it.
     fn after(&self, parameter: f64) -> Vector2<f64> {
         if self.narrow {
-            return self.step + self.parallel.sum((self.fold.1, parameter));
+            return self.step + self.parallel.sum(self.fold.to, parameter);
         }
         self.parallel.point_at(parameter, BreakSide::After).point - self.origin
     }
@@ -191,9 +191,9 @@ impl<'a> Branches<'a> {
     /// How far a branch must be followed until it has passed a place along the tangent; `None` where it never does.
     fn reach(&self, sign: f64, place: f64) -> Option<f64> {
         let (first, last) = self.parallel.curves.motion.range();
-        let start = if sign < 0.0 { self.fold.0 } else { self.fold.1 };
+        let start = if sign < 0.0 { self.fold.from } else { self.fold.to };
         let side = if sign < 0.0 { BreakSide::Before } else { BreakSide::After };
-        let mut step = (self.fold.1 - self.fold.0).max(FIRST_STEP * (last - first));
+        let mut step = (self.fold.to - self.fold.from).max(FIRST_STEP * (last - first));
         for _ in 0..DOUBLINGS {
             let within = step.min(BRANCH_REACH * (last - first));
             let parameter = match self.parallel.curves.motion.period() {
@@ -219,16 +219,17 @@ impl<'a> Branches<'a> {
     fn crossing(&self) -> Option<ParallelLoop> {
         let (low, high) = (self.step.dot(&self.along), 0.0);
         let is_point = self.step.norm() <= POINT * self.origin.norm();
-        let as_point = is_point.then_some(ParallelLoop { from: self.fold.0, to: self.fold.1 });
+        let as_point = is_point.then_some(ParallelLoop { from: self.fold.from, to: self.fold.to });
         if !(low < high) {
             return as_point;
         }
         let (Some(left), Some(right)) = (self.reach(-1.0, low), self.reach(1.0, high)) else { return as_point };
         let start = |place: f64| {
-            root::bracketed(|at| self.before(at).dot(&self.along) - place, left, self.fold.0, 0.0).unwrap_or(f64::NAN)
+            root::bracketed(|at| self.before(at).dot(&self.along) - place, left, self.fold.from, 0.0)
+                .unwrap_or(f64::NAN)
         };
         let end = |place: f64| {
-            root::bracketed(|at| self.after(at).dot(&self.along) - place, self.fold.1, right, 0.0).unwrap_or(f64::NAN)
+            root::bracketed(|at| self.after(at).dot(&self.along) - place, self.fold.to, right, 0.0).unwrap_or(f64::NAN)
         };
         match root::bracketed(
             |place| self.along.perp(&(self.after(end(place)) - self.before(start(place)))),
@@ -244,7 +245,7 @@ impl<'a> Branches<'a> {
 
 impl Parallel<'_> {
     /// The vector between the curve at two parameters, the earlier one looked at from after a break and the later from before.
-    fn sum(&self, (from, to): (f64, f64)) -> Vector2<f64> {
+    fn sum(&self, from: f64, to: f64) -> Vector2<f64> {
         let motion = self.curves.motion;
         let mut sum = Vector2::zeros();
         for (index, piece) in motion.pieces().iter().enumerate() {
@@ -268,19 +269,19 @@ impl Parallel<'_> {
 
     /// The vector from the first end of a fold, looked at from before it, to the last, looked at from after it: its corners are
     /// steps.
-    fn step(&self, fold: (f64, f64)) -> Vector2<f64> {
+    fn step(&self, fold: Fold) -> Vector2<f64> {
         let motion = self.curves.motion;
         let period = motion.period().unwrap_or(0.0);
         let corners = fold::corners(*self);
         let inside = corners.iter().filter(|corner| {
-            [-period, 0.0, period].iter().any(|turn| fold.0 <= corner.at + turn && corner.at + turn <= fold.1)
+            [-period, 0.0, period].iter().any(|turn| fold.from <= corner.at + turn && corner.at + turn <= fold.to)
         });
         let steps = inside.map(|corner| {
             let (before, after) =
                 (self.point_at(corner.at, BreakSide::Before), self.point_at(corner.at, BreakSide::After));
             (before.outward() - after.outward()) * self.distance
         });
-        self.sum(fold) + steps.sum::<Vector2<f64>>()
+        self.sum(fold.from, fold.to) + steps.sum::<Vector2<f64>>()
     }
 }
 

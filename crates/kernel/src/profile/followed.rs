@@ -154,7 +154,7 @@ impl<'a> FollowerOnChain<'a> {
                 continue;
             }
             first = first.or(Some((from, edge.start())));
-            let from = join(&mut runs, (last, from), flat, Guide::Circle(edge.start() / MILLIMETRES, corner_radius));
+            let from = join(&mut runs, last, from, flat, Guide::Circle(edge.start() / MILLIMETRES, corner_radius));
             if let Some(guide) = guide(edge, out, face).filter(|_| to > from) {
                 runs.push((from, to, guide));
             }
@@ -165,11 +165,11 @@ impl<'a> FollowerOnChain<'a> {
         if let (true, Some(period), Some(last), Some((start, point))) = (closed, period, last, first) {
             let tangents = ends.map(|(first, last)| (last.end_tangent(), first.start_tangent()));
             let flat = tangents.is_some_and(|(before, after)| turn_is_below(FLAT, before, after));
-            join_round(&mut runs, (last, start, period), flat, Guide::Circle(point / MILLIMETRES, corner_radius));
+            join_round(&mut runs, last, start, period, flat, Guide::Circle(point / MILLIMETRES, corner_radius));
         }
         let mut stretches = Vec::with_capacity(runs.len() + curves.motion.pieces().len());
         for run in runs {
-            stretches.extend(on_pieces(curves.motion, run));
+            stretches.extend(on_pieces(curves.motion, run.0, run.1, run.2));
         }
         Self { curves, out, stretches, closed }
     }
@@ -299,7 +299,7 @@ fn turn_is_below(angle: f64, before: Vector2<f64>, after: Vector2<f64>) -> bool 
 
 /// Adds the run between the end of the last run and the start of the next, and returns where the next then starts: after a run about the
 /// edge between them, or, where they overlap or the kink is flat, at a common end in the middle, at which the contact jumps.
-fn join(runs: &mut Vec<(f64, f64, Guide)>, (last, from): (Option<f64>, f64), flat: bool, corner: Guide) -> f64 {
+fn join(runs: &mut Vec<(f64, f64, Guide)>, last: Option<f64>, from: f64, flat: bool, corner: Guide) -> f64 {
     let Some(last) = last else { return from };
     let turns = from > last && !(flat && from - last > HAIR);
     if turns {
@@ -312,8 +312,8 @@ fn join(runs: &mut Vec<(f64, f64, Guide)>, (last, from): (Option<f64>, f64), fla
 }
 
 /// Joins the end of the last run to the start of the first, a period later.
-fn join_round(runs: &mut Vec<(f64, f64, Guide)>, (last, start, period): (f64, f64, f64), flat: bool, corner: Guide) {
-    let common = join(runs, (Some(last), start + period), flat, corner) - period;
+fn join_round(runs: &mut Vec<(f64, f64, Guide)>, last: f64, start: f64, period: f64, flat: bool, corner: Guide) {
+    let common = join(runs, Some(last), start + period, flat, corner) - period;
     if let Some(run) = runs.first_mut().filter(|run| common < start && common < run.1) {
         run.0 = common;
     }
@@ -370,7 +370,7 @@ fn touching(curves: Curves<'_>, out: f64, edge: &Edge, parameter: f64) -> Option
 }
 
 /// The parts of a run that lie on the pieces of the motion.
-fn on_pieces(motion: &dyn Motion, (from, to, guide): (f64, f64, Guide)) -> impl Iterator<Item = ContactStretch> {
+fn on_pieces(motion: &dyn Motion, from: f64, to: f64, guide: Guide) -> impl Iterator<Item = ContactStretch> {
     parts(motion, (from, to)).map(move |PieceRange { from, to, piece, shift }| ContactStretch {
         from,
         to,
@@ -423,24 +423,24 @@ pub(super) fn jet_on_guide(curves: Curves<'_>, parameter: f64, law: Jet, guide: 
 /// unit of its first and second derivative.
 fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<Jet> {
     let follower = curves.follower;
-    let turned = libm::sincos(parameter);
-    let (mut jet, (mut point, mut drive)) = (law, follower.point_turned(parameter, turned, &law));
+    let (sin, cos) = libm::sincos(parameter);
+    let (mut jet, (mut point, mut drive)) = (law, follower.point_turned(parameter, sin, cos, &law));
     let size = point.norm();
     let (mut gap, mut normal) = guide.distance(point);
     for _ in 0..LIFT_STEPS {
         let last = gap.abs() <= SETTLED * size;
         jet.s -= gap / (normal.dot(&drive) * follower.leverage(&jet));
-        (point, drive) = follower.point_turned(parameter, turned, &jet);
+        (point, drive) = follower.point_turned(parameter, sin, cos, &jet);
         (gap, normal) = guide.distance(point);
         if last || !(gap.abs() > TOUCHING * size) {
             break;
         }
     }
     let rate = normal.dot(&drive) * follower.leverage(&jet);
-    let curve = follower.touch_turned(parameter, turned, &jet).curve;
+    let curve = follower.touch_turned(parameter, sin, cos, &jet).curve;
     jet.ds -= curve.speed * normal.dot(&curve.tangent) / rate;
     // C'' along the normal: κ ℓ² to the left of the tangent.
-    let curve = follower.touch_turned(parameter, turned, &jet).curve;
+    let curve = follower.touch_turned(parameter, sin, cos, &jet).curve;
     let square = curve.speed * curve.speed;
     let wanted = match guide {
         Guide::Circle(_, radius) => -square / radius,

@@ -129,15 +129,15 @@ impl<'a> FollowerOnTable<'a> {
         let parts = own_parts(parts(self.curves.motion, (from, to)).collect(), AT_END * (to - from));
         for part in parts.into_iter().filter(|part| self.curves.motion.is_rolled(part.piece)) {
             let range = (run.place(self, part.from), run.place(self, part.to));
-            let errors = self.largest_of(&run, &part, range, wanted);
+            let errors = self.largest_of(&run, &part, range.0, range.1, wanted);
             worst = [worst[0].max(errors[0]), worst[1].max(errors[1])];
         }
         worst
     }
 
     /// The largest errors on a part of an interval, of the kinds that are wanted.
-    fn largest_of(&self, run: &IntervalRun<'_>, part: &PieceRange, range: (f64, f64), wanted: [bool; 2]) -> [f64; 2] {
-        let places = [range.0, 0.5 * (range.0 + range.1), range.1];
+    fn largest_of(&self, run: &IntervalRun<'_>, part: &PieceRange, low: f64, high: f64, wanted: [bool; 2]) -> [f64; 2] {
+        let places = [low, 0.5 * (low + high), high];
         let seen = places.map(|at| self.off_at(run, part, at));
         [0, 1].map(|kind: usize| {
             if !wanted[kind] {
@@ -145,9 +145,9 @@ impl<'a> FollowerOnTable<'a> {
             }
             let seen = seen.iter().map(|errors| errors[kind].abs()).fold(0.0, f64::max);
             let negligible = (SHARE * seen).max(ROUNDING * self.largest[kind]);
-            let known = SearchStart { best: Extremum { at: range.0, value: seen }, negligible };
+            let known = SearchStart { best: Extremum { at: low, value: seen }, negligible };
             if seen.is_finite() {
-                chebyshev::largest_size(|at| self.off_at(run, part, at)[kind], range, known).value
+                chebyshev::largest_size(|at| self.off_at(run, part, at)[kind], (low, high), known).value
             } else {
                 f64::INFINITY
             }

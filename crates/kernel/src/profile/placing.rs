@@ -56,7 +56,7 @@ pub fn nearest(motion: &dyn Motion, place: FollowerPlacement, limits: [f64; 2]) 
     for _ in 0..ROUNDS {
         let before = held.len();
         for (limit, falling) in limits.into_iter().zip([false, true]) {
-            held.extend(broken(motion, place, (limit, falling), shaft));
+            held.extend(broken(motion, place, limit, falling, shaft));
         }
         if held.len() == before {
             return Some(found(place, shaft, &held));
@@ -70,7 +70,8 @@ pub fn nearest(motion: &dyn Motion, place: FollowerPlacement, limits: [f64; 2]) 
 fn broken(
     motion: &dyn Motion,
     place: FollowerPlacement,
-    (limit, falling): (f64, bool),
+    limit: f64,
+    falling: bool,
     shaft: Vector2<f64>,
 ) -> Vec<AngleCondition> {
     let size = shaft.norm() + place.of_roller().norm();

@@ -89,7 +89,7 @@ impl OutlineContact<'_> {
     /// The gap (mm) under a roller at a lift, by which it closes per unit of lift, and the largest such rate.
     fn gap(&self, (angle, turned): (f64, (f64, f64)), lift: f64, cache: &mut NearestCache) -> Option<(f64, f64, f64)> {
         let jet = Jet { s: lift, ..Jet::default() };
-        let (point, drive) = self.follower.point_turned(angle, turned, &jet);
+        let (point, drive) = self.follower.point_turned(angle, turned.0, turned.1, &jet);
         let (centre, radius) = (MILLIMETRES * point, MILLIMETRES * self.follower.element().offset());
         let nearest = self.tree.nearest_with_cache(centre, cache)?;
         let away = centre - nearest.foot;
@@ -107,7 +107,7 @@ impl OutlineContact<'_> {
         let (mut lift, mut step) = (near.unwrap_or(0.0), FIRST_UP);
         loop {
             let jet = Jet { s: lift, ..Jet::default() };
-            let out = MILLIMETRES * self.follower.point_turned(angle, turned, &jet).0.norm();
+            let out = MILLIMETRES * self.follower.point_turned(angle, turned.0, turned.1, &jet).0.norm();
             let clear = out > self.farthest + MILLIMETRES * self.follower.element().offset();
             if clear || lift >= most {
                 break;

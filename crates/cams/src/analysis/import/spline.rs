@@ -75,7 +75,7 @@ fn program(
     };
     let over = end.0 - start.0;
     let steps = [spec(Mover::Spline(spline), over, end.1), spec(back, TAU - over, start.1)];
-    Program::of_steps(rows.quantity, (start.0, start.1, 1), &steps).ok()
+    Program::of_steps(rows.quantity, start.0, start.1, 1, &steps).ok()
 }
 
 /// The position of a program at an angle.

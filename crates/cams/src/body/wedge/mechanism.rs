@@ -95,7 +95,7 @@ fn size(wedge: &Wedge) -> f64 {
 /// The stem with its guides, in a frame whose x is the follower's path.
 fn follower(wedge: &Wedge, places: &[FollowerPlace], cover: &mut Cover) -> Vec<RigidPart> {
     let size = size(wedge);
-    let (_, drive) = wedge.follower.point_turned(0.0, (0.0, 1.0), &Jet::default());
+    let (_, drive) = wedge.follower.point_turned(0.0, 0.0, 1.0, &Jet::default());
     let turn = libm::atan2(drive.y, drive.x).to_degrees();
     let (low, high) = range(places.iter().map(|at| at.roller.dot(&drive)));
     let half = STEM * size;

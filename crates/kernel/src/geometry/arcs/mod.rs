@@ -318,13 +318,8 @@ fn check(
     }
     for (arc, along) in &looks {
         for (before, after) in along.iter().zip(along.iter().skip(1)) {
-            let found = between(
-                &mut |place| compared(arc, place, &curve(place)),
-                *before,
-                *after,
-                (tolerance, worst),
-                HALVINGS,
-            );
+            let found =
+                between(&mut |place| compared(arc, place, &curve(place)), *before, *after, tolerance, worst, HALVINGS);
             worst = larger(worst, found);
         }
     }
@@ -352,7 +347,8 @@ fn between(
     at: &mut impl FnMut(f64) -> ArcComparison,
     a: ArcComparison,
     b: ArcComparison,
-    (tolerance, known): (f64, f64),
+    tolerance: f64,
+    known: f64,
     halvings: u32,
 ) -> f64 {
     let step = b.place - a.place;
@@ -364,8 +360,8 @@ fn between(
         return seen + unseen;
     }
     let middle = at(a.place + 0.5 * step);
-    let first = between(at, a, middle, (tolerance, known), halvings - 1);
-    larger(first, between(at, middle, b, (tolerance, larger(known, first)), halvings - 1))
+    let first = between(at, a, middle, tolerance, known, halvings - 1);
+    larger(first, between(at, middle, b, tolerance, larger(known, first), halvings - 1))
 }
 
 #[cfg(test)]

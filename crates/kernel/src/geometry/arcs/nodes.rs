@@ -236,7 +236,7 @@ impl ArcCountIntegral {
     fn nodes(&self, target: &impl FitTarget, seen: f64) -> Option<Vec<CurveSample>> {
         let size = libm::cbrt(CHAIN * seen);
         Some(
-            self.places((NODES_PER_ARC, NODES_PER_SHORT_ARC, LEAST_NODES), size)?
+            self.places(NODES_PER_ARC, NODES_PER_SHORT_ARC, LEAST_NODES, size)?
                 .into_iter()
                 .map(|(parameter, share)| {
                     CurveSample::new(target.point_and_tolerance(parameter), parameter, share, size)
@@ -247,12 +247,12 @@ impl ArcCountIntegral {
 
     /// The ends of narrower cells.
     fn closer(&self, seen: f64) -> Option<Vec<f64>> {
-        let places = self.places((CELLS_PER_ARC, NODES_PER_SHORT_ARC, LEAST_CELLS), libm::cbrt(CHAIN * seen))?;
+        let places = self.places(CELLS_PER_ARC, NODES_PER_SHORT_ARC, LEAST_CELLS, libm::cbrt(CHAIN * seen))?;
         Some(places.into_iter().map(|(parameter, _)| parameter).collect())
     }
 
     /// Places of equal share, given numbers for an arc, for a short arc and in addition, with their shares; `None` when they are too many.
-    fn places(&self, (per_arc, per_short_arc, least): (f64, f64, f64), size: f64) -> Option<Vec<(f64, f64)>> {
+    fn places(&self, per_arc: f64, per_short_arc: f64, least: f64, size: f64) -> Option<Vec<(f64, f64)>> {
         let [for_distance, for_heading, _] = self.each;
         let long = for_distance.max(for_heading);
         let shorter = (self.total - long).max(0.0);

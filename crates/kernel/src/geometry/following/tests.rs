@@ -17,7 +17,7 @@ fn circle() -> Boundary<'static> {
             curvature_slope: 0.0,
         }
     };
-    let stretch = |i: u32| BoundaryStretch::of_curve(0, (TAU * f64::from(i) / 8.0, TAU * f64::from(i + 1) / 8.0));
+    let stretch = |i: u32| BoundaryStretch::of_curve(0, TAU * f64::from(i) / 8.0, TAU * f64::from(i + 1) / 8.0);
     Boundary::new(Box::new(frame), &(0..8).map(stretch).collect::<Vec<_>>())
 }
 

@@ -58,7 +58,7 @@ pub fn deviations(
     let walk = DeviationWalk { path, curve, negligible };
     let mut bounds = Vec::with_capacity(places.len());
     for (interval, (from, to)) in places.iter().zip(places.iter().skip(1)).enumerate() {
-        let bound = walk.interval(interval, (*from, *to))?;
+        let bound = walk.interval(interval, *from, *to)?;
         bounds.push(bound);
         if !(bound <= limit) {
             break;
@@ -118,7 +118,7 @@ impl DeviationWalk<'_, '_> {
     }
 
     /// A bound of |d| over an interval between two places of C.
-    fn interval(&self, interval: usize, (from, to): (f64, f64)) -> Result<f64, Refusal> {
+    fn interval(&self, interval: usize, from: f64, to: f64) -> Result<f64, Refusal> {
         let (start, end) = self.curve.range(interval).ok_or_else(nowhere)?;
         if start == end && from == to {
             return Ok(0.0);
@@ -143,7 +143,7 @@ impl DeviationWalk<'_, '_> {
                 return Ok(cells.bound.max(cells.known));
             }
             let foot = self.foot(cells.part, border)?;
-            let at = self.over(interval, (a.at, end), &foot);
+            let at = self.over(interval, a.at, end, &foot);
             let b = cells.node(at, foot, border)?;
             cells.cell(&a, &b, DEEPEST)?;
             cells.part += 1;
@@ -158,7 +158,7 @@ impl DeviationWalk<'_, '_> {
     }
 
     /// Where the interval crosses the normal of a point of C, between two of its parameters.
-    fn over(&self, interval: usize, (from, to): (f64, f64), foot: &CurvePoint) -> f64 {
+    fn over(&self, interval: usize, from: f64, to: f64, foot: &CurvePoint) -> f64 {
         let ahead = |at: f64| {
             self.curve.point_at(interval, at).map_or(f64::NAN, |point| (point.point - foot.point).dot(&foot.tangent))
         };
@@ -187,12 +187,12 @@ impl IntervalCells<'_, '_, '_> {
     /// The point of a row, its foot near a parameter.
     fn row(&mut self, at: f64, hint: f64) -> Result<InterpolantFoot, Refusal> {
         let (from, to) = self.walk.path.range(self.part);
-        let (foot, parameter) = self.foot_of(at, (from, to), hint)?;
+        let (foot, parameter) = self.foot_of(at, from, to, hint)?;
         self.node(at, foot, parameter)
     }
 
     /// The foot of a point of the interval within a range of the stretch.
-    fn foot_of(&self, at: f64, (mut low, mut high): (f64, f64), hint: f64) -> Result<(CurvePoint, f64), Refusal> {
+    fn foot_of(&self, at: f64, mut low: f64, mut high: f64, hint: f64) -> Result<(CurvePoint, f64), Refusal> {
         let point = self.walk.point(self.interval, at)?;
         let mut parameter = hint.clamp(low, high);
         let mut foot = self.walk.foot(self.part, parameter)?;
@@ -256,7 +256,7 @@ impl IntervalCells<'_, '_, '_> {
         }
         let share = (at - a.at) / (b.at - a.at);
         let hint = a.parameter + share * (b.parameter - a.parameter);
-        let (foot, parameter) = self.foot_of(at, (a.parameter, b.parameter), hint)?;
+        let (foot, parameter) = self.foot_of(at, a.parameter, b.parameter, hint)?;
         let between = self.node(at, foot, parameter)?;
         self.cell(a, &between, depth - 1)?;
         self.cell(&between, b, depth - 1)

@@ -281,7 +281,8 @@ fn times_divided(share: f64, order: f64) -> f64 {
 fn even(
     path: &ExactPath<'_>,
     count: usize,
-    (start, at_start): (f64, BreakKind),
+    start: f64,
+    at_start: BreakKind,
     breaks: &[RowPlace],
 ) -> Option<Vec<RowPlace>> {
     #[expect(clippy::cast_precision_loss, reason = "at most a million")]
@@ -312,7 +313,7 @@ fn by_angle(goal: &PlacingGoal<'_, '_>) -> Result<PointRows, Refusal> {
     let start = path.on_ray(0.0).ok_or_else(|| not_around(0.0))?.0;
     let (at_start, breaks) = goal.breaks(start);
     let trial = |count: usize, limit: f64| {
-        let spots = even(path, count, (start, at_start), &breaks).ok_or_else(|| not_around(0.0))?;
+        let spots = even(path, count, start, at_start, &breaks).ok_or_else(|| not_around(0.0))?;
         TableTrial::new(goal, &spots, limit)
     };
     let (mut too_few, mut enough): (usize, Option<(usize, TableTrial)>) = (FEWEST - 1, None);

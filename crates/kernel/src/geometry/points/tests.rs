@@ -15,7 +15,7 @@ fn eccentric<'a>() -> ExactPath<'a> {
             Vector2::new(50.0 * sin, -50.0 * cos),
         )
     };
-    let stretch = |i: u32| BoundaryStretch::of_curve(0, (PI * f64::from(i) / 4.0, PI * f64::from(i + 1) / 4.0));
+    let stretch = |i: u32| BoundaryStretch::of_curve(0, PI * f64::from(i) / 4.0, PI * f64::from(i + 1) / 4.0);
     let stretches: Vec<BoundaryStretch> = (0..8).map(stretch).collect();
     ExactPath::new(Boundary::new(Box::new(frame), &stretches), true)
 }
@@ -144,7 +144,7 @@ fn what_has_no_table_is_refused() {
         let (first, third) = (Vector2::new(-sin, cos), Vector2::new(sin, -cos));
         CurvePoint::from_derivatives(Vector2::new(8.0 + cos, sin), first, Vector2::new(-cos, -sin), third)
     };
-    let halves = [BoundaryStretch::of_curve(0, (0.0, PI)), BoundaryStretch::of_curve(0, (PI, TAU))];
+    let halves = [BoundaryStretch::of_curve(0, 0.0, PI), BoundaryStretch::of_curve(0, PI, TAU)];
     let path = ExactPath::new(Boundary::new(Box::new(frame), &halves), true);
     let wish = PointTableSpec { tolerance: 1e-3, ..wish };
     let error = place(&path, &wish, None).expect_err("not around").to_string();
@@ -169,7 +169,7 @@ fn drop<'a>(turn: f64) -> ExactPath<'a> {
     };
     let place = |i: u32| turn + PI * f64::from(i) / 4.0;
     let stretches: Vec<BoundaryStretch> =
-        (0..8).map(|i| BoundaryStretch::of_curve(0, (place(i), place(i + 1)))).collect();
+        (0..8).map(|i| BoundaryStretch::of_curve(0, place(i), place(i + 1))).collect();
     ExactPath::new(Boundary::new(Box::new(frame), &stretches), true)
 }
 

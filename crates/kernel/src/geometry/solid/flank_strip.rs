@@ -63,7 +63,7 @@ impl ShellFlank {
             closed,
         };
         for (k, patch) in patches.iter().enumerate() {
-            flank.add_patch(walls, (k, patch), side);
+            flank.add_patch(walls, k, patch, side);
         }
         if let Some(row) = patches.last().and_then(|patch| patch.controls.last()).filter(|_| !closed) {
             walls.shell.vertices.extend(row.first().into_iter().chain(row.last()).map(|point| SolidVertex(*point)));
@@ -75,7 +75,7 @@ impl ShellFlank {
         flank
     }
 
-    fn add_patch(&self, walls: &mut ShellBuilder, (k, patch): (usize, &SplineSurface), side: f64) {
+    fn add_patch(&self, walls: &mut ShellBuilder, k: usize, patch: &SplineSurface, side: f64) {
         let first = patch.controls.first().cloned().unwrap_or_default();
         walls.shell.vertices.extend(first.first().into_iter().chain(first.last()).map(|point| SolidVertex(*point)));
         for (vertices, knots, controls) in [
@@ -109,23 +109,27 @@ impl ShellBuilder {
         self.shell.vertices.len() - 1
     }
 
-    fn add_edge(&mut self, vertices: (usize, usize), curve: EdgeCurve) -> usize {
-        self.shell.edges.push(CompressedEdge { vertices, curve });
+    fn add_edge(&mut self, start: usize, end: usize, curve: EdgeCurve) -> usize {
+        self.shell.edges.push(CompressedEdge { vertices: (start, end), curve });
         self.shell.edges.len() - 1
     }
 
     pub(super) fn add_line(&mut self, from: usize, to: usize) -> usize {
         let (a, b) = (self.place(from), self.place(to));
-        self.add_edge((from, to), EdgeCurve::Line { origin: a, direction: (b - a).normalize() })
+        self.add_edge(from, to, EdgeCurve::Line { origin: a, direction: (b - a).normalize() })
     }
 
     /// An arc about the axis, counter-clockwise.
     pub(super) fn add_arc(&mut self, vertices: (usize, usize), (radius, z): (f64, f64)) -> usize {
-        self.add_edge(vertices, EdgeCurve::Circle { centre: Point3::new(0.0, 0.0, z), radius, clockwise: false })
+        self.add_edge(
+            vertices.0,
+            vertices.1,
+            EdgeCurve::Circle { centre: Point3::new(0.0, 0.0, z), radius, clockwise: false },
+        )
     }
 
-    pub(super) fn add_spline(&mut self, vertices: (usize, usize), curve: SplineCurve) -> usize {
-        self.add_edge(vertices, EdgeCurve::Spline(curve))
+    pub(super) fn add_spline(&mut self, start: usize, end: usize, curve: SplineCurve) -> usize {
+        self.add_edge(start, end, EdgeCurve::Spline(curve))
     }
 
     /// A face whose loop runs counter-clockwise about the normal out of the metal, on a surface whose own normal points out of it or, hollow, into it.

@@ -95,14 +95,14 @@ impl GrooveGloboid<'_> {
             let Some((_, above)) = flanks.get((index + count - 1) % count) else { continue };
             let ribs = self.ribs.get(index).cloned().unwrap_or_default();
             let floors = self.floors.get(index).cloned().unwrap_or_default();
-            let openings = [-1.0, 1.0].map(|end| self.end_of_rib(&mut walls, (upper, above), end));
+            let openings = [-1.0, 1.0].map(|end| self.end_of_rib(&mut walls, upper, above, end));
             let [low, high] = openings;
             for (rim, end) in [(&mut bottom, &low), (&mut top, &high)] {
                 rim.extend(end.1.iter().copied());
             }
             let rib = Strip { below: upper, above, seams: ribs, outside: true, openings: [low.0, high.0] };
             self.strip(&mut walls, &rib);
-            let openings = [-1.0, 1.0].map(|end| self.end_of_groove(&mut walls, (lower, upper), end));
+            let openings = [-1.0, 1.0].map(|end| self.end_of_groove(&mut walls, lower, upper, end));
             for (rim, end) in [&mut bottom, &mut top].into_iter().zip(&openings) {
                 rim.extend(end.arcs.iter().copied());
             }
@@ -126,7 +126,8 @@ impl GrooveGloboid<'_> {
     fn end_of_rib(
         &self,
         walls: &mut ShellBuilder,
-        (below, above): (&ShellFlank, &ShellFlank),
+        below: &ShellFlank,
+        above: &ShellFlank,
         end: f64,
     ) -> (Opening, Vec<usize>) {
         let (from, to) = (Self::station(above, end), Self::station(below, end));
@@ -150,7 +151,7 @@ impl GrooveGloboid<'_> {
     }
 
     /// The edge across the floor of a groove at an end.
-    fn end_of_groove(&self, walls: &mut ShellBuilder, (below, above): (&ShellFlank, &ShellFlank), end: f64) -> Opening {
+    fn end_of_groove(&self, walls: &mut ShellBuilder, below: &ShellFlank, above: &ShellFlank, end: f64) -> Opening {
         let (from, to) = (Self::station(above, end), Self::station(below, end));
         Opening { arcs: vec![walls.add_arc((above.floor(from), below.floor(to)), self.rim(end, false))] }
     }
@@ -184,8 +185,8 @@ impl GrooveGloboid<'_> {
             .iter()
             .map(|(below, above)| {
                 let ends = (vertex(strip.below, *below), vertex(strip.above, *above));
-                let curve = tube_line([walls.place(ends.0), walls.place(ends.1)], (major, minor));
-                walls.add_spline(ends, curve)
+                let curve = tube_line([walls.place(ends.0), walls.place(ends.1)], major, minor);
+                walls.add_spline(ends.0, ends.1, curve)
             })
             .collect();
         let [low, high] = &strip.openings;
@@ -228,7 +229,7 @@ fn turned(used: CompressedEdgeIndex) -> CompressedEdgeIndex {
 }
 
 /// A line on a torus between two places, along which the polar angle and that about the tube grow evenly: at one polar angle the arc of the tube.
-fn tube_line([from, to]: [Point3; 2], (major, minor): (f64, f64)) -> SplineCurve {
+fn tube_line([from, to]: [Point3; 2], major: f64, minor: f64) -> SplineCurve {
     let [start, end] = [from, to].map(|place| libm::atan2(place.z, major - libm::hypot(place.x, place.y)));
     let (first, turn) = (polar(from), signed_turn(polar(to) - polar(from)));
     let mut spans = 2.0;

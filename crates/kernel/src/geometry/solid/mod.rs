@@ -162,7 +162,7 @@ pub fn pocketed(
 ) -> Result<CheckedSolid, Refusal> {
     let [outer, grooves] =
         [through, flanks].map(|contours| contours.iter().map(|contour| contour.area_and_centroid().0).sum::<f64>());
-    let boundary = ShellBuilder::grooved(through, flanks, (thickness, depth));
+    let boundary = ShellBuilder::grooved(through, flanks, thickness, depth);
     check_closed(&boundary)?;
     as_drawn(boundary, outer * thickness + grooves * depth)
 }
@@ -232,7 +232,7 @@ impl ShellBuilder {
             let upright = EdgeCurve::Line { origin: at_height(edge.start(), low), direction: Vector3::unit_z() };
             edges.push(CompressedEdge { vertices: (self.vertex(n, i, 0), self.vertex(n, i, 1)), curve: upright });
             let around = [self.edge(n, i, 0), self.edge(n, i + 1, 2), self.edge(n, i, 1), self.edge(n, i, 2)];
-            faces.push(side(edge, (low, high), around));
+            faces.push(side(edge, low, high, around));
         }
         self.close(n, vertices, edges, faces);
     }
@@ -293,7 +293,7 @@ impl ShellBuilder {
     }
 
     /// A part with a groove between two flanks: its floor is a face of its own, and the upper face is one on either side of it.
-    fn grooved(through: &[Contour], flanks: &[Contour], (thickness, depth): (f64, f64)) -> TruckBoundary {
+    fn grooved(through: &[Contour], flanks: &[Contour], thickness: f64, depth: f64) -> TruckBoundary {
         let mut walls = Self::new((0.0, thickness));
         for contour in through {
             walls.over(contour);
@@ -392,7 +392,7 @@ fn carrier(edge: &Edge, z: f64) -> EdgeCurve {
 const SPAN: [f64; 8] = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
 
 /// The side face over an edge, between two heights; edges: below, upright at its end, above, upright at its start.
-fn side(edge: &Edge, (low, high): (f64, f64), [below, end, above, start]: [usize; 4]) -> CompressedFace<FaceSurface> {
+fn side(edge: &Edge, low: f64, high: f64, [below, end, above, start]: [usize; 4]) -> CompressedFace<FaceSurface> {
     // Counter-clockwise about the normal to the right of the edge.
     let outward = vec![forward(below), forward(end), backward(above), backward(start)];
     let segment = match edge {

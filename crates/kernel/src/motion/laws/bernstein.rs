@@ -3,7 +3,8 @@
 //! In Bernstein form a polynomial of given derivatives at both ends needs no system of equations, a rest is a row of zeros, and
 //! no power of x cancels another: G. Farin, "Curves and surfaces for CAGD", 5th ed. (2002), chapters 4 and 5.
 
-use super::values::Values;
+/// s, s', s'', s''' at x.
+pub type Values = [f64; 4];
 
 /// A sum of coefficients times x^k (1 − x)^(n−k).
 #[derive(Debug, Clone, PartialEq, Default)]

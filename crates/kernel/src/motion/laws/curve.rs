@@ -3,12 +3,10 @@
 //! Between joints a curve is one analytic function. It may be written in two ways, from either side, that meet without a jump
 //! ([`CurvePart`]): near an end only the distance from that end keeps its digits.
 
-use super::bernstein::Bernstein;
-use super::formula_shape::FormulaShape;
-use super::harmonics::HarmonicSeries;
+use super::bernstein::{Bernstein, Values};
+use super::expression_shapes::{FormulaShape, HarmonicSeries};
 use super::local::LocalPiece;
 use super::rest_to_rest::RestToRest;
-use super::values::Values;
 use std::ops::Range;
 use std::sync::Arc;
 

@@ -1,8 +1,7 @@
 //! Curves that are one expression from end to end: a formula, a Fourier series; and the motion of a cam whose elastic load moves as a curve.
 
 use super::curve::{CurvePart, LawCurve, PolydyneShape};
-use super::formula_shape::FormulaShape;
-use super::harmonics::HarmonicSeries;
+use super::expression_shapes::{FormulaShape, HarmonicSeries};
 use crate::motion::formula::{Formula, Scan};
 use std::sync::Arc;
 

@@ -170,7 +170,7 @@ impl Half {
 }
 
 /// Velocity at the inflection λ of two halves, in units of travel over width.
-fn velocity_at(inflection: f64, (v0, m1): (f64, f64), (v1, m2): (f64, f64)) -> f64 {
+fn velocity_at(inflection: f64, v0: f64, m1: f64, v1: f64, m2: f64) -> f64 {
     let rest = 1.0 - inflection;
     (1.0 - inflection * v0 * (1.0 - m1) - rest * v1 * (1.0 - m2)) / (inflection * m1 + rest * m2)
 }
@@ -188,7 +188,7 @@ fn smooth(first: Half, second: Half) -> f64 {
 /// Seen from the turn, the acceleration is g = p vm/ν with ν the width of the turn's half, p its φ' at the turn, v and m the
 /// velocity and F(1) of the half at the other end, M that of the turn's. With vm = (1 − (1 − ν) v (1 − m))/((1 − ν) m + ν M)
 /// that is g ν ((1 − ν) m + ν M) = p (1 − (1 − ν) v (1 − m)).
-fn matching(law: &'static str, task: &LawTask, (first, second): (Half, Half), wanted: f64) -> Result<f64, LawError> {
+fn matching(law: &'static str, task: &LawTask, first: Half, second: Half, wanted: f64) -> Result<f64, LawError> {
     let (turn, other, velocity, g) = match (task.from, task.to) {
         (from, SegmentEnd::Turn) => (second, first, from.velocity(), -wanted),
         (SegmentEnd::Turn, to) => (first, second, to.velocity(), wanted),
@@ -226,10 +226,10 @@ pub(super) fn solve(law: &'static str, half: Half, task: &LawTask) -> Result<Law
         Inflection::At(found) => {
             return Err(LawError::parameter("inflection", "at least 0.000001 and at most 0.999999", found));
         }
-        Inflection::Match { acceleration } => matching(law, task, (first, second), acceleration)?,
+        Inflection::Match { acceleration } => matching(law, task, first, second, acceleration)?,
     };
     let rest = 1.0 - inflection;
-    let middle = velocity_at(inflection, (v0, first.travel()), (v1, second.travel()));
+    let middle = velocity_at(inflection, v0, first.travel(), v1, second.travel());
     let lower = first.pieces(inflection, v0, middle);
     let upper = second.pieces(rest, v1, middle);
     let joined = is_one_function((first, inflection, middle - v0), (second, rest, middle - v1));

@@ -1,6 +1,6 @@
 //! A polynomial of low degree plus waves, in the distance from where a piece of a law begins.
 
-use super::values::Values;
+use super::bernstein::Values;
 
 /// turn·(τ − sin τ) + rise·(1 − cos τ) with τ = harmonic · pace · t.
 #[derive(Debug, Clone, Copy, PartialEq)]

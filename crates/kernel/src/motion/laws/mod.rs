@@ -7,9 +7,8 @@
 mod bernstein;
 mod curve;
 mod entire;
-mod formula_shape;
+mod expression_shapes;
 mod halves;
-mod harmonics;
 mod law;
 mod list;
 mod local;
@@ -24,8 +23,8 @@ pub mod spline;
 mod task;
 #[cfg(test)]
 mod tests;
-mod values;
 
+pub use bernstein::Values;
 pub use curve::LawCurve;
 pub use entire::{from_formula, from_harmonics};
 pub use law::Law;
@@ -34,4 +33,3 @@ pub use peaks::LawPeaks;
 pub use spectrum::AccelerationSpectrum;
 pub(in crate::motion) use spectrum::residual_peak;
 pub use task::{Inflection, LawError, LawTask, Parameters, SegmentEnd};
-pub use values::Values;

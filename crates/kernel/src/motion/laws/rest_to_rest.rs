@@ -10,7 +10,7 @@
 //!
 //! so that near an end every derivative keeps its digits, and nowhere large terms cancel, as powers and Bernstein terms of such a degree do.
 
-use super::values::Values;
+use super::bernstein::Values;
 
 /// Coefficient of the jerk of 3-4-5, 60 P_2.
 pub(super) const FIRST: f64 = 60.0;

@@ -54,7 +54,7 @@ impl AccelerationSpectrum {
 }
 
 /// The terms of a piece of waves between two places x, seen from the start, or from the end of the curve where `late`.
-fn of_local(local: &LocalPiece, (low, high): (f64, f64), late: bool, terms: &mut Vec<SpectrumTerm>) {
+fn of_local(local: &LocalPiece, low: f64, high: f64, late: bool, terms: &mut Vec<SpectrumTerm>) {
     if !(low < high) {
         return;
     }
@@ -93,8 +93,8 @@ impl LawCurve {
             let (low, high) = self.range_of(index);
             if let Some(CurvePart::Waves { split, early, late }) = self.part(index) {
                 let split = split.clamp(low, high);
-                of_local(early, (low, split), false, &mut terms);
-                of_local(late, (split, high), true, &mut terms);
+                of_local(early, low, split, false, &mut terms);
+                of_local(late, split, high, true, &mut terms);
             } else {
                 let series = LegendreSeries::expand(&|x| self.derivative(index, x, 2), (low, high));
                 terms.extend(series.into_iter().map(SpectrumTerm::Series));

@@ -1,11 +1,13 @@
 //! What applies to a whole program, however its motion is given.
 
-use super::fault_reported::FaultReported;
 use super::keys::{MEASURED_AT, MeasuredAt, OUTPUT_ARM, START};
 use crate::document::{Field, LengthOrAngle, TableReader};
 use crate::motion::Quantity;
 use crate::units::{self, Dimension};
 use std::f64::consts::PI;
+
+/// Stands for the value of a key whose fault has been reported already.
+pub(super) struct FaultReported;
 
 /// Largest difference between the sum of the segments and a whole turn, rad, or the stroke of a plate, m: rounding of typed angles and lengths.
 /// Every segment is longer.
@@ -189,7 +191,8 @@ pub(super) fn arc(table: &TableReader<'_>, follower: Option<FollowerMovement>) -
 /// Reports positions that are not of the kind that the follower moves by; `lengths` are those of the file, m.
 pub(super) fn report_mismatch(
     table: &TableReader<'_>,
-    (quantity, follower): (Quantity, FollowerMovement),
+    quantity: Quantity,
+    follower: FollowerMovement,
     lengths: &[f64],
 ) {
     let path = follower.table;

@@ -1,8 +1,7 @@
 //! Motions that are given as a whole instead of by segments: a formula, a Fourier series, points, a table; and segments that are given by a
 //! formula, points or a table.
 
-use super::context::ProgramContext;
-use super::fault_reported::FaultReported;
+use super::context::{FaultReported, ProgramContext};
 use super::keys::{
     ACCELERATION, BETWEEN, COLUMNS, COSINES, DEGREE, END, ENDS, EXPRESSED, FORMULA, FOURIER, INNER, JERK,
     LARGEST_SWING, LIFT, MIRROR, OVER_ROWS, POINTS, RATIO_OF_ANGLES, REST, SCALE, SHAPE, SHARES, SINES, SMOOTH, SPLINE,
@@ -88,7 +87,8 @@ impl<'r> MotionForm<'r> {
         &self,
         table: &TableReader<'_>,
         whole: ProgramContext,
-        (start, lobes): (f64, u32),
+        start: f64,
+        lobes: u32,
     ) -> Option<Program> {
         let unit = StartUnit::read(table, whole)?;
         let (name, (curve, first), at) = match self {
@@ -105,7 +105,7 @@ impl<'r> MotionForm<'r> {
         };
         let at = if at >= TAU && !whole.by_travel { at - TAU } else { at };
         let span = if whole.by_travel { Span::Stroke(whole.fill) } else { Span::Turn { at, lobes } };
-        let program = Program::of_curve(whole.quantity, span, start + first, (name, curve));
+        let program = Program::of_curve(whole.quantity, span, start + first, name, curve);
         within_reach(table, &unit, whole.quantity, program)
     }
 }
@@ -423,7 +423,8 @@ pub(super) fn measure_from_start(
     segment: &TableReader<'_>,
     whole: ProgramContext,
     points: &mut [[f64; 2]],
-    (start, over): (f64, f64),
+    start: f64,
+    over: f64,
 ) -> Option<()> {
     for (number, point) in (1..).zip(points) {
         let place = point[0];

@@ -123,7 +123,7 @@ pub(super) fn solve(start: f64, steps: &[SegmentSpec]) -> Result<JoinedSegments,
         return Ok((steps.to_vec(), vec![None; steps.len()]));
     }
     let mut states = least_jerk(&intervals, &all_given);
-    if fit_found_states(steps, &all_nodes, (&intervals, &states), &mut all_given) {
+    if fit_found_states(steps, &all_nodes, &intervals, &states, &mut all_given) {
         states = least_jerk(&intervals, &all_given);
     }
     let state = |node: usize| states.get(node % states.len().max(1)).copied().unwrap_or_default();
@@ -147,7 +147,8 @@ pub(super) fn solve(start: f64, steps: &[SegmentSpec]) -> Result<JoinedSegments,
 fn fit_found_states(
     steps: &[SegmentSpec],
     all_nodes: &[SegmentNodes],
-    (intervals, states): (&[NodeInterval], &[[f64; 2]]),
+    intervals: &[NodeInterval],
+    states: &[[f64; 2]],
     all_given: &mut [NodeConstraint],
 ) -> bool {
     let mut changed = false;

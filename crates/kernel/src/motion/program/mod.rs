@@ -4,7 +4,6 @@
 //! moving, turning back) follow from these states; its law is solved for them.
 
 mod context;
-mod fault_reported;
 mod forms;
 mod half_turn;
 mod joined;
@@ -198,7 +197,7 @@ struct PieceSource {
 }
 
 /// Refuses an impossible segment given by code: from one position to another over a width (angle or length).
-fn possible_segment(number: usize, (from, to): (f64, f64), width: f64, rests: bool) -> Result<(), Refusal> {
+fn possible_segment(number: usize, from: f64, to: f64, width: f64, rests: bool) -> Result<(), Refusal> {
     let refused =
         |what: String, remedy: &'static str| Err(Refusal::new(format!("segment {number}: {what}")).remedy(remedy));
     if ![from, to, width].iter().all(|value| value.is_finite()) {
@@ -271,7 +270,7 @@ impl Program {
     /// [`Refusal`] if a number is not finite, a segment has no angle, a rest ends at another position, or the turn does not end at its start position.
     pub fn new(quantity: Quantity, start: f64, segments: &[(Option<&'static Law>, f64, f64)]) -> Result<Self, Refusal> {
         let mut program = Self::empty(quantity, 1);
-        program.add_laws((start, TAU), segments)?;
+        program.add_laws(start, TAU, segments)?;
         let end = program.segments.last().map_or(start, |last| last.to);
         if (end - start).abs() > SAME_PLACE * program.largest(start) {
             let what = format!("the motion does not end where it starts: at {end} instead of {start}");
@@ -302,14 +301,15 @@ impl Program {
     pub fn over_travel(start: f64, segments: &[(Option<&'static Law>, f64, f64)]) -> Result<Self, Refusal> {
         let stroke = segments.iter().map(|(_, over, _)| over).sum();
         let mut program = Self { stroke: Some(stroke), ..Self::empty(Quantity::Length, 1) };
-        program.add_laws((start, stroke), segments)?;
+        program.add_laws(start, stroke, segments)?;
         Ok(program.with_lowest())
     }
 
     /// Adds segments of law, width and end position, from a position on, up to an end of the last one.
     fn add_laws(
         &mut self,
-        (start, last): (f64, f64),
+        start: f64,
+        last: f64,
         segments: &[(Option<&'static Law>, f64, f64)],
     ) -> Result<(), Refusal> {
         if segments.is_empty() {
@@ -318,7 +318,7 @@ impl Program {
         let (mut place, mut position) = (0.0, start);
         for (index, (law, over, to)) in segments.iter().enumerate() {
             let end = if index + 1 == segments.len() { last } else { place + over };
-            possible_segment(index + 1, (position, *to), end - place, law.is_none())?;
+            possible_segment(index + 1, position, *to, end - place, law.is_none())?;
             let to = if law.is_some() { *to } else { position };
             let (width, travel, ends) = (end - place, to - position, [EndState::default(); 2]);
             let (curve, name) = (law.map(curve), law.map_or(keys::DWELL, |law| law.name));
@@ -340,14 +340,14 @@ impl Program {
     ///
     /// # Errors
     /// The first segment that cannot be made, and why.
-    fn of_stroke((start, stroke): (f64, f64), steps: &[SegmentSpec]) -> Result<Self, (usize, LawError)> {
+    fn of_stroke(start: f64, stroke: f64, steps: &[SegmentSpec]) -> Result<Self, (usize, LawError)> {
         // A rest before the first segment and behind the last one, where the segments of a turn follow each other.
         let rest =
             SegmentSpec { mover: Mover::Dwell, over: stroke, to: start, end: EndState::default(), free_start: false };
         let all: Vec<SegmentSpec> = std::iter::once(rest).chain(steps.iter().cloned()).collect();
         let found = solved::solve(start, &all).map_err(|(index, error)| (index.saturating_sub(1), error))?;
         let mut program = Self { stroke: Some(stroke), ..Self::empty(Quantity::Length, 1) };
-        program.add_solved((0.0, start, stroke), found, 1);
+        program.add_solved(0.0, start, stroke, found, 1);
         Ok(program.with_lowest())
     }
 
@@ -357,19 +357,21 @@ impl Program {
     /// The first segment that cannot be made, and why.
     pub fn of_steps(
         quantity: Quantity,
-        (at, start, lobes): (f64, f64, u32),
+        at: f64,
+        start: f64,
+        lobes: u32,
         steps: &[SegmentSpec],
     ) -> Result<Self, (usize, LawError)> {
         let mut program = Self::empty(quantity, lobes.max(1));
         let whole = TAU / f64::from(lobes.max(1));
         let found = solved::solve(start, steps)?;
-        program.add_solved((at, start, at + whole), found, 0);
+        program.add_solved(at, start, at + whole, found, 0);
         program.repeat(whole);
         Ok(program.with_lowest())
     }
 
     /// Adds solved segments but the first few, from a place and a position on, up to an end of the last one.
-    fn add_solved(&mut self, (at, start, last): (f64, f64, f64), found: solved::SolvedSegments, skipped: usize) {
+    fn add_solved(&mut self, at: f64, start: f64, last: f64, found: solved::SolvedSegments, skipped: usize) {
         let solved::SolvedSegments { steps, curves, rows } = found;
         let (mut angle, mut position) = (at, start);
         let first = skipped.checked_sub(1).or(steps.len().checked_sub(1)).and_then(|before| steps.get(before));
@@ -384,7 +386,7 @@ impl Program {
                 Mover::Own(_, _, Some(figures)) => Some(rows::RowFigures::clone(figures)),
                 _ => of_spline,
             };
-            self.rows.extend(figures.map(|figures| figures.of_segment(index, (angle, width), travel.abs())));
+            self.rows.extend(figures.map(|figures| figures.of_segment(index, angle, width, travel.abs())));
             let segment =
                 ProgramSegment { curve, name, start: angle, width, from: position, travel, to, ends, whole, optimum };
             self.add(segment, end);
@@ -393,7 +395,7 @@ impl Program {
     }
 
     /// One curve over a turn, each of its equal lobes, or a stroke: positions above a first one, m or rad, by the share of these.
-    fn of_curve(quantity: Quantity, span: Span, from: f64, (name, curve): (&'static str, LawCurve)) -> Self {
+    fn of_curve(quantity: Quantity, span: Span, from: f64, name: &'static str, curve: LawCurve) -> Self {
         let (at, lobes, stroke) = match span {
             Span::Turn { at, lobes } => (at, lobes.max(1), None),
             Span::Stroke(stroke) => (0.0, 1, Some(stroke)),

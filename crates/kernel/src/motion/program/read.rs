@@ -1,7 +1,8 @@
 //! The tables `[motion]` and `[[motion.segment]]`.
 
-use super::context::{FollowerMovement, ProgramContext, ProgramSpan, WHOLE_TURN, arc, report_mismatch, value_of};
-use super::fault_reported::FaultReported;
+use super::context::{
+    FaultReported, FollowerMovement, ProgramContext, ProgramSpan, WHOLE_TURN, arc, report_mismatch, value_of,
+};
 use super::half_turn;
 use super::keys::{
     ACCELERATION, AMPLITUDES, AT, BEGINS, BETWEEN_ROWS, BY, DWELL, END, EXPRESSED, EndWord, FRACTIONS, INFLECTION,
@@ -61,7 +62,7 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Optio
     let arc = arc(&table, follower);
     let (quantity, start) = value_of(start?, arc);
     if let Some(follower) = follower.filter(|follower| follower.quantity != quantity) {
-        report_mismatch(&table, (quantity, follower), &lengths(&segments, start));
+        report_mismatch(&table, quantity, follower, &lengths(&segments, start));
     }
     let rpm = table.get(&RPM);
     let (at, lobes, stroke) = (table.get(&AT)?, lobes?, stroke.ok()?);
@@ -81,22 +82,22 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Optio
         fill: if halved { 0.5 * fill } else { fill },
         by_travel: stroke.is_some(),
     };
-    let index = index(&table, span, (form.is_some(), lobes)).ok()?;
+    let index = index(&table, span, form.is_some(), lobes).ok()?;
     if let Some(form) = form {
-        return Some(Program { rpm, ..form.program(&table, whole, (start, lobes))? });
+        return Some(Program { rpm, ..form.program(&table, whole, start, lobes)? });
     }
     let mut steps = steps(&segments, whole, start)?;
     if halved {
         half_turn::completed(&mut steps, start);
     }
     let made = if let Some(stroke) = stroke {
-        Program::of_stroke((start, stroke), &steps)
+        Program::of_stroke(start, stroke, &steps)
     } else {
         match index {
-            Some(angle) => end_farther(&segments, &mut steps, (start, angle))?,
+            Some(angle) => end_farther(&segments, &mut steps, start, angle)?,
             None => close(&table, &segments, &mut steps, start)?,
         }
-        Program::of_steps(quantity, (at, start, lobes), &steps)
+        Program::of_steps(quantity, at, start, lobes, &steps)
     };
     match made {
         Ok(program) => Some(Program { rpm, ..program }),
@@ -122,7 +123,7 @@ pub fn table_rows(reader: &Reader<'_>, follower: Option<FollowerMovement>) -> Op
     let (quantity, start) = value_of(start, arc);
     let follower = follower?;
     if follower.quantity != quantity {
-        report_mismatch(&table, (quantity, follower), &[start]);
+        report_mismatch(&table, quantity, follower, &[start]);
         return None;
     }
     let fill = TAU / f64::from(lobes);
@@ -166,7 +167,8 @@ fn refuse_too_many(table: &TableReader<'_>, segments: usize) -> Result<(), Fault
 fn index(
     table: &TableReader<'_>,
     span: Option<ProgramSpan>,
-    (whole, lobes): (bool, u32),
+    whole: bool,
+    lobes: u32,
 ) -> Result<Option<f64>, FaultReported> {
     let Some(ProgramSpan::Index(angle)) = span else { return Ok(None) };
     if whole {
@@ -184,7 +186,7 @@ fn index(
 }
 
 /// Ends the steps of a turn exactly where the turret stands one index farther; `None` where they end elsewhere.
-fn end_farther(segments: &[TableReader<'_>], steps: &mut [SegmentSpec], (start, angle): (f64, f64)) -> Option<()> {
+fn end_farther(segments: &[TableReader<'_>], steps: &mut [SegmentSpec], start: f64, angle: f64) -> Option<()> {
     let last = steps.last_mut()?;
     // What is wrong with the turret is reported elsewhere.
     if angle.is_nan() {
@@ -281,7 +283,7 @@ fn steps(segments: &[TableReader<'_>], whole: ProgramContext, start: f64) -> Opt
     let mut missing = false;
     for (index, segment) in segments.iter().enumerate() {
         let last = index + 1 == segments.len();
-        match step(segment, whole, (position, sum, last)) {
+        match step(segment, whole, position, sum, last) {
             Some(step) => {
                 (position, sum) = (step.to, sum + step.over);
                 all.push(step);
@@ -307,11 +309,7 @@ fn steps(segments: &[TableReader<'_>], whole: ProgramContext, start: f64) -> Opt
 }
 
 /// A segment that starts at a position, after segments with a sum of angles, rad.
-fn step(
-    segment: &TableReader<'_>,
-    whole: ProgramContext,
-    (position, sum, last): (f64, f64, bool),
-) -> Option<SegmentSpec> {
+fn step(segment: &TableReader<'_>, whole: ProgramContext, position: f64, sum: f64, last: bool) -> Option<SegmentSpec> {
     let target = target(segment, whole, position).ok();
     let mover = mover(segment, whole, target.flatten().map(|to| to - position));
     let end = state(segment, whole);
@@ -359,7 +357,7 @@ fn step(
             let (sized, slope) = (own_end(curve), (to - position) / over);
             end = EndState { velocity: sized[0] * slope, acceleration: sized[1] * slope / over, ..EndState::default() };
         }
-        Mover::Spline(rows) => forms::measure_from_start(segment, whole, &mut rows.points, (whole.at + sum, over))?,
+        Mover::Spline(rows) => forms::measure_from_start(segment, whole, &mut rows.points, whole.at + sum, over)?,
         _ => {}
     }
     Some(SegmentSpec { mover, over, to, end, free_start })

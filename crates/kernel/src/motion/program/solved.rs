@@ -154,7 +154,7 @@ impl Ring {
         let from = if index == 0 { self.start } else { before.map_or(self.start, |step| step.to) };
         let begin = before.map_or_else(EndState::default, |step| step.end);
         let begin = if step.free_start { begin.without_acceleration() } else { begin };
-        let made = segment(step, (from, begin), self.size, neighbours).map_err(|error| (index, error))?;
+        let made = segment(step, from, begin, self.size, neighbours).map_err(|error| (index, error))?;
         if let Some(slot) = self.curves.get_mut(index) {
             *slot = Some(made);
         }
@@ -172,7 +172,8 @@ fn accelerations(curve: &LawCurve, travel: f64, width: f64) -> [f64; 2] {
 /// ends where it is to match one.
 fn segment(
     step: &SegmentSpec,
-    (from, begin): (f64, EndState),
+    from: f64,
+    begin: EndState,
     size: f64,
     neighbours: Option<[Option<f64>; 2]>,
 ) -> Result<ScaledCurve, LawError> {

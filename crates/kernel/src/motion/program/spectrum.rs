@@ -237,7 +237,7 @@ mod tests {
         };
         for lobes in [1_u32, 3] {
             let steps = steps(f64::from(lobes));
-            let program = Program::of_steps(Quantity::Length, (0.7, 0.0, lobes), &steps).expect("a program");
+            let program = Program::of_steps(Quantity::Length, 0.7, 0.0, lobes, &steps).expect("a program");
             let found = program.harmonics(3000);
             for angle in [0.0, 0.7, 1.1, 2.9, 4.4, 6.0] {
                 let waves = (1_u32..).map(f64::from).zip(&found.waves);

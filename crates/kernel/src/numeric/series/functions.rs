@@ -51,14 +51,14 @@ impl ElementaryFunction {
                 0 => libm::tan(first),
                 n => chained(a, &one_and_square(1.0, own, n), n) / number(n),
             }),
-            Self::ArcSine => integral(libm::asin(first), (a, 1.0), &root_of_complement(a, out.len()), out, from),
-            Self::ArcCosine => integral(libm::acos(first), (a, -1.0), &root_of_complement(a, out.len()), out, from),
-            Self::ArcTangent => integral(libm::atan(first), (a, 1.0), &one_and_square(1.0, a, out.len()), out, from),
+            Self::ArcSine => integral(libm::asin(first), a, 1.0, &root_of_complement(a, out.len()), out, from),
+            Self::ArcCosine => integral(libm::acos(first), a, -1.0, &root_of_complement(a, out.len()), out, from),
+            Self::ArcTangent => integral(libm::atan(first), a, 1.0, &one_and_square(1.0, a, out.len()), out, from),
             Self::Exponential => fill(out, from, |n, own| match n {
                 0 => libm::exp(first),
                 n => chained(a, own, n) / number(n),
             }),
-            Self::Logarithm => integral(libm::log(first), (a, 1.0), a, out, from),
+            Self::Logarithm => integral(libm::log(first), a, 1.0, a, out, from),
             Self::Power(exponent) => power(a, exponent, out, from),
             Self::PowerLessOne(exponent) => fill(out, from, |n, own| match n {
                 0 => libm::expm1(-exponent * libm::log1p(-first)),
@@ -120,7 +120,7 @@ fn sine_cosine(a: &[f64], sine: &mut [f64], cosine: &mut [f64]) {
 }
 
 /// The function with this value at a₀ whose derivative is ±a'/b: n yₙ b₀ = ±n aₙ − Σ k yₖ bₙ₋ₖ, k < n.
-fn integral(value: f64, (a, sign): (&[f64], f64), b: &[f64], out: &mut [f64], from: usize) {
+fn integral(value: f64, a: &[f64], sign: f64, b: &[f64], out: &mut [f64], from: usize) {
     fill(out, from, |n, own| match n {
         0 => value,
         n => (sign * coefficient(a, n) - chained(own, b, n) / number(n)) / coefficient(b, 0),

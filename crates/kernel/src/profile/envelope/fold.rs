@@ -18,29 +18,36 @@ pub(super) fn corners(parallel: Parallel<'_>) -> Vec<Corner> {
     corners
 }
 
-/// Stretches of the parameter in which the curve runs backwards, from cusp to cusp, and corners at which it steps backwards as
-/// stretches without length; in order.
-pub(super) fn folds(parallel: Parallel<'_>) -> Vec<(f64, f64)> {
+/// A stretch of the parameter in which the curve runs backwards, from cusp to cusp, or a corner at which it steps backwards as a
+/// stretch without length.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fold {
+    pub(super) from: f64,
+    pub(super) to: f64,
+}
+
+/// The folds of a curve in order.
+pub(super) fn folds(parallel: Parallel<'_>) -> Vec<Fold> {
     let motion = parallel.curves.motion;
-    let mut folds: Vec<(f64, f64)> = corners(parallel).iter().map(|c| (c.at, c.at)).collect();
+    let mut folds: Vec<Fold> = corners(parallel).iter().map(|c| Fold { from: c.at, to: c.at }).collect();
     if !clearly_forward(parallel) {
         for (index, piece) in motion.pieces().iter().enumerate() {
             folds.extend(in_piece(parallel, index, piece));
         }
     }
-    folds.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut merged: Vec<(f64, f64)> = Vec::new();
+    folds.sort_by(|a, b| a.from.total_cmp(&b.from));
+    let mut merged: Vec<Fold> = Vec::new();
     for fold in folds {
         match merged.last_mut() {
-            Some(last) if fold.0 <= last.1 => last.1 = last.1.max(fold.1),
+            Some(last) if fold.from <= last.to => last.to = last.to.max(fold.to),
             _ => merged.push(fold),
         }
     }
     // A fold that extends over the end of the period is one fold.
     if let (Some(period), [first, .., last]) = (motion.period(), merged.as_mut_slice())
-        && (first.0, last.1) == motion.range()
+        && (first.from, last.to) == motion.range()
     {
-        first.0 = last.0 - period;
+        first.from = last.from - period;
         merged.pop();
     }
     merged
@@ -71,13 +78,13 @@ fn forward(parallel: Parallel<'_>, piece: usize, parameter: f64) -> (f64, f64) {
 }
 
 /// The folds of a piece, cut off at its ends.
-fn in_piece(parallel: Parallel<'_>, index: usize, piece: &Piece) -> Vec<(f64, f64)> {
+fn in_piece(parallel: Parallel<'_>, index: usize, piece: &Piece) -> Vec<Fold> {
     let at = |parameter: f64| forward(parallel, index, parameter);
     let cusp = |low: f64, high: f64| root::bracketed(|p| at(p).0, low, high, 0.0).unwrap_or(high);
     let cells = if piece.dwell { 1 } else { CELLS };
     let mut folds = Vec::new();
     let (mut left, mut there) = (piece.start, at(piece.start));
-    let mut from = is_backwards(there).then_some(left);
+    let mut from = is_backwards(there.0).then_some(left);
     for cell in 1..=cells {
         let right = if cell == cells {
             piece.end
@@ -85,29 +92,29 @@ fn in_piece(parallel: Parallel<'_>, index: usize, piece: &Piece) -> Vec<(f64, f6
             piece.start + (piece.end - piece.start) / f64::from(cells) * f64::from(cell)
         };
         let here = at(right);
-        match (from, is_backwards(here)) {
+        match (from, is_backwards(here.0)) {
             (None, true) => from = Some(cusp(left, right)),
             (Some(start), false) => {
-                folds.push((start, cusp(left, right)));
+                folds.push(Fold { from: start, to: cusp(left, right) });
                 from = None;
             }
             // A fold within a cell shows at its sharpest place.
             (None, false) if there.1 < 0.0 && here.1 > 0.0 => {
                 if let Ok(sharpest) = root::bracketed(|p| at(p).1, left, right, 0.0)
-                    && is_backwards(at(sharpest))
+                    && is_backwards(at(sharpest).0)
                 {
-                    folds.push((cusp(left, sharpest), cusp(sharpest, right)));
+                    folds.push(Fold { from: cusp(left, sharpest), to: cusp(sharpest, right) });
                 }
             }
             _ => {}
         }
         (left, there) = (right, here);
     }
-    folds.extend(from.map(|start| (start, piece.end)));
+    folds.extend(from.map(|from| Fold { from, to: piece.end }));
     folds
 }
 
 /// Written so that a NaN counts as backwards.
-fn is_backwards((value, _): (f64, f64)) -> bool {
-    !(value > 0.0)
+fn is_backwards(speed: f64) -> bool {
+    !(speed > 0.0)
 }

@@ -157,13 +157,12 @@ impl FollowerOnChain<'_> {
         for (stretch, places) in &all {
             for pair in places.windows(2) {
                 let [low, high] = pair else { continue };
-                errors.velocity =
-                    errors.velocity.or_larger(self.largest_velocity(stretch, (low, high), errors.velocity));
+                errors.velocity = errors.velocity.or_larger(self.largest_velocity(stretch, low, high, errors.velocity));
             }
             for three in places.windows(3) {
                 let [left, middle, right] = three else { continue };
                 if top([left, middle, right]).is_some_and(|top| top > NEAR * errors.acceleration.value) {
-                    let found = self.largest_acceleration(stretch, (left.at, right.at));
+                    let found = self.largest_acceleration(stretch, left.at, right.at);
                     errors.acceleration = errors.acceleration.or_larger(found);
                 }
             }
@@ -180,9 +179,9 @@ impl FollowerOnChain<'_> {
                 && size > NEAR * errors.acceleration.value
                 && size > low.acceleration.abs().max(high.acceleration.abs())
             {
-                let found = self.largest_acceleration(before, (low.at, last.at));
+                let found = self.largest_acceleration(before, low.at, last.at);
                 errors.acceleration = errors.acceleration.or_larger(found);
-                let found = self.largest_acceleration(after, (first.at, high.at));
+                let found = self.largest_acceleration(after, first.at, high.at);
                 errors.acceleration = errors.acceleration.or_larger(found);
             }
         }
@@ -197,7 +196,8 @@ impl FollowerOnChain<'_> {
     fn largest_velocity(
         &self,
         stretch: &ContactStretch,
-        (low, high): (&PlaceErrors, &PlaceErrors),
+        low: &PlaceErrors,
+        high: &PlaceErrors,
         largest: Worst,
     ) -> Worst {
         let (left, right) = (low.acceleration, high.acceleration);
@@ -219,10 +219,10 @@ impl FollowerOnChain<'_> {
     }
 
     /// The largest error of the acceleration within a range with one maximum.
-    fn largest_acceleration(&self, stretch: &ContactStretch, range: (f64, f64)) -> Worst {
+    fn largest_acceleration(&self, stretch: &ContactStretch, low: f64, high: f64) -> Worst {
         let found = extremum::largest_without_slope(
             |at| self.value(stretch, at, |off| off.acceleration).abs(),
-            range,
+            (low, high),
             2,
             SECTIONS,
         );

@@ -47,12 +47,14 @@ impl Strip {
     /// of arcs in a range.
     fn along(
         target: impl Fn(f64) -> (CurvePoint, ChainTolerance),
-        range: (f64, f64),
+        from: f64,
+        to: f64,
         tolerance: f64,
-        (fit, numbers): (&Fit, RangeInclusive<u32>),
+        fit: &Fit,
+        numbers: RangeInclusive<u32>,
     ) -> Result<Self, OutlineError> {
         if fit.laid == SegmentKind::Splines {
-            let fitted = cubics::fit(|at| target(at).0, range, tolerance, &|at, _| target(at).1)?;
+            let fitted = cubics::fit(|at| target(at).0, (from, to), tolerance, &|at, _| target(at).1)?;
             return Ok(Self {
                 vertices: fitted
                     .spline
@@ -66,9 +68,9 @@ impl Strip {
             });
         }
         let chain = if fit.motion == MotionTolerance::ANY {
-            arcs::fit(|at| target(at).0, range, tolerance)?
+            arcs::fit(|at| target(at).0, (from, to), tolerance)?
         } else {
-            arcs::fit_with_tolerances(target, range, tolerance, numbers)?
+            arcs::fit_with_tolerances(target, (from, to), tolerance, numbers)?
         };
         Ok(Self {
             vertices: chain.joints.iter().map(|joint| Vertex::new(joint.point, joint.bulge)).collect(),
@@ -134,7 +136,7 @@ struct PieceStrip {
 
 impl OutlineStrips {
     /// The strip along a range of a piece, if the piece that this one repeats has a strip along the corresponding range.
-    fn repeated(&self, curves: Curves<'_>, piece: usize, (from, to): (f64, f64)) -> Option<Strip> {
+    fn repeated(&self, curves: Curves<'_>, piece: usize, from: f64, to: f64) -> Option<Strip> {
         curves.motion.period()?;
         let pieces = curves.motion.pieces();
         let (first, in_mirror) = curves.motion.repeats(piece);
@@ -167,7 +169,7 @@ impl Outline {
         range: (f64, f64),
         fit: &Fit,
     ) -> Result<(), OutlineError> {
-        self.add(Strip::along(target, range, MILLIMETRES * fit.tolerance, (fit, ANY_NUMBER))?);
+        self.add(Strip::along(target, range.0, range.1, MILLIMETRES * fit.tolerance, fit, ANY_NUMBER)?);
         Ok(())
     }
 
@@ -176,18 +178,16 @@ impl Outline {
     pub(super) fn add_repeatable_piece(
         &mut self,
         strips: &mut OutlineStrips,
-        curves: Curves<'_>,
-        (piece, distance, stands_for): (usize, f64, f64),
-        range: (f64, f64),
+        stretch: ParallelStretch<'_>,
         fit: &Fit,
     ) -> Result<(), OutlineError> {
-        let strip = match strips.repeated(curves, piece, range) {
+        let ParallelStretch { curves, piece, range, .. } = stretch;
+        let strip = match strips.repeated(curves, piece, range.0, range.1) {
             Some(strip) => strip,
-            None => motion_strip(curves, (piece, distance, stands_for), range, fit)?,
+            None => stretch.strip(fit)?,
         };
-        let end = frame(curves, (piece, range.1), distance).point;
         self.add(strip.clone());
-        strips.0.push(PieceStrip { piece, range, end, strip });
+        strips.0.push(PieceStrip { piece, range, end: stretch.end(), strip });
         Ok(())
     }
 
@@ -203,60 +203,118 @@ impl Outline {
 }
 
 /// A parallel of the follower's curve at a distance inwards (m), in millimetres.
-pub(super) fn frame(curves: Curves<'_>, (piece, at): (usize, f64), distance: f64) -> CurvePoint {
+pub(super) fn frame(curves: Curves<'_>, piece: usize, at: f64, distance: f64) -> CurvePoint {
     curves.touch(piece, at).curve.offset_inward(distance).scaled(MILLIMETRES)
 }
 
-/// A strip along a parallel of the follower's curve (m inwards) that keeps the tolerances of the follower's motion on the parallel
-/// that it represents. Where no follower runs, only the distance is kept.
-fn motion_strip(
-    curves: Curves<'_>,
-    place: (usize, f64, f64),
-    range: (f64, f64),
-    fit: &Fit,
-) -> Result<Strip, OutlineError> {
-    let (piece, distance, _) = place;
-    if fit.motion != MotionTolerance::ANY
-        && curves.motion.is_rolled(piece)
-        && let Some(found) = keeping_motion(curves, place, range, (fit, ANY_NUMBER))
-    {
-        return Ok(fewest(curves, place, range, (fit, found)).1);
-    }
-    let fit = Fit { motion: MotionTolerance::ANY, ..*fit };
-    Strip::along(
-        |at| (frame(curves, (piece, at), distance), ChainTolerance::ANY),
-        range,
-        MILLIMETRES * fit.tolerance,
-        (&fit, ANY_NUMBER),
-    )
+/// A stretch of a parallel of the follower's curve to which a strip is fitted.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ParallelStretch<'a> {
+    pub(super) curves: Curves<'a>,
+    pub(super) piece: usize,
+    /// First and last parameter.
+    pub(super) range: (f64, f64),
+    /// How far inwards the parallel lies, m.
+    pub(super) distance: f64,
+    /// The same of the parallel that it represents and on which the errors of the motion are measured, m.
+    pub(super) stands_for: f64,
 }
 
-/// Under a face of the strips within finer and finer distances the one of fewest arcs, so that a coarser request never takes more arcs than
-/// a finer one of the numbers tried: the number depends on the distance also where the acceleration alone decides it.
-fn fewest(
-    curves: Curves<'_>,
-    place: (usize, f64, f64),
-    range: (f64, f64),
-    (fit, mut best): (&Fit, (f64, Strip)),
-) -> (f64, Strip) {
-    if !is_by_radius(curves, fit) {
-        return best;
+impl ParallelStretch<'_> {
+    fn end(&self) -> Vector2<f64> {
+        frame(self.curves, self.piece, self.range.1, self.distance).point
     }
-    let for_distance = best.1.best_possible;
-    for tolerance in finer(fit.tolerance) {
-        let arcs = best.1.arcs();
-        // Where the request is not kept, a finer distance does not help either.
-        if for_distance * libm::cbrt(fit.tolerance / tolerance) >= f64::from(arcs) || arcs > MANY || best.0 > 1.0 {
-            break;
+
+    /// A strip that keeps the tolerances of the follower's motion on the parallel that this one represents. Where no follower runs, only
+    /// the distance is kept.
+    fn strip(&self, fit: &Fit) -> Result<Strip, OutlineError> {
+        if fit.motion != MotionTolerance::ANY
+            && self.curves.motion.is_rolled(self.piece)
+            && let Some((worst, strip)) = self.keeping_motion(fit, ANY_NUMBER)
+        {
+            return Ok(if is_by_radius(self.curves, fit) { self.fewest(fit, worst, strip) } else { strip });
         }
-        let finer = Fit { tolerance, ..*fit };
-        let found = keeping_motion(curves, place, range, (&finer, 1..=arcs - 1));
-        if let Some(found) = found.filter(|(worst, strip)| *worst <= 1.0 && strip.arcs() < arcs) {
-            best = found;
-        }
+        let fit = Fit { motion: MotionTolerance::ANY, ..*fit };
+        Strip::along(
+            |at| (frame(self.curves, self.piece, at, self.distance), ChainTolerance::ANY),
+            self.range.0,
+            self.range.1,
+            MILLIMETRES * fit.tolerance,
+            &fit,
+            ANY_NUMBER,
+        )
     }
-    best.1.best_possible = for_distance;
-    best
+
+    /// Under a face of the strips within finer and finer distances the one of fewest arcs, so that a coarser request never takes more arcs
+    /// than a finer one of the numbers tried: the number depends on the distance also where the acceleration alone decides it.
+    fn fewest(&self, fit: &Fit, mut worst: f64, mut best: Strip) -> Strip {
+        let for_distance = best.best_possible;
+        for tolerance in finer(fit.tolerance) {
+            let arcs = best.arcs();
+            // Where the request is not kept, a finer distance does not help either.
+            if for_distance * libm::cbrt(fit.tolerance / tolerance) >= f64::from(arcs) || arcs > MANY || worst > 1.0 {
+                break;
+            }
+            let found = self.keeping_motion(&Fit { tolerance, ..*fit }, 1..=arcs - 1);
+            if let Some(found) = found.filter(|(worst, strip)| *worst <= 1.0 && strip.arcs() < arcs) {
+                (worst, best) = found;
+            }
+        }
+        best.best_possible = for_distance;
+        best
+    }
+
+    /// A strip that keeps the tolerances of the motion, with its largest error over what is allowed; `None` where no number of edges that a
+    /// drawing can hold is enough.
+    ///
+    /// The allowed errors of heading and curvature follow from these to first order; the errors of the motion are then measured on the
+    /// chain itself, which is fitted again where they are too large.
+    fn keeping_motion(&self, fit: &Fit, numbers: RangeInclusive<u32>) -> Option<(f64, Strip)> {
+        let Self { curves, piece, range, distance, stands_for } = *self;
+        let motion = fit.motion;
+        // The measured errors differ from the first order by about the share of one arc in all arcs.
+        let arcs = variation(curves.motion, piece, range.0, range.1, PLACES) / (2.0 * motion.acceleration);
+        let first = arcs.max(FEW) / (arcs.max(FEW) + 1.0);
+        let mut tightened = MotionTolerance { acceleration: first * motion.acceleration, ..motion };
+        let by_radius = is_by_radius(curves, fit);
+        let (mut least, most) = numbers.into_inner();
+        let mut best: Option<(f64, Strip)> = None;
+        for _ in 0..TRIES {
+            // The check reports that it is not kept.
+            let Ok(mut strip) = Strip::along(
+                |at| within(curves, piece, at, distance, tightened, by_radius),
+                range.0,
+                range.1,
+                MILLIMETRES * fit.tolerance,
+                fit,
+                least..=most,
+            ) else {
+                break;
+            };
+            // Tighter tolerances take no fewer arcs.
+            least = strip.arcs();
+            // The best possible numbers are those for the given tolerances, not for the tighter ones of this attempt.
+            let [velocity, acceleration] = &mut strip.best_for;
+            *velocity *= (tightened.velocity / motion.velocity).max(0.0).sqrt();
+            *acceleration *= tightened.acceleration / motion.acceleration;
+            let edges = strip.edges(self.end());
+            let errors = FollowerOnChain::on_parallel(curves, stands_for, &edges).errors();
+            let over = [errors.velocity.value / motion.velocity, errors.acceleration.value / motion.acceleration];
+            let worst = over.iter().copied().fold(0.0, f64::max);
+            if best.as_ref().is_none_or(|(least, _)| worst < *least) {
+                best = Some((worst, strip));
+            }
+            if !(worst > 1.0) {
+                break;
+            }
+            let [velocity, acceleration] = over.map(|over| over.max(1.0) / if over > 1.0 { CLOSER } else { 1.0 });
+            tightened = MotionTolerance {
+                velocity: tightened.velocity / velocity,
+                acceleration: tightened.acceleration / acceleration,
+            };
+        }
+        best
+    }
 }
 
 /// The lengths 1, 2 and 5 times a power of ten below one, in falling order.
@@ -275,68 +333,16 @@ fn is_by_radius(curves: Curves<'_>, fit: &Fit) -> bool {
     curves.element() == Element::Face && fit.laid == SegmentKind::Arcs
 }
 
-/// A strip that keeps the tolerances of the motion, with its largest error over what is allowed; `None` where no number of edges that a
-/// drawing can hold is enough.
-///
-/// The allowed errors of heading and curvature follow from these to first order; the errors of the motion are then measured on the
-/// chain itself, which is fitted again where they are too large.
-fn keeping_motion(
-    curves: Curves<'_>,
-    (piece, distance, stands_for): (usize, f64, f64),
-    range: (f64, f64),
-    (fit, numbers): (&Fit, RangeInclusive<u32>),
-) -> Option<(f64, Strip)> {
-    let motion = fit.motion;
-    // The measured errors differ from the first order by about the share of one arc in all arcs.
-    let arcs = variation(curves.motion, piece, range, PLACES) / (2.0 * motion.acceleration);
-    let first = arcs.max(FEW) / (arcs.max(FEW) + 1.0);
-    let mut tightened = MotionTolerance { acceleration: first * motion.acceleration, ..motion };
-    let by_radius = is_by_radius(curves, fit);
-    let (mut least, most) = numbers.into_inner();
-    let mut best: Option<(f64, Strip)> = None;
-    for _ in 0..TRIES {
-        // The check reports that it is not kept.
-        let Ok(mut strip) = Strip::along(
-            |at| within(curves, (piece, at), distance, (tightened, by_radius)),
-            range,
-            MILLIMETRES * fit.tolerance,
-            (fit, least..=most),
-        ) else {
-            break;
-        };
-        // Tighter tolerances take no fewer arcs.
-        least = strip.arcs();
-        // The best possible numbers are those for the given tolerances, not for the tighter ones of this attempt.
-        let [velocity, acceleration] = &mut strip.best_for;
-        *velocity *= (tightened.velocity / motion.velocity).max(0.0).sqrt();
-        *acceleration *= tightened.acceleration / motion.acceleration;
-        let edges = strip.edges(frame(curves, (piece, range.1), distance).point);
-        let errors = FollowerOnChain::on_parallel(curves, stands_for, &edges).errors();
-        let over = [errors.velocity.value / motion.velocity, errors.acceleration.value / motion.acceleration];
-        let worst = over.iter().copied().fold(0.0, f64::max);
-        if best.as_ref().is_none_or(|(least, _)| worst < *least) {
-            best = Some((worst, strip));
-        }
-        if !(worst > 1.0) {
-            break;
-        }
-        let [velocity, acceleration] = over.map(|over| over.max(1.0) / if over > 1.0 { CLOSER } else { 1.0 });
-        tightened = MotionTolerance {
-            velocity: tightened.velocity / velocity,
-            acceleration: tightened.acceleration / acceleration,
-        };
-    }
-    best
-}
-
 /// A parallel of the follower's curve at a distance inwards (m), in millimetres, with the allowed errors of its heading and curvature that
 /// keep these errors of the motion: to first order δs' = (ℓ/cos α) δheading and δs'' = −(ℓ²/cos α) δκ, ℓ the speed
 /// of that parallel, which is the same for all of them. Under a face δs'' is the error of the radius, of any size.
 fn within(
     curves: Curves<'_>,
-    (piece, at): (usize, f64),
+    piece: usize,
+    at: f64,
     distance: f64,
-    (motion, by_radius): (MotionTolerance, bool),
+    motion: MotionTolerance,
+    by_radius: bool,
 ) -> (CurvePoint, ChainTolerance) {
     let lift = curves.motion.jet(piece, at);
     let touch = curves.follower.touch(at, &lift);
@@ -370,7 +376,7 @@ pub fn too_many_arcs(curves: Curves<'_>, tolerance: MotionTolerance) -> Option<f
     let rolled = motion.pieces().iter().enumerate().filter(|(piece, span)| motion.is_rolled(*piece) && !span.dwell);
     let arcs = rolled.map(|(piece, span)| {
         let arcs =
-            |places: u32| variation(motion, piece, (span.start, span.end), places) / (2.0 * tolerance.acceleration);
+            |places: u32| variation(motion, piece, span.start, span.end, places) / (2.0 * tolerance.acceleration);
         // A piece may have many waves.
         let mut places = PLACES;
         let (mut before, mut here) = (0.0, arcs(places));
@@ -391,7 +397,7 @@ pub(super) fn within_reach(curves: Curves<'_>, fit: &Fit) -> Fit {
 
 /// The total variation of the acceleration over a range of a piece, by the angle of the shaft, estimated from so many places. It varies by
 /// twice the allowed error along an arc.
-fn variation(motion: &dyn Motion, piece: usize, (from, to): (f64, f64), places: u32) -> f64 {
+fn variation(motion: &dyn Motion, piece: usize, from: f64, to: f64, places: u32) -> f64 {
     let accelerations = (0..=places).map(|i| {
         let place = from + (to - from) * f64::from(i) / f64::from(places);
         let (jet, (first, second)) = (motion.jet(piece, place), motion.pace(place));

@@ -6,7 +6,7 @@ mod laying;
 
 use crate::document::NamedChoice;
 use crate::refusal::Refusal;
-use laying::OutlineStrips;
+use laying::{OutlineStrips, ParallelStretch};
 pub use laying::{allowed, too_many_arcs};
 
 use super::envelope::{BreakSide, NoEnvelope, Parallel, ParallelLoop};
@@ -316,7 +316,7 @@ fn parallel_outline(curves: Curves<'_>, distance: f64, fit: Fit, room: f64) -> R
     let (shift, half) = fit.band();
     if shift == 0.0 {
         let within = Fit { tolerance: half, ..fit };
-        return Ok((parallel(curves, (distance, distance), &within, &undrawn_stretches(curves, distance)?)?, shift));
+        return Ok((parallel(curves, distance, distance, &within, &undrawn_stretches(curves, distance)?)?, shift));
     }
     let shift = shift.clamp(-room, room);
     // From an edge of turn τ the edge of a parallel is 1/cos(τ/2) times as far as the adjacent curves.
@@ -325,7 +325,7 @@ fn parallel_outline(curves: Curves<'_>, distance: f64, fit: Fit, room: f64) -> R
     let shift = shift * closer;
     let gaps = undrawn_stretches(curves, distance + shift)?;
     let within = Fit { tolerance: shift.abs(), ..fit };
-    let outline = parallel(curves, (distance + shift, distance), &within, &gaps)?;
+    let outline = parallel(curves, distance + shift, distance, &within, &gaps)?;
     let outline = outline.measured_from_exact(shift);
     let deviation = outline.deviation.max(MILLIMETRES * shift.abs() / closer);
     Ok((Outline { deviation, ..outline }, shift))
@@ -376,7 +376,7 @@ pub fn pitch(curves: Curves<'_>) -> Result<Outline, OutlineError> {
 /// # Errors
 /// As for [`pitch`].
 pub fn pitch_within(curves: Curves<'_>, tolerance: f64) -> Result<Outline, OutlineError> {
-    parallel(curves, (0.0, 0.0), &Fit::from(tolerance), &[])
+    parallel(curves, 0.0, 0.0, &Fit::from(tolerance), &[])
 }
 
 /// The angle by which a parallel turns from before a loop to after it, rad.
@@ -410,13 +410,14 @@ pub fn check_drawing_size(pieces: &[Piece], frame: impl Fn(usize, f64) -> CurveP
 /// motion are those on a parallel at another distance, which this one represents.
 fn parallel(
     curves: Curves<'_>,
-    (distance, stands_for): (f64, f64),
+    distance: f64,
+    stands_for: f64,
     fit: &Fit,
     gaps: &[UndrawnStretch],
 ) -> Result<Outline, OutlineError> {
     let period = curves.motion.period();
     let pieces = curves.motion.pieces();
-    check_drawing_size(pieces, |piece, angle| laying::frame(curves, (piece, angle), distance))?;
+    check_drawing_size(pieces, |piece, angle| laying::frame(curves, piece, angle, distance))?;
     let fit = &laying::within_reach(curves, fit);
     let corners = extremes::corners(curves);
     let spans: Vec<(f64, f64)> = gaps.iter().map(|gap| (gap.from, gap.to)).collect();
@@ -430,27 +431,27 @@ fn parallel(
             if piece.dwell {
                 // A circle about the shaft, also for an offset follower: one true arc. On a plate a straight line.
                 let bulge = period.map_or(0.0, |_| libm::tan(0.25 * (range.1 - range.0)));
-                let start = laying::frame(curves, (index, range.0), distance).point;
+                let start = laying::frame(curves, index, range.0, distance).point;
                 outline.contour.vertices.push(Vertex::new(start, bulge));
             } else {
-                let fitted =
-                    outline.add_repeatable_piece(&mut strips, curves, (index, distance, stands_for), range, fit);
+                let stretch = ParallelStretch { curves, piece: index, range, distance, stands_for };
+                let fitted = outline.add_repeatable_piece(&mut strips, stretch, fit);
                 fitted.map_err(|error| error.between(range, period))?;
                 if outline.contour.vertices.len() > MOST_EDGES as usize {
                     let by_distance = fit.by_distance().ok_or_else(too_many_edges)?;
-                    return parallel(curves, (distance, stands_for), &by_distance, gaps);
+                    return parallel(curves, distance, stands_for, &by_distance, gaps);
                 }
             }
             // Readers drop shorter arcs.
             let mut long =
                 gaps.iter().filter(|gap| MILLIMETRES * gap.arc.abs() * (curves.offset() - distance) > SHORTEST_ARC);
             if let Some(gap) = long.find(|gap| starts_at(gap, range.1, period)) {
-                let start = laying::frame(curves, (index, range.1), distance).point;
+                let start = laying::frame(curves, index, range.1, distance).point;
                 outline.contour.vertices.push(Vertex::new(start, libm::tan(0.25 * gap.arc)));
             }
         }
         let whole = ranges.last().is_some_and(|range| range.1 == piece.end);
-        let end = laying::frame(curves, (index, piece.end), distance).point;
+        let end = laying::frame(curves, index, piece.end, distance).point;
         // At a concave corner of the pitch curve the roller turns in place: an arc of its own radius.
         if let Some(corner) = corners.iter().find(|corner| corner.turn < 0.0 && corner.at == piece.end)
             && MILLIMETRES * corner.turn.abs() * distance > SHORTEST_ARC

@@ -120,7 +120,7 @@ impl Conoid {
         let mut stretches: Vec<BoundaryStretch> = Vec::new();
         for (index, piece) in self.pieces().iter().enumerate() {
             let round = self.is_round(index, piece, z);
-            stretches.extend(boundary::cut(index, &Piece { dwell: round, ..*piece }, (piece.start, piece.end), false));
+            stretches.extend(boundary::cut(index, &Piece { dwell: round, ..*piece }, piece.start, piece.end, false));
         }
         if turned {
             stretches = mirrored(&stretches);

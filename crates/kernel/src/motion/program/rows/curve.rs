@@ -14,7 +14,8 @@ const CELLS: u32 = 8;
 /// The program of the rows of a turn, with its figures.
 pub(super) fn program(
     turn: &Turn,
-    (start, lobes): (f64, u32),
+    start: f64,
+    lobes: u32,
     whole: ProgramContext,
     rows: &Rows,
     wishes: RowWishes,
@@ -35,7 +36,7 @@ pub(super) fn program(
     let Ok(found) = found else { return Program::empty(whole.quantity, lobes) };
     let (dwells, base) = (found.dwells.clone(), start + first);
     let program = if dwells.contains(&true) {
-        of_runs(turn, &found, wishes.cubic, (base, lobes), whole, rows.name())
+        of_runs(turn, &found, wishes.cubic, base, lobes, whole, rows.name())
     } else {
         let curve = if wishes.cubic {
             spline::cubic(&turn.knots, &values)
@@ -46,9 +47,9 @@ pub(super) fn program(
             spline::chain(&turn.knots, &nodes)
         };
         let base = base + if wishes.cubic { 0.0 } else { found.values.first().copied().unwrap_or(0.0) };
-        Program::of_curve(whole.quantity, Span::Turn { at: turn.at, lobes }, base, (rows.name(), curve))
+        Program::of_curve(whole.quantity, Span::Turn { at: turn.at, lobes }, base, rows.name(), curve)
     };
-    let figures = run.figures(&found, wishes, &rows.told).placed((turn.at, whole.fill), 1.0);
+    let figures = run.figures(&found, wishes, &rows.told).placed(turn.at, whole.fill, 1.0);
     let cubic_overshoot = wishes.cubic.then(|| overshoot_of(&program, turn, base, whole));
     let overshoot = cubic_overshoot.unwrap_or(figures.overshoot);
     // Rows of a turn begin at the first row after its start.
@@ -60,7 +61,7 @@ pub(super) fn program(
 }
 
 /// The curve through the rows of a run from one to another, over shares of its angle, from 0 on.
-fn run_curve(turn: &Turn, found: &Nodes, cubic: bool, (first, end): (usize, usize)) -> LawCurve {
+fn run_curve(turn: &Turn, found: &Nodes, cubic: bool, first: usize, end: usize) -> LawCurve {
     let (from, (own, _)) = (turn.knot(first), found.node(first));
     let width = turn.knot(end) - from;
     let knots: Vec<f64> =
@@ -81,7 +82,8 @@ fn of_runs(
     turn: &Turn,
     found: &Nodes,
     cubic: bool,
-    (base, lobes): (f64, u32),
+    base: f64,
+    lobes: u32,
     whole: ProgramContext,
     name: &'static str,
 ) -> Program {
@@ -93,7 +95,7 @@ fn of_runs(
         let end = end.unwrap_or(found.dwells.len());
         let (from, width) = (turn.knot(at), turn.knot(end) - turn.knot(at));
         let own = found.node(at).0;
-        let curve = (!dwell).then(|| run_curve(turn, found, cubic, (at, end)));
+        let curve = (!dwell).then(|| run_curve(turn, found, cubic, at, end));
         let ends = [at, end].map(|index| {
             let (_, [v, a]) = found.node(index);
             if cubic {

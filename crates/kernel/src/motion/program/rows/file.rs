@@ -224,8 +224,10 @@ struct Factor {
 fn contradiction<T>(
     table: &TableReader<'_>,
     key: &Field<T>,
-    (what, heading): (&str, &str),
-    (of_key, of_heading): (&str, &str),
+    what: &str,
+    heading: &str,
+    of_key: &str,
+    of_heading: &str,
 ) {
     let message = format!(
         "`{}` says {of_key} for the {what}, but the heading \"{heading}\" of the table says {of_heading}",
@@ -278,7 +280,8 @@ fn of_angles(
     table: &TableReader<'_>,
     heading: &str,
     given: Option<Unit>,
-    (span, fill): (f64, f64),
+    span: f64,
+    fill: f64,
     told: &mut Vec<String>,
 ) -> Option<Factor> {
     let unit = unit_of_heading(table, "angles", heading, [given.is_some(), table.has(&RATIO_OF_ANGLES)]).ok()?;
@@ -295,7 +298,7 @@ fn of_angles(
     if table.has(&OVER_ROWS) {
         let over = table.get(&OVER_ROWS)?;
         if let Some((symbol, _)) = by_heading {
-            contradiction(table, &OVER_ROWS, ("angles", heading), ("shares", symbol));
+            contradiction(table, &OVER_ROWS, "angles", heading, "shares", symbol);
             return None;
         }
         if table.has(&RATIO_OF_ANGLES) || given.is_some() {
@@ -308,14 +311,14 @@ fn of_angles(
     if let (Some((symbol, size)), Some((other, other_size))) = (by_heading, given)
         && size != other_size
     {
-        contradiction(table, &UNIT, ("angles", heading), (other, symbol));
+        contradiction(table, &UNIT, "angles", heading, other, symbol);
         return None;
     }
     let size = by_heading.or(given).map_or(DEGREE, |(_, size)| size);
     if let Some((symbol, _)) = by_heading.filter(|(symbol, _)| *symbol != "deg") {
         told.push(format!("angles in {symbol}, by the heading \"{heading}\""));
     }
-    let ratio = ratio_of(table, heading, by_heading.is_some(), (span * size, fill), told)?;
+    let ratio = ratio_of(table, heading, by_heading.is_some(), span * size, fill, told)?;
     Some(Factor { by: size / ratio, most: None })
 }
 
@@ -325,14 +328,15 @@ fn ratio_of(
     table: &TableReader<'_>,
     heading: &str,
     has_unit: bool,
-    (span, fill): (f64, f64),
+    span: f64,
+    fill: f64,
     told: &mut Vec<String>,
 ) -> Option<f64> {
     let (cam, crank) = (heading.to_lowercase().contains("cam") && !is_of_crank(heading), is_of_crank(heading));
     if table.has(&RATIO_OF_ANGLES) {
         let ratio = table.get(&RATIO_OF_ANGLES)?;
         if cam && ratio != 1.0 {
-            contradiction(table, &RATIO_OF_ANGLES, ("angles", heading), ("those of another shaft", "those of the cam"));
+            contradiction(table, &RATIO_OF_ANGLES, "angles", heading, "those of another shaft", "those of the cam");
             return None;
         }
         return Some(ratio);
@@ -356,9 +360,11 @@ fn ratio_of(
 /// What shares of a lift are multiplied with; `of_one` tells that none of them is above 1.
 fn of_lift(
     table: &TableReader<'_>,
-    (heading, unit): (&str, Option<HeadingUnit>),
+    heading: &str,
+    unit: Option<HeadingUnit>,
     has_unit: bool,
-    (quantity, of_one): (Quantity, bool),
+    quantity: Quantity,
+    of_one: bool,
     told: &mut Vec<String>,
 ) -> Option<Factor> {
     let (found, lift) = crate::motion::program::context::value_of(table.get::<LengthOrAngle>(&LIFT)?, None);
@@ -368,7 +374,7 @@ fn of_lift(
         return None;
     }
     if let Some(HeadingUnit::Quantity { symbol, .. }) = unit {
-        contradiction(table, &LIFT, ("positions", heading), ("shares", symbol));
+        contradiction(table, &LIFT, "positions", heading, "shares", symbol);
         return None;
     }
     if table.has(&SCALE) || has_unit {
@@ -389,7 +395,8 @@ fn of_positions(
     table: &TableReader<'_>,
     heading: &str,
     given: Option<Unit>,
-    (quantity, largest): (Quantity, f64),
+    quantity: Quantity,
+    largest: f64,
     told: &mut Vec<String>,
 ) -> Option<Factor> {
     let scale = if table.has(&SCALE) { table.get(&SCALE)? } else { 1.0 };
@@ -402,7 +409,7 @@ fn of_positions(
     let percent = unit == Some(HeadingUnit::Percent);
     let of_one = largest <= 1.0 + SHARE;
     if table.has(&LIFT) {
-        return of_lift(table, (heading, unit), given.is_some(), (quantity, of_one), told);
+        return of_lift(table, heading, unit, given.is_some(), quantity, of_one, told);
     }
     if percent && !table.has(&SCALE) && given.is_none() {
         let message =
@@ -429,7 +436,7 @@ fn of_positions(
     if let (Some((symbol, size)), Some((other, other_size))) = (by_heading, given)
         && size != other_size
     {
-        contradiction(table, &UNIT, ("positions", heading), (other, symbol));
+        contradiction(table, &UNIT, "positions", heading, other, symbol);
         return None;
     }
     let start = unit_of_start(table, quantity)?;
@@ -479,11 +486,7 @@ fn number_in(table: &TableReader<'_>, file: &Columns, row: usize, at: usize, wha
 }
 
 /// Angle and position of every row, as written; the angle of a list is the number of the row.
-fn numbers(
-    table: &TableReader<'_>,
-    file: &Columns,
-    (angle, position): (Option<usize>, usize),
-) -> Option<Vec<[f64; 2]>> {
+fn numbers(table: &TableReader<'_>, file: &Columns, angle: Option<usize>, position: usize) -> Option<Vec<[f64; 2]>> {
     let mut raw: Vec<[f64; 2]> = Vec::with_capacity(file.rows.len());
     for row in 0..file.rows.len() {
         let value = match file.rows.get(row).and_then(FileRow::with_decimal_comma).filter(|_| angle.is_none()) {
@@ -509,10 +512,10 @@ pub(in crate::motion::program) fn read(table: &TableReader<'_>, whole: ProgramCo
     let mut told: Vec<String> = unread(table, &file, &chosen).into_iter().collect();
     let Chosen { angle, position } = chosen;
     let heading = |at: usize| file.headings().get(at).map_or("", String::as_str);
-    let raw = numbers(table, &file, (angle, position))?;
+    let raw = numbers(table, &file, angle, position)?;
     let ends = raw.iter().map(|row| row[0]).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
     let angles = if let Some(angle) = angle {
-        of_angles(table, heading(angle), given[0], (ends.1 - ends.0, whole.fill), &mut told)?
+        of_angles(table, heading(angle), given[0], ends.1 - ends.0, whole.fill, &mut told)?
     } else {
         let ratio = if table.has(&RATIO_OF_ANGLES) { table.get(&RATIO_OF_ANGLES)? } else { 1.0 };
         let step = if table.has(&STEP) { table.get(&STEP)? } else { DEGREE };
@@ -522,7 +525,7 @@ pub(in crate::motion::program) fn read(table: &TableReader<'_>, whole: ProgramCo
     let largest = raw.iter().map(|row| row[1].abs()).fold(0.0, f64::max);
     // The heading of a list is its title.
     let of_position = if angle.is_some() { heading(position) } else { "" };
-    let positions = of_positions(table, of_position, given[1], (quantity, largest), &mut told)?;
+    let positions = of_positions(table, of_position, given[1], quantity, largest, &mut told)?;
     let by = positions.by / arc;
     for (row, [at, value]) in raw.iter().enumerate() {
         for (number, factor, key, kept) in [(*at, &angles, "over", angle.is_some()), (*value, &positions, "lift", true)]

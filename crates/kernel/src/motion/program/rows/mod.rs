@@ -10,8 +10,7 @@ pub(super) mod segment;
 mod turn;
 
 use super::Program;
-use super::context::ProgramContext;
-use super::fault_reported::FaultReported;
+use super::context::{FaultReported, ProgramContext};
 use super::keys::{BETWEEN, DEGREE, MIRROR, POINTS, REST, SMOOTH, TABLE};
 use crate::document::{Columns, Field, FileRow, TableReader};
 use crate::motion::Quantity;
@@ -247,8 +246,8 @@ pub(super) fn degrees(angle: f64) -> f64 {
 
 impl RowFigures {
     /// Figures in shares of a segment that begins at an angle and has a width (rad) and a travel.
-    pub(super) fn of_segment(self, index: usize, range: (f64, f64), travel: f64) -> Self {
-        Self { segment: Some(index), ..self.placed(range, travel) }
+    pub(super) fn of_segment(self, index: usize, from: f64, to: f64, travel: f64) -> Self {
+        Self { segment: Some(index), ..self.placed(from, to, travel) }
     }
 
     /// Adds the file line of the outlier.
@@ -263,7 +262,7 @@ impl RowFigures {
     }
 
     /// Figures by shares at an angle and over a width, rad, with positions in a size.
-    fn placed(self, (at, width): (f64, f64), size: f64) -> Self {
+    fn placed(self, at: f64, width: f64, size: f64) -> Self {
         let angle = |share: f64| at + width * share;
         Self {
             spacing: width * self.spacing,
@@ -371,5 +370,5 @@ pub(super) fn program(
 ) -> Option<Program> {
     let wishes = RowWishes::read(table, &rows, whole.typed(table))?;
     let turn = rows.turn(table, whole.fill)?.moved(whole.at);
-    Some(curve::program(&turn, (start, lobes), whole, &rows, wishes))
+    Some(curve::program(&turn, start, lobes, whole, &rows, wishes))
 }

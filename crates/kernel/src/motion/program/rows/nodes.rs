@@ -307,7 +307,7 @@ fn hidden(steps: impl Iterator<Item = (f64, f64)>, smooth: f64) -> Option<f64> {
 }
 
 /// By how much the curve leaves the values at both ends of an interval, and at which share of it.
-fn beyond(width: f64, (from, to): ([f64; 3], [f64; 3])) -> (f64, f64) {
+fn beyond(width: f64, from: [f64; 3], to: [f64; 3]) -> (f64, f64) {
     let ([y0, v0, a0], [y1, v1, a1]) = (from, to);
     let (h, square) = (width, width * width);
     let (low, high) = (y0.min(y1), y0.max(y1));
@@ -339,7 +339,7 @@ fn overshoot(knots: &[f64], nodes: &Nodes) -> (f64, f64) {
     let jets = nodes.values.iter().zip(&nodes.states).map(|(value, [v, a])| [*value, *v, *a]);
     let pairs = knots.iter().zip(knots.iter().skip(1)).zip(jets.clone().zip(jets.skip(1)));
     let all = pairs.map(|((from, to), ends)| {
-        let (by, share) = beyond(to - from, ends);
+        let (by, share) = beyond(to - from, ends.0, ends.1);
         (by, from + share * (to - from))
     });
     all.fold((0.0, 0.0), |worst, found| if found.0 > worst.0 { found } else { worst })

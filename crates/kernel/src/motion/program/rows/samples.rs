@@ -101,7 +101,7 @@ impl Program {
             fill: TAU,
             by_travel: false,
         };
-        Ok(curve::program(&turn, (0.0, 1), whole, &rows, wishes))
+        Ok(curve::program(&turn, 0.0, 1, whole, &rows, wishes))
     }
 }
 

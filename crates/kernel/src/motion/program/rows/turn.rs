@@ -71,7 +71,7 @@ impl Turn {
             return Err(uncovered(rows, fill, open, equal(first.position, last.position)));
         }
         if !covered && !equal(first.position, last.position) {
-            return Err(cannot_rest((&first, &last), open));
+            return Err(cannot_rest(&first, &last, open));
         }
         if rows.points.len() < FEWEST {
             return Err(too_few_behind_the_first(rows));
@@ -103,7 +103,7 @@ fn within_a_turn(angle: f64) -> f64 {
 }
 
 /// The ends of rows are at different positions, so that nothing can rest between them.
-fn cannot_rest((first, last): (&RowPlace, &RowPlace), open: f64) -> RowsFault {
+fn cannot_rest(first: &RowPlace, last: &RowPlace, open: f64) -> RowsFault {
     let message = format!(
         "the rows end at {} deg and begin at {} deg with different positions, so that the uncovered {} deg cannot rest",
         degrees(last.at),
@@ -230,7 +230,7 @@ fn closed(rows: &mut Rows, fill: f64, same: f64) -> Result<bool, RowsFault> {
             }
             _ => {
                 let span = rows.points.last().map_or(0.0, |last| last.at - first.at);
-                return Err(outside(rows, row, (span, fill)));
+                return Err(outside(rows, row, span, fill));
             }
         }
     }
@@ -239,7 +239,7 @@ fn closed(rows: &mut Rows, fill: f64, same: f64) -> Result<bool, RowsFault> {
 }
 
 /// Reports a row beyond the turn that does not repeat another.
-fn outside(rows: &Rows, row: &RowPlace, (span, fill): (f64, f64)) -> RowsFault {
+fn outside(rows: &Rows, row: &RowPlace, span: f64, fill: f64) -> RowsFault {
     if !matches!(rows.origin, Origin::File { .. }) {
         let one = rows.words().1.trim_end_matches('s');
         let first = rows.points.first().map_or(0.0, |first| first.at);
