@@ -12,7 +12,6 @@ use super::put::put_set;
 use super::{Failure, Outcome, print, print_message, refusal};
 use camgen::analysis::compare::{self as comparison, ComparisonOptions, measured};
 use camgen::analysis::{Analysis, laws, size};
-use camgen::body::Cut;
 use camgen::domains::linkage::analysis::{self as linkage, DragLinkGoal};
 use camgen::domains::press::MachineOfPress;
 use camgen::domains::press::analysis::{drive, plain, regimes, spring};
@@ -85,11 +84,10 @@ pub(crate) fn spring_of(args: &SpringArgs, loaded: (Machine, String)) -> Result<
 }
 
 pub(super) fn scatter(args: &ScatterArgs) -> Result<Outcome, Failure> {
-    let key = |varied: &str| varied.split('=').next().unwrap_or_default().trim().to_owned();
-    let twice =
-        args.vary.iter().enumerate().find(|(at, one)| args.vary.iter().take(*at).any(|other| key(other) == key(one)));
-    if let Some((_, one)) = twice {
-        return Err(Failure(format!("--vary {} is given twice", key(one))));
+    let keys: Vec<&str> = args.vary.iter().map(|varied| varied.split('=').next().unwrap_or_default().trim()).collect();
+    let twice = keys.iter().enumerate().find(|(at, key)| keys.iter().take(*at).any(|other| other == *key));
+    if let Some((_, key)) = twice {
+        return Err(Failure(format!("--vary {key} is given twice")));
     }
     let varied = args.vary.iter().map(|varied| format!("scatter.{}", varied.trim()));
     let overrides: Vec<String> = args.analysis.set.iter().cloned().chain(varied).collect();
@@ -210,9 +208,10 @@ pub(crate) fn compare_of(
     })?;
     let cam = spec.solve().map_err(Failure::new)?;
     let cuts = cam.body().cuts();
-    let wanted = |cut: &&Cut<'_>| args.flank.as_ref().is_none_or(|name| cut.name.eq_ignore_ascii_case(name));
     let names: Vec<&str> = cuts.iter().map(|cut| cut.name).filter(|name| !name.is_empty()).collect();
-    let cut = match cuts.iter().filter(wanted).collect::<Vec<_>>()[..] {
+    let flank = args.flank.as_ref();
+    let wanted = cuts.iter().filter(|cut| flank.is_none_or(|name| cut.name.eq_ignore_ascii_case(name)));
+    let cut = match wanted.collect::<Vec<_>>()[..] {
         [cut] => cut,
         [] if cuts.is_empty() => {
             return Err(Failure(format!(

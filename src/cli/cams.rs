@@ -111,11 +111,11 @@ pub(super) fn of_conoid(common: &CommonArgs, machine: Machine, residual: Option<
         };
         return Ok(Spec::conoid_within(machine, (*from, *to), limit));
     }
-    let one = |speed: &Speed| match speed {
+    let speeds = common.rpm.iter().map(|speed| match speed {
         Speed::One(rpm) => Ok(*rpm),
         Speed::Range(..) => Err(Failure("give one range A..B, or a list of speeds".into())),
-    };
-    let mut speeds: Vec<f64> = common.rpm.iter().map(one).collect::<Result<_, _>>()?;
+    });
+    let mut speeds: Vec<f64> = speeds.collect::<Result<_, _>>()?;
     if speeds.is_empty() {
         speeds.push(machine.press().map_err(Failure::new)?.design_rpm);
     }

@@ -86,8 +86,10 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
 fn recorded_units(file: &Path) -> Option<LengthUnit> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let name = file.file_name()?.to_str()?;
-    let of_name = |run: &RecordedRun| name.strip_prefix(&*run.stem).is_some_and(|rest| rest.starts_with(['.', '-']));
-    let run = record::runs(folder).into_iter().filter(of_name).max_by_key(|run| run.stem.len())?;
+    let run = record::runs(folder)
+        .into_iter()
+        .filter(|run| name.strip_prefix(&*run.stem).is_some_and(|rest| rest.starts_with(['.', '-'])))
+        .max_by_key(|run| run.stem.len())?;
     let given = run.inputs.iter().find(|input| input.key == UNITS_KEY);
     given.and_then(|input| LengthUnit::named(&input.value))
 }
@@ -113,12 +115,12 @@ fn pair(cam: &Cam, machine: Machine) -> Option<[Spec; 2]> {
 fn of_pair(file: &Path, specs: [Spec; 2], check: impl Fn(&Cam) -> Result<Report, Error>) -> Result<Report, Error> {
     let [main, counter] = specs;
     let (main, counter) = (check(&main.solve()?)?, check(&counter.solve()?)?);
-    let off = |report: &Report| {
+    let [off_main, off_counter] = [&main, &counter].map(|report| {
         let outline = report.checks.iter().find(|finding| finding.check == "outline");
         let value = outline.map_or(f64::NAN, |outline| outline.value);
         (!report.passed(), if value.is_nan() { f64::INFINITY } else { value })
-    };
-    let is_counter = named_disc(file).map_or_else(|| off(&counter) < off(&main), |name| name == COUNTER.command);
+    });
+    let is_counter = named_disc(file).map_or(off_counter < off_main, |name| name == COUNTER.command);
     let (report, other) = if is_counter { (counter, main) } else { (main, counter) };
     let [name, found] = if is_counter { [COUNTER.command, MAIN_NAME] } else { [MAIN_NAME, COUNTER.command] };
     Ok(if other.passed() && !report.passed() {
@@ -134,8 +136,8 @@ fn of_pair(file: &Path, specs: [Spec; 2], check: impl Fn(&Cam) -> Result<Report,
 /// The disc of a pair that the name of a file gives: the last of its words that is one of them.
 fn named_disc(file: &Path) -> Option<&'static str> {
     let stem = file.file_stem()?.to_str()?;
-    let of_word = |word: &str| [MAIN_NAME, COUNTER.command].into_iter().find(|disc| word.eq_ignore_ascii_case(disc));
-    stem.rsplit(|letter: char| !letter.is_alphanumeric()).find_map(of_word)
+    stem.rsplit(|letter: char| !letter.is_alphanumeric())
+        .find_map(|word| [MAIN_NAME, COUNTER.command].into_iter().find(|disc| word.eq_ignore_ascii_case(disc)))
 }
 
 /// The design that is given, that of the file, or, where a flag belongs to a press, the embedded one.

@@ -88,24 +88,29 @@ fn is_study(run: &RecordedRun) -> bool {
 
 /// The run that a file is of: by its hash; without one by its name, or the only one.
 fn run_of(all: &[RecordedRun], name: &str, hash: Option<&str>) -> Option<RecordedRun> {
-    let of_other = |run: &RecordedRun, name: &str| {
-        let mut inputs = run.inputs.clone();
-        inputs.iter_mut().filter(|input| input.key == "command").for_each(|input| name.clone_into(&mut input.value));
-        RecordedRun { inputs, ..run.clone() }
-    };
     if let Some(hash) = hash {
-        let others = |run| MADE_WITH.map(|name| of_other(run, name));
-        let mut both = all.iter().flat_map(|run| std::iter::once(run.clone()).chain(others(run)));
+        let mut both = all
+            .iter()
+            .flat_map(|run| std::iter::once(run.clone()).chain(MADE_WITH.map(|command| with_command(run, command))));
         return both.find(|run| Inputs::of(&run.inputs).hash == hash);
     }
-    let rest = |run: &RecordedRun| name.strip_prefix(run.stem.as_str()).map(str::to_owned);
-    let named = all.iter().filter(|run| rest(run).is_some_and(|rest| rest.is_empty() || rest.starts_with('-')));
+    let named = all.iter().filter(|run| {
+        name.strip_prefix(run.stem.as_str()).is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
+    });
     let run = named.max_by_key(|run| run.stem.len()).or(match all {
         [only] => Some(only),
         _ => None,
     })?;
-    let other = rest(run).and_then(|rest| MADE_WITH.into_iter().find(|name| rest.starts_with(&format!("-{name}"))));
-    Some(other.map_or_else(|| run.clone(), |name| of_other(run, name)))
+    let rest = name.strip_prefix(run.stem.as_str()).and_then(|rest| rest.strip_prefix('-'));
+    let other = rest.and_then(|rest| MADE_WITH.into_iter().find(|command| rest.starts_with(command)));
+    Some(other.map_or_else(|| run.clone(), |command| with_command(run, command)))
+}
+
+/// A run as that of another command, which made its cam along with its own.
+fn with_command(run: &RecordedRun, command: &str) -> RecordedRun {
+    let mut inputs = run.inputs.clone();
+    inputs.iter_mut().filter(|input| input.key == "command").for_each(|input| command.clone_into(&mut input.value));
+    RecordedRun { inputs, ..run.clone() }
 }
 
 /// The design that was recorded, with what the user overrides; `None` where it cannot be made from the record alone.
@@ -124,21 +129,21 @@ fn of_run(args: &CheckArgs, run: RecordedRun, folder: &Path) -> Result<Option<De
         [] => value("rpm").and_then(|rpm| rpm.split(", ").map(|rpm| rpm.parse().ok()).collect()),
         given => given.iter().map(|speed| if let Speed::One(rpm) = speed { Some(*rpm) } else { None }).collect(),
     };
-    let one = || match speeds.as_deref() {
+    let one = match speeds.as_deref() {
         Some([rpm]) => Some(*rpm),
         _ => None,
     };
     let command = value("command").unwrap_or_default();
     let spec = match command.as_str() {
-        "make" => Spec::of_program(machine, one()),
-        name if name == COUNTER.command => Spec::made_with_program(machine, one(), COUNTER.command),
-        ROTARY => one().map(|rpm| Spec::rotary(machine, rpm)),
-        COMPENSATOR => one().map(|rpm| Spec::compensator(machine, rpm)),
+        "make" => Spec::of_program(machine, one),
+        name if name == COUNTER.command => Spec::made_with_program(machine, one, COUNTER.command),
+        ROTARY => one.map(|rpm| Spec::rotary(machine, rpm)),
+        COMPENSATOR => one.map(|rpm| Spec::compensator(machine, rpm)),
         TRANSLATING => {
             let balance = value("balance");
             let known = ExactOn::ALL.iter().find(|(word, _)| Some(*word) == balance.as_deref());
             let solver = Solver::Ode { tolerance: LAW_TOLERANCE };
-            one().zip(known).map(|(rpm, (_, balance))| Spec::translating(machine, rpm, solver, *balance))
+            one.zip(known).map(|(rpm, (_, balance))| Spec::translating(machine, rpm, solver, *balance))
         }
         "conoid" => {
             let residual = value("residual").and_then(|limit| limit.parse().ok());

@@ -14,8 +14,8 @@ pub(super) fn run(args: &ExplainArgs) -> Result<Outcome, Failure> {
         print(&format!("{}\n`camgen explain CHECK` explains one check in full.\n", lines.concat()))?;
         return Ok(Outcome::Fine);
     };
-    let plain = |text: &str| text.to_lowercase().replace('-', "_");
-    let Some(check) = checks().find(|check| check.name == plain(name)) else {
+    let plain = name.to_lowercase().replace('-', "_");
+    let Some(check) = checks().find(|check| check.name == plain) else {
         let near = similar(name, checks().map(|check| check.name));
         let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? It is "));
         let known: Vec<&str> = checks().map(|check| check.name).collect();

@@ -53,9 +53,8 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
     let analysis = import::analysis(&source, &options).map_err(|why| Failure(format!("`{file}`: {why}")))?;
     let judged = args.to.judged(Judged::new(analysis));
     let stem = args.to.name.clone().unwrap_or_else(|| judged.stem(&name));
-    let usual = || USUAL.map(str::to_owned).to_vec();
     let writing = Writing {
-        formats: Some(args.format.clone().unwrap_or_else(usual)),
+        formats: Some(args.format.clone().unwrap_or_else(|| USUAL.map(str::to_owned).to_vec())),
         template: args.to.template()?,
         force: args.to.force,
         overwrite: args.to.overwrite,
@@ -153,8 +152,8 @@ fn options(args: &ImportArgs, name: String) -> Result<ImportOptions, Failure> {
         settings.push(format!("follower.{}.{}", kind.as_deref().unwrap_or_default(), key.trim()));
     }
     settings.extend(args.set.iter().cloned());
-    let law = |found: &LawOrSpline| if let LawOrSpline::Law(law) = found { Some(*law) } else { None };
-    let laws: Vec<_> = args.law.iter().filter_map(law).collect();
+    let laws: Vec<_> =
+        args.law.iter().filter_map(|found| if let LawOrSpline::Law(law) = found { Some(*law) } else { None }).collect();
     let spline = args.law.is_empty() || laws.len() < args.law.len();
     Ok(ImportOptions {
         source: args.file.file_name().unwrap_or_default().to_string_lossy().into_owned(),

@@ -50,16 +50,16 @@ pub(super) fn design(
     tolerance: f64,
 ) -> Result<LiveDesign, Failure> {
     let text = source_of(source.machine).map_err(Failure::new)?;
-    let set = |typed: &String| {
+    let changes = source.overrides.iter().map(|typed| {
         let (key, to) = typed.split_once('=').unwrap_or((typed, ""));
         TextChange::Set { key: key.trim().to_owned(), to: to.trim().to_owned() }
-    };
-    let changes: Vec<TextChange> = source.overrides.iter().map(set).collect();
+    });
+    let changes: Vec<TextChange> = changes.collect();
     let toml = engine::changed_text(text.text(), &changes).map_err(Failure::new)?;
-    let rpm = |speed: &Speed| match speed {
+    let rpm = common.rpm.iter().map(|speed| match speed {
         Speed::One(rpm) => Ok(*rpm),
         Speed::Range(..) => Err(Failure("--live needs the speeds themselves, --rpm 20,25,30, not a range".into())),
-    };
+    });
     Ok(LiveDesign {
         name: named.unwrap_or(text.stem()).to_owned(),
         usual_names: named.is_none(),
@@ -67,7 +67,7 @@ pub(super) fn design(
         files: text.named_texts(&source.overrides),
         command: cam.body().kind().command.to_owned(),
         commands: engine::commands(cam.body().machine()).into_iter().map(str::to_owned).collect(),
-        rpm: common.rpm.iter().map(rpm).collect::<Result<_, _>>()?,
+        rpm: rpm.collect::<Result<_, _>>()?,
         tolerance,
         file: None,
     })

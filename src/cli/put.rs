@@ -45,18 +45,25 @@ pub(super) fn stage_and_commit<T>(
         print_message(&format!("warning: {sentence}"));
     }
     let signals = Signals::hold();
-    let done = || {
-        let (report, staged) = stage(place)?;
-        refuse_inputs(&staged.targets())?;
-        show_until_signal(&staged, &signals, || show(&report))?;
-        if signals.raised() {
-            return Err(Failure("interrupted; nothing was changed".into()));
-        }
-        staged.commit().map_err(Failure::new)
-    };
-    let done = done();
+    let done = stage_and_commit_held(place, &signals, stage, show);
     signals.release();
     done
+}
+
+/// The same while signals are held.
+fn stage_and_commit_held<T>(
+    place: OutputDirectory,
+    signals: &Signals,
+    stage: impl FnOnce(OutputDirectory) -> Result<(T, StagedFiles), Failure>,
+    show: impl FnOnce(&T) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let (report, staged) = stage(place)?;
+    refuse_inputs(&staged.targets())?;
+    show_until_signal(&staged, signals, || show(&report))?;
+    if signals.raised() {
+        return Err(Failure("interrupted; nothing was changed".into()));
+    }
+    staged.commit().map_err(Failure::new)
 }
 
 /// Refuses to replace a file that was read, whatever flags say: it is an input, of which there may be no other copy.

@@ -106,10 +106,10 @@ fn answer(request: &HttpRequest, port: u16, served: &Served) -> Answer {
 /// A token that nobody guesses: of the keys with which the system seeds hashes, which are 128 random bits.
 fn token() -> String {
     let keys = RandomState::new();
-    let word = |number: u64| {
+    let [first, second] = [0, 1].map(|number| {
         let mut hasher = keys.build_hasher();
         hasher.write_u64(number);
         hasher.finish()
-    };
-    format!("{:016x}{:016x}", word(0), word(1))
+    });
+    format!("{first:016x}{second:016x}")
 }

@@ -40,8 +40,11 @@ pub(super) fn run(args: &StudyArgs) -> Result<Outcome, Failure> {
     let summary = journal.summary(&study).map_err(Failure::new)?;
     let feasible = summary.feasible;
     let place = journal.reopened().map_err(Failure::new)?;
-    let stage = |place| journal.stage(place, &study, summary).map_err(Failure::new);
-    stage_and_commit(place, stage, |complete| show_complete(args, &study, needs, complete))?;
+    stage_and_commit(
+        place,
+        |place| journal.stage(place, &study, summary).map_err(Failure::new),
+        |complete| show_complete(args, &study, needs, complete),
+    )?;
     if !args.quiet && study.count() > first {
         print_message(&rate(study.count() - first, seconds));
     }

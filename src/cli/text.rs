@@ -77,12 +77,12 @@ fn written(first: &str, report: &Report, page: Page) -> String {
 fn section(section: &Section, units: LengthUnit, page: Page) -> Vec<String> {
     // A long name gets a line of its own.
     let alone = section.key.chars().count() > LABEL;
-    let label = |index: usize| if index == 0 && !alone { &*section.key } else { "" };
-    let line = |(index, words): (usize, &ReportLine)| {
-        wrapped(&format!("  {:<LABEL$} {}", label(index), words.text.in_unit(units)), LABEL + 3, page)
-    };
     let head = (alone && !section.words.is_empty()).then(|| format!("  {}", section.key));
-    head.into_iter().chain(section.words.iter().enumerate().map(line)).collect()
+    let lines = section.words.iter().enumerate().map(|(index, words)| {
+        let label = if index == 0 && !alone { &*section.key } else { "" };
+        wrapped(&format!("  {label:<LABEL$} {}", words.text.in_unit(units)), LABEL + 3, page)
+    });
+    head.into_iter().chain(lines).collect()
 }
 
 /// The cells of a check: its name, the value without and the unit with its sign, the limit, the place.
@@ -96,8 +96,8 @@ fn cells(finding: &Finding, units: LengthUnit) -> [String; 5] {
 /// A line for each check, in columns, and one below where there is more to say.
 fn checks(findings: &[Finding], units: LengthUnit, page: Page) -> Vec<String> {
     let rows: Vec<[String; 5]> = findings.iter().map(|finding| cells(finding, units)).collect();
-    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let [name, number, unit, limit] = [0, 1, 2, 3].map(width);
+    let [name, number, unit, limit] =
+        [0, 1, 2, 3].map(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0));
     let mut lines = Vec::new();
     for (finding, row) in findings.iter().zip(&rows) {
         let verdict = painted(finding.verdict, page);

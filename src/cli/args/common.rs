@@ -178,13 +178,13 @@ impl AccuracyArgs {
     /// reported.
     pub(in crate::cli) fn rates(&self) -> ([Option<RateTolerance>; 2], [bool; 2]) {
         let named = self.accuracy.unwrap_or_default().acceleration();
-        let asked = |rate: Option<RateLimit>, default| match rate {
+        let asked = [(self.tolerance_velocity, None), (self.tolerance_acceleration, named)];
+        let rates = asked.map(|(rate, default)| match rate {
             Some(RateLimit::Any) => None,
             Some(RateLimit::Within(rate)) => Some(rate),
             None => default,
-        };
-        let strict = [self.tolerance_velocity.is_some(), self.tolerance_acceleration.is_some()];
-        ([asked(self.tolerance_velocity, None), asked(self.tolerance_acceleration, named)], strict)
+        });
+        (rates, asked.map(|(rate, _)| rate.is_some()))
     }
 
     /// The tolerances for a file to check: only those that were given.

@@ -226,8 +226,7 @@ impl Command {
             Command::Compare(DeferredArgs(args)) => (&args.machine, &args.analysis),
             _ => return None,
         };
-        let files = || std::iter::once(PathBuf::from(machine)).chain(args.to.template.clone()).collect();
-        args.report.watch.then(files)
+        args.report.watch.then(|| std::iter::once(PathBuf::from(machine)).chain(args.to.template.clone()).collect())
     }
 }
 

@@ -268,8 +268,10 @@ pub(crate) fn format(text: &str) -> Result<String, String> {
 }
 
 pub(crate) fn law(text: &str) -> Result<&'static Law, String> {
-    let known = || LAWS.iter().map(|law| law.name).collect::<Vec<_>>();
-    laws::named(text).ok_or_else(|| format!("no such law; {}one of {}", meant(text, &known()), known().join(", ")))
+    laws::named(text).ok_or_else(|| {
+        let known: Vec<&str> = LAWS.iter().map(|law| law.name).collect();
+        format!("no such law; {}one of {}", meant(text, &known), known.join(", "))
+    })
 }
 
 /// A law, or what no law follows.
@@ -310,12 +312,13 @@ pub(crate) fn word<T: NamedChoice>() -> impl TypedValueParser<Value = T> {
 
 /// A named accuracy; help has what each is for.
 pub(crate) fn accuracy() -> impl TypedValueParser<Value = Accuracy> {
-    let about = |accuracy: Accuracy| match accuracy {
-        Accuracy::Draft => "50 µm: for a first look",
-        Accuracy::Standard => "5 µm and 5 % of the acceleration: for milling",
-        Accuracy::Fine => "0.5 µm and 1 % of the acceleration: for grinding",
-    };
-    let values = Accuracy::ALL.iter().map(|(name, accuracy)| PossibleValue::new(*name).help(about(*accuracy)));
+    let values = Accuracy::ALL.iter().map(|(name, accuracy)| {
+        PossibleValue::new(*name).help(match accuracy {
+            Accuracy::Draft => "50 µm: for a first look",
+            Accuracy::Standard => "5 µm and 5 % of the acceleration: for milling",
+            Accuracy::Fine => "0.5 µm and 1 % of the acceleration: for grinding",
+        })
+    });
     PossibleValuesParser::new(values).try_map(|typed| Accuracy::named(&typed).ok_or("no such word"))
 }
 

@@ -136,19 +136,20 @@ fn read(stream: &mut TcpStream) -> Result<HttpRequest, Option<Answer>> {
 
 /// The head of a request with the lengths of its body and of itself; `None` where it is not whole.
 fn head(bytes: &[u8]) -> Result<Option<(HttpRequest, usize, usize)>, Answer> {
-    let bad = |why: &str| Answer::refused(400, why);
     let mut headers = [httparse::EMPTY_HEADER; MOST_HEADERS];
     let mut parsed = httparse::Request::new(&mut headers);
     let length = match parsed.parse(bytes) {
         Ok(httparse::Status::Complete(length)) => length,
         Ok(httparse::Status::Partial) => return Ok(None),
-        Err(_) => return Err(bad("not a request")),
+        Err(_) => return Err(Answer::refused(400, "not a request")),
     };
-    let text = |value: &[u8]| String::from_utf8(value.to_vec()).ok();
-    let line = |header: &httparse::Header<'_>| Some((header.name.to_ascii_lowercase(), text(header.value)?));
-    let headers: Option<Vec<_>> = parsed.headers.iter().map(line).collect();
+    let headers = parsed.headers.iter().map(|header| {
+        let value = String::from_utf8(header.value.to_vec()).ok()?;
+        Some((header.name.to_ascii_lowercase(), value))
+    });
+    let headers: Option<Vec<_>> = headers.collect();
     let (Some(method), Some(target), Some(headers)) = (parsed.method, parsed.path, headers) else {
-        return Err(bad("not a request"));
+        return Err(Answer::refused(400, "not a request"));
     };
     let request = HttpRequest { method: method.to_owned(), target: target.to_owned(), headers, body: Vec::new() };
     if request.values("transfer-encoding").next().is_some() {
@@ -159,7 +160,7 @@ fn head(bytes: &[u8]) -> Result<Option<(HttpRequest, usize, usize)>, Answer> {
             digits.parse().map_err(|_| Answer::refused(413, "the body is too large"))?
         }
         (None, None) => 0,
-        _ => return Err(bad("the length of the body is not a number")),
+        _ => return Err(Answer::refused(400, "the length of the body is not a number")),
     };
     Ok(Some((request, body, length)))
 }

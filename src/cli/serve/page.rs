@@ -91,11 +91,11 @@ impl Served {
 
     /// The texts of the machine files as they are now, each with those of the files that it names, or why not.
     pub(super) fn files(&self) -> Answer {
-        let of = |one: &ServedDesign| match one.as_it_is() {
+        let designs = self.designs.iter().map(|one| match one.as_it_is() {
             Ok(design) => json!({"toml": design.toml, "files": design.files}),
             Err(why) => json!({"fault": why}),
-        };
-        json_answer(Ok(json!({"designs": self.designs.iter().map(of).collect::<Vec<Value>>()})))
+        });
+        json_answer(Ok(json!({"designs": designs.collect::<Vec<Value>>()})))
     }
 
     /// Writes the text of a machine file.

@@ -22,11 +22,10 @@ pub(super) fn of(text: &str) -> Vec<String> {
 
 /// Whether a term occurs in a text as whole words.
 fn occurs(text: &str, term: &str) -> bool {
-    let of_word = |c: char| c.is_alphanumeric() || c == '_';
     text.match_indices(term).any(|(at, _)| {
         let before = text.get(..at).and_then(|before| before.chars().next_back());
         let behind = text.get(at + term.len()..).and_then(|behind| behind.chars().next());
-        !before.is_some_and(of_word) && !behind.is_some_and(of_word)
+        ![before, behind].into_iter().flatten().any(|c| c.is_alphanumeric() || c == '_')
     })
 }
 

@@ -362,7 +362,7 @@ impl<'a> Document<'a> {
     fn excerpt_of_file(&self, span: &Range<usize>) -> Excerpt {
         let at = span.start.min(self.text.len());
         let (before, after) = self.text.as_bytes().split_at(at);
-        let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
+        let line = before.split(|byte| *byte == b'\n').count();
         let start = before.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
         let end = at + after.iter().position(|byte| *byte == b'\n').unwrap_or(after.len());
         let [whole, left, marked] = [start..end, start..at, at..span.end.clamp(at, end.max(at))]

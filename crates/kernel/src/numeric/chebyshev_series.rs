@@ -63,8 +63,8 @@ impl ChebyshevSeries {
         let (low, high) = self.range;
         let half = 0.5 * (high - low);
         let c = |n: usize| self.coefficients.get(n).copied().unwrap_or(0.0) * if n == 0 { 2.0 } else { 1.0 };
-        #[expect(clippy::cast_precision_loss, reason = "a few hundred terms")]
         let mut coefficients = vec![0.0];
+        #[expect(clippy::cast_precision_loss, reason = "a few hundred terms")]
         coefficients.extend((1..=self.coefficients.len()).map(|n| half * (c(n - 1) - c(n + 1)) / (2.0 * n as f64)));
         let unshifted = Self { range: self.range, coefficients };
         let start = unshifted.value_at(low);
@@ -118,20 +118,16 @@ impl<const N: usize> SeriesGroup<N> {
         let terms = u32::try_from(count).unwrap_or(u32::MAX);
         // cos(n (i + ½) π/count) has as many values as there are quarters of a turn over the count.
         let cosines: Vec<f64> = (0..4 * terms).map(|k| libm::cos(0.5 * PI * f64::from(k) / f64::from(terms))).collect();
-        Self {
-            range,
-            coefficients: (0..count)
-                .map(|n| {
-                    let mut sum = [0.0; N];
-                    for (i, value) in values.iter().enumerate() {
-                        let cosine = cosines.get(n * (2 * i + 1) % (4 * count)).copied().unwrap_or(f64::NAN);
-                        sum.iter_mut().zip(value).for_each(|(sum, value)| *sum += cosine * value);
-                    }
-                    let share = if n == 0 { 1.0 } else { 2.0 } / f64::from(terms);
-                    sum.map(|sum| share * sum)
-                })
-                .collect(),
-        }
+        let coefficients = (0..count).map(|n| {
+            let mut sum = [0.0; N];
+            for (i, value) in values.iter().enumerate() {
+                let cosine = cosines.get(n * (2 * i + 1) % (4 * count)).copied().unwrap_or(f64::NAN);
+                sum.iter_mut().zip(value).for_each(|(sum, value)| *sum += cosine * value);
+            }
+            let share = if n == 0 { 1.0 } else { 2.0 } / f64::from(terms);
+            sum.map(|sum| share * sum)
+        });
+        Self { range, coefficients: coefficients.collect() }
     }
 
     /// The largest size of this many last coefficients of each.

@@ -167,7 +167,7 @@ impl<'t> SeriesRows<'t> {
                 TapeOperation::State => fill(out, from, |_, _| state),
                 TapeOperation::Sum(a, b) => fill(out, from, |n, _| coefficient(row(a), n) + coefficient(row(b), n)),
                 TapeOperation::Difference(a, b) => {
-                    fill(out, from, |n, _| coefficient(row(a), n) - coefficient(row(b), n))
+                    fill(out, from, |n, _| coefficient(row(a), n) - coefficient(row(b), n));
                 }
                 TapeOperation::Product(a, b) => fill(out, from, |n, _| product(row(a), row(b), n)),
                 TapeOperation::Quotient(a, b) => quotient(row(a), row(b), out, from),

@@ -275,15 +275,14 @@ fn turns_too_tightly(path: &Contour, metal_side: f64, radius: f64) -> bool {
 /// Refuses a cutter (radius in m) that does not get into a concave part.
 pub(super) fn check_cutter_fits(curves: Curves<'_>, cutter_radius: f64) -> Result<(), Refusal> {
     let corner = extremes::corners(curves).into_iter().find(|corner| corner.turn < 0.0);
-    let concave = match corner.filter(|_| cutter_radius > curves.offset()) {
-        Some(corner) => corner.at,
-        None => {
-            let concave = extremes::concave_profile_curvature(curves);
-            if !(concave.value * cutter_radius >= 1.0) {
-                return Ok(());
-            }
-            concave.at
+    let concave = if let Some(corner) = corner.filter(|_| cutter_radius > curves.offset()) {
+        corner.at
+    } else {
+        let concave = extremes::concave_profile_curvature(curves);
+        if !(concave.value * cutter_radius >= 1.0) {
+            return Ok(());
         }
+        concave.at
     };
     Err(Refusal::new("the cutter cannot follow the profile, whose concave radius is smaller than that of the cutter")
         .at(format!("{:.3} deg", concave.to_degrees())))
