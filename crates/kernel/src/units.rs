@@ -6,6 +6,7 @@
 mod length_unit;
 
 pub use length_unit::{LengthUnit, metric_column};
+use std::f64::consts::TAU;
 use std::fmt;
 
 /// The kind of a quantity.
@@ -434,6 +435,20 @@ pub struct DerivativeValue {
     pub by_time: bool,
     /// Whether it is per metre of travel; where it is neither, it is per radian of the cam.
     pub by_travel: bool,
+}
+
+/// The speed of a shaft in rad/s.
+#[inline]
+#[must_use]
+pub fn rad_per_s(rpm: f64) -> f64 {
+    rpm * TAU / 60.0
+}
+
+/// The speed of a shaft in rpm.
+#[inline]
+#[must_use]
+pub fn rpm(rad_per_s: f64) -> f64 {
+    60.0 * rad_per_s / TAU
 }
 
 /// Parses a velocity (order 1), an acceleration (2) or a jerk (3): a length or an angle over `deg`, `rad`, a length or `s` with the order as

@@ -13,7 +13,7 @@ use camgen_kernel::motion::program::Program;
 use camgen_kernel::motion::{Motion, Quantity};
 use camgen_kernel::numeric::parallel;
 use camgen_kernel::refusal::Refusal;
-use std::f64::consts::TAU;
+use camgen_kernel::units;
 use std::sync::Arc;
 
 /// Laws of motion.
@@ -113,7 +113,7 @@ impl Rise {
         }
         let rpm = asked.rpm.or(program.and_then(Program::rpm));
         let over = asked.over.unwrap_or(over);
-        let speed = rpm.map(|rpm| rpm * TAU / 60.0);
+        let speed = rpm.map(units::rad_per_s);
         let frequency = machine.and_then(Machine::vibration).map(|vibration| vibration.natural_frequency);
         let periods = speed.zip(frequency).map(|(speed, frequency)| over / speed * frequency);
         Ok(Self { quantity: asked_quantity.or(of_file).unwrap_or(Quantity::Length), lift, over, speed, periods })

@@ -10,7 +10,7 @@ use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::motion::{Jet, Motion, NamedStretch, Quantity};
 use camgen_kernel::numeric::extremum;
 use camgen_kernel::profile::followed::FollowerOnChain;
-use camgen_kernel::units::LengthUnit;
+use camgen_kernel::units::{self, LengthUnit};
 use std::f64::consts::TAU;
 
 /// Places of a turn or a travel, and least places of a stretch, at which values are taken.
@@ -379,7 +379,7 @@ impl DiagramSource<'_> {
             }
             Some(speed) => format!(
                 "By time, with the {shaft} at {} rpm, ω = {} rad/s: velocity, acceleration and jerk over ω, ω² and ω³ are those per rad.",
-                shown(speed * 60.0 / TAU),
+                shown(units::rpm(speed)),
                 figure(speed)
             ),
             None => format!("Velocity, acceleration and jerk by the angle of the {shaft}: its speed is not given."),

@@ -4,8 +4,8 @@ use crate::machine::Machine;
 use crate::report::{Section, degrees, shown};
 use camgen_kernel::numeric::{quadrature, root};
 use camgen_kernel::profile::Worst;
+use camgen_kernel::units;
 use serde::Serialize;
-use std::f64::consts::TAU;
 
 /// Cells of a stretch in which the torque crosses its mean once each.
 const CELLS: u32 = 128;
@@ -152,7 +152,7 @@ impl DynamicsFigures<'_> {
             contact_force_max_n: force.map(|force| force.value).filter(|force| force.is_finite()),
             contact_force_max_at_deg: force.map(|force| degrees(force.at)),
             contact_force_min_n: least.map(|least| least.value),
-            jump_rpm: jump.map(|jump| 60.0 * jump.value / TAU),
+            jump_rpm: jump.map(|jump| units::rpm(jump.value)),
             jump_at_deg: jump.map(|jump| degrees(jump.at)),
         };
         Section::new("dynamics", &figures).with_words(self.words(&figures))

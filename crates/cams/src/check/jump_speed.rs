@@ -4,7 +4,7 @@ use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
 use crate::report::{Bound, Verdict, shown};
 use camgen_kernel::profile::Worst;
 use camgen_kernel::text::{KeyChange, Remedy, text};
-use std::f64::consts::TAU;
+use camgen_kernel::units;
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -33,10 +33,9 @@ pub fn measure(
         Ok(jump) => jump,
         Err(why) => return CHECK.unknown(&why),
     };
-    let rpm = |speed: f64| 60.0 * speed / TAU;
     let margin = subject.machine.limits.jump_margin;
-    let limit = subject.speed.map(|speed| margin * rpm(speed));
-    let kept = limit.is_none_or(|limit| rpm(jump.value) >= limit);
+    let limit = subject.speed.map(|speed| margin * units::rpm(speed));
+    let kept = limit.is_none_or(|limit| units::rpm(jump.value) >= limit);
     let verdict = limit.map_or(Verdict::Info, |_| Verdict::of(kept));
     let note = match (subject.speed, kept) {
         (_, false) => holding(margin)
@@ -47,5 +46,5 @@ pub fn measure(
         (Some(_), true) => Some("the follower does not leave the cam at any speed".into()),
         (None, true) => Some("without motion.rpm or --rpm there is no limit".into()),
     };
-    CHECK.measure(rpm(jump.value), limit).judged(verdict).noted(note).at(subject, &jump)
+    CHECK.measure(units::rpm(jump.value), limit).judged(verdict).noted(note).at(subject, &jump)
 }

@@ -8,8 +8,8 @@ use crate::table::Table;
 use camgen_kernel::motion::Quantity;
 use camgen_kernel::refusal::Refusal;
 use camgen_kernel::text::{Length, text};
+use camgen_kernel::units;
 use serde::Serialize;
-use std::f64::consts::TAU;
 
 type LawColumn = (&'static str, fn(&LawRow) -> f64);
 
@@ -84,7 +84,7 @@ const OF_CAM: [LawColumn; 9] = [
     ("smallest_prime_radius_mm", |row| of_cam(row, |cam| mm(cam.smallest_prime_radius))),
     ("contact_force_n", |row| of_cam(row, |cam| cam.contact_force)),
     ("torque_nm", |row| of_cam(row, |cam| cam.torque)),
-    ("jump_rpm", |row| of_cam(row, |cam| 60.0 * cam.jump / TAU)),
+    ("jump_rpm", |row| of_cam(row, |cam| units::rpm(cam.jump))),
     ("residual", |row| row.residual[0]),
     ("residual_worst", |row| row.residual[1]),
 ];

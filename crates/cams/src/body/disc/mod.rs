@@ -52,6 +52,7 @@ use camgen_kernel::profile::outline::{self, OutlineError};
 use camgen_kernel::profile::size::SmallestSize;
 use camgen_kernel::profile::{Contact, Curves, Worst, lifts};
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::units;
 use mechanism::SecondDisc;
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
@@ -157,7 +158,7 @@ impl Disc {
             let what = "the motion is by the travel of a plate, and this cam turns";
             return Err(Refusal::new(what).remedy("camgen make with cam.body = \"wedge\" cuts it as a plate"));
         }
-        let speed = rpm.map(|rpm| rpm * TAU / 60.0);
+        let speed = rpm.map(units::rad_per_s);
         let program_follower = forces::ProgramFollower::of(machine, &*motion);
         let DiscRole { kind, hold, rest, is_cut } = role;
         Self { kind, rpm, speed, hold, rest, is_cut, program_follower, ..Self::unsized_of(machine, motion) }.sized()

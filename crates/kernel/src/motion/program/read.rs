@@ -76,7 +76,7 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Optio
         quantity,
         arc,
         arm: follower.and_then(|follower| follower.arm),
-        speed: rpm.map(|rpm| rpm * TAU / 60.0),
+        speed: rpm.map(units::rad_per_s),
         has_faulty_speed: rpm.is_none() && table.has(&RPM),
         at,
         fill: if halved { 0.5 * fill } else { fill },
