@@ -73,7 +73,7 @@ fn outline_started(
     let Some(asked) = request.lead_in else { return Ok(()) };
     let size = MILLIMETRES * asked.size;
     let Some(segment) = lead_in::segment(&outline.contour, asked.form, size) else { return Ok(()) };
-    let tolerance = MILLIMETRES * request.fit.tolerance;
+    let tolerance = request.fit.tolerance_mm();
     let depth = lead_in::depth(&EdgeTree::new(&outline.contour), &Edge::Segment(segment), TOUCHES * tolerance);
     if depth > tolerance {
         let (size, depth) = (shown(size), shown(depth));

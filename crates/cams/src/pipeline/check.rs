@@ -95,7 +95,7 @@ impl Cam {
         if let Some(name) = expected.cut {
             return self.check_cut(bytes, name, request);
         }
-        let reach = join_reach(MILLIMETRES * request.fit.tolerance);
+        let reach = join_reach(request.fit.tolerance_mm());
         let reading = reading::read_with_outline(bytes, reach, expected.layer).map_err(Error::Read)?;
         if expected.layer.is_none() && is_cutter_path(&reading) {
             return self.check_cutter_path(bytes, expected, &request);
@@ -130,7 +130,7 @@ impl Cam {
             Error::Section(refusal.remedy(format!("give one of {}", self.names())))
         })?;
         let request = request.into();
-        let reach = join_reach(MILLIMETRES * request.fit.tolerance);
+        let reach = join_reach(request.fit.tolerance_mm());
         let layer = self.is_one_file().then(|| self.body().cuts().get(cut).map(|cut| cut.layer.name())).flatten();
         let reading = reading::read_with_outline(bytes, reach, layer).map_err(Error::Read)?;
         self.check_outlines(&[reading], (cut, None), &request)
@@ -171,7 +171,7 @@ impl Cam {
         (cut, section): (usize, Option<CutSection>),
         request: &Request,
     ) -> Result<Report, Error> {
-        let tolerance_mm = MILLIMETRES * request.fit.tolerance;
+        let tolerance_mm = request.fit.tolerance_mm();
         let motion = request.resolved(self.body()).map_err(Error::Draw)?.fit.motion;
         let z = section.map_or(0.0, |section| section.z);
         let body = self.body();
@@ -212,7 +212,7 @@ impl Cam {
     }
 
     fn check_solid(&self, bytes: &[u8], request: &Request) -> Result<Report, Error> {
-        let tolerance_mm = MILLIMETRES * request.fit.tolerance;
+        let tolerance_mm = request.fit.tolerance_mm();
         let motion = request.resolved(self.body()).map_err(Error::Draw)?.fit.motion;
         let body = self.body();
         let asked = request.rates.iter().zip(request.strict).any(|(rate, strict)| rate.is_some() && strict);

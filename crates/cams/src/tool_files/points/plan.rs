@@ -245,7 +245,7 @@ pub fn tables(body: &dyn Body, request: &Request, drawn: &Drawn) -> Result<Vec<P
     if plate && (form, step) != usual {
         return Err(without_angle().into());
     }
-    let wish = PointTableSpec { form, step, between: asked.between, tolerance: MILLIMETRES * request.fit.tolerance };
+    let wish = PointTableSpec { form, step, between: asked.between, tolerance: request.fit.tolerance_mm() };
     let allowed = [request.fit.motion.velocity, request.fit.motion.acceleration];
     if asked.between == PointInterpolation::Linear && request.strict[1] && allowed[1].is_finite() {
         return Err(Refusal::new(

@@ -169,7 +169,7 @@ impl Outline {
         range: (f64, f64),
         fit: &Fit,
     ) -> Result<(), OutlineError> {
-        self.add(Strip::along(target, range.0, range.1, MILLIMETRES * fit.tolerance, fit, ANY_NUMBER)?);
+        self.add(Strip::along(target, range.0, range.1, fit.tolerance_mm(), fit, ANY_NUMBER)?);
         Ok(())
     }
 
@@ -239,7 +239,7 @@ impl ParallelStretch<'_> {
             |at| (frame(self.curves, self.piece, at, self.distance), ChainTolerance::ANY),
             self.range.0,
             self.range.1,
-            MILLIMETRES * fit.tolerance,
+            fit.tolerance_mm(),
             &fit,
             ANY_NUMBER,
         )
@@ -285,7 +285,7 @@ impl ParallelStretch<'_> {
                 |at| within(curves, piece, at, distance, tightened, by_radius),
                 range.0,
                 range.1,
-                MILLIMETRES * fit.tolerance,
+                fit.tolerance_mm(),
                 fit,
                 least..=most,
             ) else {

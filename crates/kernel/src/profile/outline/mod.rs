@@ -106,6 +106,13 @@ impl From<f64> for Fit {
 }
 
 impl Fit {
+    /// The tolerance in the unit of drawings, mm.
+    #[inline]
+    #[must_use]
+    pub fn tolerance_mm(&self) -> f64 {
+        MILLIMETRES * self.tolerance
+    }
+
     /// Without the tolerances of the motion; `None` where it has none.
     fn by_distance(&self) -> Option<Self> {
         (self.motion != MotionTolerance::ANY).then_some(Self { motion: MotionTolerance::ANY, ..*self })

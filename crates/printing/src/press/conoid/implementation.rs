@@ -280,7 +280,7 @@ impl Body for Conoid {
             OutlineError::Fit(_) if self.largest_lean() > STEEPEST => DrawError::NoOutline(self.too_steep()),
             other => other.into(),
         })?;
-        let tolerance = MILLIMETRES * request.fit.tolerance;
+        let tolerance = request.fit.tolerance_mm();
         let flank = request.flank.then(|| flank::flank(self, tolerance)).transpose()?;
         Ok(Drawn { flank, ..Drawn::of(parts) })
     }

@@ -54,7 +54,7 @@ pub(super) fn program(
     let (grid, angles) = (Grid::of_lengths(decimals, units), Grid::of_decimals(decimals));
     // Half a step of X and of Y, and half a step of A on the outside.
     let rounding = grid.step() + 0.5 * angles.step() * (MILLIMETRES * cam.outside()).to_radians();
-    let asked_for = MILLIMETRES * request.fit.tolerance;
+    let asked_for = request.fit.tolerance_mm();
     let smoothing = smoothing(controller, request);
     let tolerance = asked_for - MILLIMETRES * smoothing - rounding;
     if tolerance < LEAST_SHARE * asked_for {

@@ -409,7 +409,7 @@ impl Flank<'_> {
         let (Some(first), Some(last)) = (edges.first(), edges.last()) else { return Err(refused()) };
         let round = grid.blocks(&edges);
         let at = grid.point(first.start);
-        let tolerance = MILLIMETRES * request.fit.tolerance;
+        let tolerance = request.fit.tolerance_mm();
         let Some(leads) = self.leads(request, (first, last), (cutter, room), tolerance)? else {
             let (words, cutter_left) = (self.words.clone(), self.cutter_left);
             return Ok(MillingPass { words, cutter_left, compensated: None, start: at, blocks: round });
