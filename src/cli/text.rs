@@ -4,7 +4,7 @@
 mod glossary;
 
 use camgen::document::plain;
-use camgen::report::{Finding, Place, Report, ReportLine, Section, Verdict};
+use camgen::report::{Finding, Place, Report, Section, Verdict};
 use camgen::units::LengthUnit;
 use std::io::IsTerminal;
 
@@ -58,7 +58,7 @@ fn written(first: &str, report: &Report, page: Page) -> String {
         lines.push("  checks".into());
     }
     lines.extend(checks(&report.checks, report.units, page));
-    let terms = glossary::of(&lines.join("\n"));
+    let terms = glossary::terms_in(&lines.join("\n"));
     let notes: Vec<String> = report.notes.iter().map(|note| note.in_unit(report.units)).collect();
     let lists =
         [("notes", &notes), ("files", &report.files), ("terms", &terms), ("not modelled", &report.not_modelled)];

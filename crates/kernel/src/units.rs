@@ -163,16 +163,13 @@ fn unit_of(typed: &str, kind: Option<Dimension>) -> Option<&'static UnitSymbol> 
     if let Some(unit) = UNITS.iter().find(|unit| unit.symbol == typed) {
         return Some(unit);
     }
-    let plain: String = typed
-        .chars()
-        .filter(|c| !matches!(c, '^' | ' ' | '\u{a0}' | '\u{202f}'))
-        .map(|c| match c {
-            '²' => '2',
-            '³' => '3',
-            '·' | '⋅' | '×' | '.' => '*',
-            other => other,
-        })
-        .collect();
+    let plain = typed.chars().filter(|c| !matches!(c, '^' | ' ' | '\u{a0}' | '\u{202f}')).map(|c| match c {
+        '²' => '2',
+        '³' => '3',
+        '·' | '⋅' | '×' | '.' => '*',
+        other => other,
+    });
+    let plain: String = plain.collect();
     let plain = SPELLINGS.iter().find(|(spelling, _)| *spelling == plain).map_or(plain.as_str(), |(_, symbol)| symbol);
     let mut exact = UNITS.iter().filter(|unit| unit.symbol == plain);
     let mut joined = UNITS.iter().filter(|unit| unit.symbol.replace('*', "") == plain.replace('*', ""));

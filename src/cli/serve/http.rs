@@ -46,7 +46,7 @@ pub(super) struct Answer {
 
 impl Answer {
     /// Content of a type.
-    pub(super) fn of(kind: &'static str, body: Vec<u8>) -> Self {
+    pub(super) fn new(kind: &'static str, body: Vec<u8>) -> Self {
         Self { status: 200, kind, body }
     }
 

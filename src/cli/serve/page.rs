@@ -78,7 +78,7 @@ impl Served {
         let Some(cam) = cam else { return Answer::refused(500, "there is no cam to show") };
         let title = cam["title"].as_str().unwrap_or_default().to_owned();
         match live::page((&title, cam), &designs, Some(&self.token)) {
-            Ok(page) => Answer::of("text/html; charset=utf-8", page),
+            Ok(page) => Answer::new("text/html; charset=utf-8", page),
             Err(why) => Answer::refused(500, &why.to_string()),
         }
     }
@@ -86,7 +86,7 @@ impl Served {
     /// The engine's answer.
     pub(super) fn engine(&self, body: &[u8]) -> Answer {
         let _turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
-        Answer::of("application/octet-stream", engine::answer_bytes(body))
+        Answer::new("application/octet-stream", engine::answer_bytes(body))
     }
 
     /// The texts of the machine files as they are now, each with those of the files that it names, or why not.
@@ -134,7 +134,7 @@ impl Served {
 /// What was done, or why not, as the page shows it.
 fn json_answer(done: Result<Value, String>) -> Answer {
     let value = done.unwrap_or_else(|why| json!({"faults": [{"message": why}]}));
-    Answer::of("application/json", value.to_string().into_bytes())
+    Answer::new("application/json", value.to_string().into_bytes())
 }
 
 /// A design by the name of an embedded one or the path of a file.
@@ -145,7 +145,7 @@ fn design(name: &str, args: &ServeArgs) -> Result<ServedDesign, Failure> {
     let machine = camgen::Machine::of_source(&source, &[]);
     let commands = machine.as_ref().map(engine::commands).unwrap_or_default();
     let named = (!args.files.is_empty() && (!is_embedded || Path::new(name).exists())).then(|| name.to_owned());
-    let file = named.as_deref().map(MachineFile::of).transpose().map_err(Failure::new)?;
+    let file = named.as_deref().map(MachineFile::new).transpose().map_err(Failure::new)?;
     let design = LiveDesign {
         commands: commands.into_iter().map(str::to_owned).collect(),
         rpm: args.rpm.into_iter().collect(),

@@ -23,7 +23,7 @@ pub(super) struct MachineFile {
 }
 
 impl MachineFile {
-    pub(super) fn of(name: &str) -> std::io::Result<Self> {
+    pub(super) fn new(name: &str) -> std::io::Result<Self> {
         Ok(Self { name: name.to_owned(), path: fs::canonicalize(name)? })
     }
 

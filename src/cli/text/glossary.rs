@@ -14,7 +14,7 @@ fn terms() -> impl Iterator<Item = (&'static str, &'static str)> {
 }
 
 /// The terms that occur in a text.
-pub(super) fn of(text: &str) -> Vec<String> {
+pub(super) fn terms_in(text: &str) -> Vec<String> {
     let widest = terms().map(|(term, _)| term.chars().count()).max().unwrap_or(0);
     let occurring = terms().filter(|(term, _)| occurs(text, term));
     occurring.map(|(term, meaning)| format!("{term:<widest$}  {meaning}")).collect()
@@ -35,8 +35,8 @@ mod tests {
 
     #[test]
     fn only_whole_terms_are_explained() {
-        assert!(of("the bottomless pit, an undercutting").is_empty());
-        let explained = of("air column 243 mm, bottom");
+        assert!(terms_in("the bottomless pit, an undercutting").is_empty());
+        let explained = terms_in("air column 243 mm, bottom");
         assert_eq!(explained.len(), 2);
         assert!(explained[0].starts_with("air column") && explained[1].starts_with("bottom  "), "{explained:?}");
         assert_eq!(terms().count(), 8);

@@ -70,7 +70,7 @@ impl Flight<'_> {
         let lift = (self.lift)(start + BESIDE);
         let Pressing { mass, speed, .. } = self.pressing;
         let play = (self.play)(start);
-        let acceleration = (self.pressing.at(&lift) / mass).abs();
+        let acceleration = (self.pressing.force_at(&lift) / mass).abs();
         let rate = (self.pressing.rate_at(&lift) * speed / mass).abs();
         (2.0 * play / acceleration).sqrt().min(libm::cbrt(6.0 * play / rate))
     }
@@ -79,7 +79,7 @@ impl Flight<'_> {
     fn next(&self, gap: Gap, (angle, sign): (f64, f64), step: f64) -> Gap {
         let Pressing { mass, damping, rate, speed, .. } = self.pressing;
         let slope = |gap: Gap, later: f64| {
-            let force = sign * self.pressing.at(&(self.lift)(angle + speed * later));
+            let force = sign * self.pressing.force_at(&(self.lift)(angle + speed * later));
             Gap { lift: gap.rate, rate: (force - damping * gap.rate - rate * gap.lift) / mass }
         };
         let a = slope(gap, 0.0);

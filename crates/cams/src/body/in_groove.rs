@@ -101,7 +101,7 @@ impl<'a> GrooveForces<'a> {
 
     /// The force that goes with the lift, N or N·m.
     fn acting(&self, at: (usize, f64)) -> f64 {
-        self.pressing.at(&self.lift(at))
+        self.pressing.force_at(&self.lift(at))
     }
 
     /// The rollers that may bear it, each with its force along the normal, N.
@@ -121,7 +121,7 @@ impl<'a> GrooveForces<'a> {
     fn torque(&self, at: (usize, f64)) -> f64 {
         let lift = self.lift(at);
         // Where the follower rests there is no work.
-        if lift.ds == 0.0 { 0.0 } else { self.pressing.at(&lift) * lift.ds }
+        if lift.ds == 0.0 { 0.0 } else { self.pressing.force_at(&lift) * lift.ds }
     }
 
     /// Turns of a roller for a turn of the cam.

@@ -4,12 +4,11 @@ use super::{EngineAnswer, EngineFile, EngineRequest, changes, values};
 use crate::body::{Accuracy, Body, Request};
 use crate::catalogue::{commands, usual_command};
 use crate::machine::{Machine, MachineSource, valid_rpm};
-use crate::pipeline::{AssemblyDrawing, Error, Proven, ProvenAssembly, Spec, Writing};
+use crate::pipeline::{AssemblyDrawing, Error, ProvenAssembly, Spec, Writing};
 use crate::report::Finding;
 use crate::verify::WrittenOutline;
 use crate::write::{Rendering, html, svg};
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::motion::program::SegmentSummary;
 use camgen_kernel::motion::{Motion, Quantity};
 use camgen_kernel::profile::outline::Fit;
 use camgen_kernel::refusal::Refusal;
@@ -77,8 +76,8 @@ pub(super) fn made(request: &EngineRequest, toml: &str, answer: &mut EngineAnswe
     }
     if proven.passed() && !request.formats.is_empty() {
         let files = proven.files(&writing)?;
-        let of = |file: &crate::pipeline::Output| EngineFile { name: file.name.clone(), bytes: file.bytes.clone() };
-        answer.files = files.outputs().iter().map(of).collect();
+        let outputs = files.outputs().iter();
+        answer.files = outputs.map(|file| EngineFile { name: file.name.clone(), bytes: file.bytes.clone() }).collect();
     }
     Ok(())
 }
@@ -108,11 +107,11 @@ fn refusal(why: impl Into<String>) -> Error {
 
 /// What would let each check pass that promises it.
 fn of_findings(findings: &[Finding]) -> Map<String, Value> {
-    let of = |finding: &Finding| {
+    let remedies = findings.iter().filter_map(|finding| {
         let remedies: Vec<_> = finding.note.as_ref()?.remedies().into_iter().map(changes).collect();
         (!remedies.is_empty()).then(|| (finding.check.to_string(), json!(remedies)))
-    };
-    findings.iter().filter_map(of).collect()
+    });
+    remedies.collect()
 }
 
 /// Why a cam has no outline, with the name of a disc that is not the first.
@@ -124,11 +123,11 @@ fn no_outline(proven: &ProvenAssembly) -> Option<String> {
 
 /// The other cams of an assembly by their names, with the checks that they fail.
 fn others(proven: &ProvenAssembly) -> Vec<Value> {
-    let of = |((name, cam), (_, failed)): (&(String, Proven), (&str, Vec<Finding>))| {
+    let others = proven.others().iter().zip(proven.failures_of_others()).map(|((name, cam), (_, failed))| {
         let (checks, remedies) = (html::checks_of(&failed), of_findings(&failed));
         json!({"name": name, "passed": cam.passed(), "checks": checks, "remedies": remedies})
-    };
-    proven.others().iter().zip(proven.failures_of_others()).map(of).collect()
+    });
+    others.collect()
 }
 
 /// What a page shows; of a cam without an outline its checks alone.
@@ -149,11 +148,11 @@ fn segments(machine: &Machine) -> Option<Value> {
     let along = |at: f64| if program.stroke().is_some() { MILLIMETRES * at } else { at.to_degrees() };
     let swings = program.quantity() == Quantity::Angle;
     let position = |at: f64| if swings { at.to_degrees() } else { MILLIMETRES * at };
-    let of = |segment: &SegmentSummary| {
+    let segments = program.segments().iter().map(|segment| {
         let ((from, to), (low, high)) = (segment.angles, segment.positions);
         json!({"law": segment.law, "at": [along(from), along(to)], "position": [position(low), position(high)], "whole": segment.whole})
-    };
-    let segments: Vec<Value> = program.segments().iter().map(of).collect();
+    });
+    let segments: Vec<Value> = segments.collect();
     Some(
         json!({"units": [if program.stroke().is_some() { "mm" } else { "deg" }, if swings { "deg" } else { "mm" }], "segments": segments}),
     )

@@ -2,7 +2,7 @@
 
 use crate::catalogue::catalogue;
 use camgen_kernel::document::{Bounds, Key, KeyForm, KeySection, Occurrence, Presence};
-use camgen_kernel::motion::laws::{LAWS, Law, LawCurve, LawTask};
+use camgen_kernel::motion::laws::{LAWS, LawCurve, LawTask};
 use camgen_kernel::units::{self, Dimension};
 use serde_json::{Map, Value, json};
 
@@ -88,7 +88,7 @@ const PICTURED: u32 = 24;
 /// The laws from rest to rest: the name, the largest velocity, acceleration and jerk for a travel of 1 over a width of 1 (`null` where the one before
 /// jumps, at a rest too), and its lift, velocity and acceleration at even places.
 fn laws() -> Vec<Value> {
-    let of = |law: &Law| {
+    let laws = LAWS.iter().filter(|law| law.serves_rests()).filter_map(|law| {
         let curve = law.solve(&LawTask::default()).ok()?;
         let peaks = curve.peaks();
         let values = [peaks.velocity.value, peaks.acceleration.value, peaks.jerk.value];
@@ -97,15 +97,15 @@ fn laws() -> Vec<Value> {
         let peaks = [0, 1, 2].map(|order| (bounded[order] && values[order].is_finite()).then_some(values[order]));
         let shapes = [0, 1, 2].map(|order| shape(&curve, order));
         Some(json!({"name": law.name, "peaks": peaks, "shapes": shapes}))
-    };
-    LAWS.iter().filter(|law| law.serves_rests()).filter_map(of).collect()
+    });
+    laws.collect()
 }
 
 /// A derivative of a law at even places, rounded for a picture.
 fn shape(curve: &LawCurve, order: u32) -> Vec<f64> {
-    let at = |place: u32| {
+    let values = (0..=PICTURED).map(|place| {
         let x = f64::from(place) / f64::from(PICTURED);
         (1e3 * curve.derivative(curve.part_of(x), x, order)).round() / 1e3
-    };
-    (0..=PICTURED).map(at).collect()
+    });
+    values.collect()
 }

@@ -21,7 +21,7 @@ pub struct Pressing {
 impl Pressing {
     /// The force at a lift with its derivatives.
     #[must_use]
-    pub fn at(&self, lift: &Jet) -> f64 {
+    pub fn force_at(&self, lift: &Jet) -> f64 {
         self.still(lift) + self.moving(lift)
     }
 

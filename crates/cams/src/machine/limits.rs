@@ -287,15 +287,15 @@ fn pressure_angle(table: &TableReader<'_>, in_table: f64, follower: &dyn Followe
 /// The inputs of a file, the limit of the pressure angle as it holds for a follower in the place of the default of its key.
 pub(super) fn inputs(reader: &Reader<'_>, follower: &dyn Follower, moves: Quantity) -> Vec<Input> {
     let (table, path) = (reader.table(&SECTION), SECTION.path_of(&PRESSURE_ANGLE.key));
-    let of = |input: Input| {
+    let inputs = reader.inputs().into_iter().filter_map(|input| {
         let in_table = if input.key == path { table.get(&PRESSURE_ANGLE) } else { None };
         let Some(in_table) = in_table else { return Some(input) };
         match pressure_angle(&table, in_table, follower, moves) {
             Some(limit) if limit != in_table => Some(Input::quantity(&path, limit, ("deg", 1.0_f64.to_radians()))),
             limit => limit.map(|_| input),
         }
-    };
-    reader.inputs().into_iter().filter_map(of).collect()
+    });
+    inputs.collect()
 }
 
 /// The limits in effect, given or default, as a person would type them; limits that are checked only if given are left out.

@@ -214,8 +214,7 @@ impl CamMaterial {
         if let Some((_, class)) = CLASSES.iter().find(|(known, _)| folded(known) == folded(name)) {
             return Ok(Self { class: *class, source: Source::Class, limit });
         }
-        let is_named = |grade: &&Grade| grade.names.iter().any(|known| folded(known) == folded(name));
-        if let Some(grade) = GRADES.iter().find(is_named) {
+        if let Some(grade) = GRADES.iter().find(|grade| grade.names.iter().any(|known| folded(known) == folded(name))) {
             return Ok(Self { class: grade.class, source: Source::Grade(grade), limit });
         }
         let near = similar(name, CLASSES.iter().map(|(known, _)| *known))
@@ -230,11 +229,10 @@ impl CamMaterial {
     /// nothing is known of the material.
     #[must_use]
     pub fn line_limit(&self) -> Option<f64> {
-        let of_grade = || match self.source {
+        self.limit.or_else(|| match self.source {
             Source::Grade(grade) => grade.limit().map(|(limit, _)| limit),
             Source::Class | Source::Other => None,
-        };
-        self.limit.or_else(of_grade)
+        })
     }
 
     /// Whether more than its name is known.

@@ -194,10 +194,12 @@ impl Machine {
     /// # Errors
     /// All faults found, each with its place.
     pub fn of_source(source: &MachineSource, overrides: &[String]) -> Result<Self, MachineError> {
-        let machine = source.read(overrides, |reader| Self::of(reader, source))?;
+        let machine = source.read(overrides, |reader| Self::from_reader(reader, source))?;
         let is_timed = machine.motion.as_ref().is_some_and(|program| program.is_timed());
-        let timed = || Arc::new(TimedMotion { source: source.clone(), overrides: overrides.to_vec() });
-        Ok(Self { timed: is_timed.then(timed), ..machine })
+        Ok(Self {
+            timed: is_timed.then(|| Arc::new(TimedMotion { source: source.clone(), overrides: overrides.to_vec() })),
+            ..machine
+        })
     }
 
     /// The machine with its motion at another cam speed, rpm: rates per second and a polydyne cam depend on it.
@@ -211,12 +213,12 @@ impl Machine {
         let sets_speed = |set: &&String| set.split('=').next().is_some_and(|key| key.trim() == SPEED);
         let others = timed.overrides.iter().filter(|set| !sets_speed(set)).cloned();
         let overrides: Vec<String> = others.chain([format!("{SPEED}={rpm}")]).collect();
-        let read = timed.source.read(&overrides, |reader| Self::of(reader, &timed.source));
+        let read = timed.source.read(&overrides, |reader| Self::from_reader(reader, &timed.source));
         let motion = read.map_err(|error| Refusal::new(format!("the motion at {rpm} rpm: {error}")))?.motion;
         Ok(Self { motion, ..self.clone() })
     }
 
-    fn of(reader: &Reader<'_>, source: &MachineSource) -> Option<Self> {
+    fn from_reader(reader: &Reader<'_>, source: &MachineSource) -> Option<Self> {
         // Everything is read before the first `?`, so that each part reports what is wrong between its keys.
         let (follower, cam) = (follower::read(reader), disc::read(reader));
         let moves = follower.as_ref().map(|FollowerData { path, shape, arm, .. }| FollowerMovement {

@@ -37,8 +37,8 @@ pub(super) fn instead_of_machine(name: &str, text: &[u8]) -> Option<(&'static st
     // Rows of numbers, with a header or without.
     let is_row = |row: &[u8]| {
         let cells = || row.split(|byte| matches!(byte, b',' | b';' | b'\t' | b' ')).filter(|cell| !cell.is_empty());
-        let number = |cell: &[u8]| std::str::from_utf8(cell).is_ok_and(|cell| cell.trim().parse::<f64>().is_ok());
-        cells().count() >= 2 && cells().all(number)
+        cells().count() >= 2
+            && cells().all(|cell| std::str::from_utf8(cell).is_ok_and(|cell| cell.trim().parse::<f64>().is_ok()))
     };
     if is_row(line(0)) || (!line(0).contains(&b'=') && is_row(line(1)) && is_row(line(2))) {
         let help = format!("in a machine file [motion] table = \"{name}\" makes it a motion");

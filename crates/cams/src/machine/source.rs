@@ -188,9 +188,9 @@ impl Catalogue {
     /// A file that cannot be read, or is not a machine file; what is wrong in it shows when a machine is made of it.
     pub fn source(&'static self, name_or_path: &str, files: &InputFiles) -> Result<MachineSource, MachineError> {
         let path = Path::new(name_or_path);
-        let exact = |machine: &&Embedded| machine.name == name_or_path;
-        let in_any_case = |machine: &&Embedded| machine.name.eq_ignore_ascii_case(name_or_path) && !path.exists();
-        let named = self.embedded.iter().find(exact).or_else(|| self.embedded.iter().find(in_any_case));
+        let named = self.embedded.iter().find(|machine| machine.name == name_or_path).or_else(|| {
+            self.embedded.iter().find(|machine| machine.name.eq_ignore_ascii_case(name_or_path) && !path.exists())
+        });
         if let Some(embedded) = named {
             let of_embedded = MachineSource::of_user(self, &format!("{} (embedded)", embedded.name), embedded.toml);
             return Ok(MachineSource { stem: embedded.name.to_owned(), by_user: false, ..of_embedded });

@@ -92,7 +92,6 @@ pub fn template_of_program(catalogue: &Catalogue, follower: &str) -> Option<Stri
         .replace("\ndegree = ", "\n# degree = ");
     let program = PROGRAM.replace("{start}", start).replace("{to}", to);
     let segment = written("", &[&program::keys::SEGMENT], &[]);
-    let of_make = |section: &&KeySection| section.cams.is_empty() || section.cams.contains(&cams::MAKE);
     // The tables after those of the followers.
     let is_follower = |section: &&KeySection| FOLLOWERS.iter().any(|kind| kind.section.path == section.path);
     let after = catalogue.keys.sections.iter().rev().copied().take_while(|section| !is_follower(section));
@@ -100,8 +99,11 @@ pub fn template_of_program(catalogue: &Catalogue, follower: &str) -> Option<Stri
         let others = FOLLOWERS.iter().filter(|other| other.section.path != kind.section.path);
         others.into_iter().any(|other| section.path.starts_with(&format!("{}.", other.section.path)))
     };
-    let mut body: Vec<&KeySection> =
-        after.filter(of_make).filter(|section| !of_another(section)).chain([kind.section]).collect();
+    let mut body: Vec<&KeySection> = after
+        .filter(|section| section.cams.is_empty() || section.cams.contains(&cams::MAKE))
+        .filter(|section| !of_another(section))
+        .chain([kind.section])
+        .collect();
     body.reverse();
     let mut body = written("", &body, &[kind.section.path]);
     if swings || kind.section.path == FLAT {

@@ -17,12 +17,12 @@ fn fits(c: char) -> bool {
 
 fn is_device(stem: &str) -> bool {
     let name = stem.split('.').next().unwrap_or_default().trim().to_ascii_lowercase();
-    let numbered = |device: &&str| {
-        let mut rest = name.strip_prefix(*device).unwrap_or_default().chars();
-        // Windows also reads the Latin-1 superscript digits as digits.
-        rest.next().is_some_and(|digit| digit.is_ascii_digit() || "¹²³".contains(digit)) && rest.next().is_none()
-    };
-    DEVICES.contains(&name.as_str()) || NUMBERED_DEVICES.iter().any(numbered)
+    DEVICES.contains(&name.as_str())
+        || NUMBERED_DEVICES.iter().any(|device| {
+            let mut rest = name.strip_prefix(*device).unwrap_or_default().chars();
+            // Windows also reads the Latin-1 superscript digits as digits.
+            rest.next().is_some_and(|digit| digit.is_ascii_digit() || "¹²³".contains(digit)) && rest.next().is_none()
+        })
 }
 
 /// Why files cannot be called by a stem; `None` where they can.

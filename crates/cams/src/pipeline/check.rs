@@ -9,7 +9,6 @@ use crate::report::{Finding, Inputs, Report, Rolled, Section, Verdict};
 use crate::tool_files::ExpectedFile;
 use crate::tool_files::section::{CutSection, section};
 use crate::verify::{self, Evidence, WrittenOutline, WrittenSolid, join_reach, rolling, shell_reach};
-use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::profile::outline::MotionTolerance;
 use camgen_kernel::refusal::Refusal;

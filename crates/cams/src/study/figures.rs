@@ -27,9 +27,10 @@ fn head(path: &str) -> (&str, &str) {
 
 impl Plan {
     /// Of columns, where a solved cam and the proved one gave these figures: what is the same before anything is drawn does not need a drawing.
-    pub(super) fn of(columns: &[String], solved: &Value, proven: &Value) -> Self {
-        let known =
-            |path: &String| at(solved, path).is_some_and(|value| !value.is_null() && Some(value) == at(proven, path));
+    pub(super) fn new(columns: &[String], solved: &Value, proven: &Value) -> Self {
+        let known = |path: &String| {
+            figure_at(solved, path).is_some_and(|value| !value.is_null() && Some(value) == figure_at(proven, path))
+        };
         Self { proves: !columns.iter().all(known), ..Self::proving(columns) }
     }
 
@@ -94,7 +95,7 @@ impl Plan {
 }
 
 /// The value at a path, `cam.roller_turns[0]`.
-pub(super) fn at<'v>(figures: &'v Value, path: &str) -> Option<&'v Value> {
+pub(super) fn figure_at<'v>(figures: &'v Value, path: &str) -> Option<&'v Value> {
     path.split('.').try_fold(figures, |value, part| {
         let (name, indices) = part.split_once('[').map_or((part, ""), |(name, rest)| (name, rest));
         let found = value.get(name)?;
@@ -136,18 +137,18 @@ mod tests {
     #[test]
     fn figures_are_found_by_their_paths() {
         let report = json!({"cam": {"turns": [1.0, 2.5]}, "checks": {"wall": {"value": 3.0}}, "passed": true});
-        assert_eq!(at(&report, "cam.turns[1]"), Some(&json!(2.5)));
-        assert_eq!(at(&report, "checks.wall.value"), Some(&json!(3.0)));
-        assert_eq!((at(&report, "cam.turns[2]"), at(&report, "cam.none")), (None, None));
+        assert_eq!(figure_at(&report, "cam.turns[1]"), Some(&json!(2.5)));
+        assert_eq!(figure_at(&report, "checks.wall.value"), Some(&json!(3.0)));
+        assert_eq!((figure_at(&report, "cam.turns[2]"), figure_at(&report, "cam.none")), (None, None));
         let all = paths_of(&report);
         assert_eq!(all, ["cam.turns[0]", "cam.turns[1]", "checks.wall.value", "passed"]);
-        assert!(all.iter().all(|path| at(&report, path).is_some()));
+        assert!(all.iter().all(|path| figure_at(&report, path).is_some()));
     }
 
     #[test]
     fn what_is_known_before_it_is_drawn_is_not_drawn() {
         let (solved, proven) = (json!({"cam": {"a": 1.0, "b": null}}), json!({"cam": {"a": 1.0, "b": 2.0}}));
-        let plan = |path: &str| Plan::of(&[path.to_owned()], &solved, &proven).proves;
+        let plan = |path: &str| Plan::new(&[path.to_owned()], &solved, &proven).proves;
         assert_eq!((plan("cam.a"), plan("cam.b"), plan("cam.c")), (false, true, true));
     }
 }

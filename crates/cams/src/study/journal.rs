@@ -121,8 +121,9 @@ impl Journal {
     /// [`Refusal`] if they cannot be saved or read; saved rows are kept for the next run.
     pub fn summary(&self, study: &Study) -> Result<Summary, StudyError> {
         self.save()?;
-        let failed = |error| Refusal::new(format!("cannot read the table of {}: {error}", self.stem));
-        Ok(study.summary(|| self.table.reader()).map_err(failed)?)
+        Ok(study
+            .summary(|| self.table.reader())
+            .map_err(|error| Refusal::new(format!("cannot read the table of {}: {error}", self.stem)))?)
     }
 
     /// The directory, opened again for the files of the complete study.
@@ -163,7 +164,7 @@ impl Journal {
                     Content::Bytes((study.header() + &lines.concat()).into_bytes())
                 }
                 #[cfg(feature = "html")]
-                ".html" => Content::Bytes(super::page::of(study, summary).map_err(StudyError::Refused)?),
+                ".html" => Content::Bytes(super::page::write(study, summary).map_err(StudyError::Refused)?),
                 #[cfg(feature = "parquet")]
                 ".parquet" => {
                     let header = study.header();

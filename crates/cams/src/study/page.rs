@@ -14,23 +14,19 @@ const MOST_COLUMNS: usize = 8;
 ///
 /// # Errors
 /// Only what `serde_json` cannot write, which a study is not.
-pub(super) fn of(study: &Study, summary: &Summary) -> Result<Vec<u8>, Refusal> {
+pub(super) fn write(study: &Study, summary: &Summary) -> Result<Vec<u8>, Refusal> {
     let names = cells(study.header().trim_end());
-    let place = |name: &str| names.iter().position(|other| other == name);
-    let numbers = |at: Option<usize>, rows: &[Vec<String>]| -> Vec<Option<f64>> {
-        rows.iter().map(|row| row.get(at?)?.parse().ok()).collect()
-    };
     let front: Vec<Vec<String>> = summary.front.iter().map(|line| cells(line)).collect();
-    let column = |of: &super::summary::Distribution| {
-        let at = place(&of.name);
+    let columns = summary.columns.iter().filter(|of| of.name != super::row::FEASIBLE);
+    let columns = columns.take(MOST_COLUMNS).map(|of| {
+        let at = names.iter().position(|name| *name == of.name);
         json!({
             "name": of.name, "least": of.range.0, "largest": of.range.1, "mean": of.mean, "deviation": of.deviation(),
             "bars": of.bars(), "shown": numbers(at, &summary.shown), "front": numbers(at, &front),
         })
-    };
-    let columns = summary.columns.iter().filter(|of| of.name != super::row::FEASIBLE);
-    let columns: Vec<Value> = columns.take(MOST_COLUMNS).map(column).collect();
-    let feasible = place(super::row::FEASIBLE);
+    });
+    let columns: Vec<Value> = columns.collect();
+    let feasible = names.iter().position(|name| name == super::row::FEASIBLE);
     let kept: Vec<bool> = summary
         .shown
         .iter()
@@ -46,4 +42,9 @@ pub(super) fn of(study: &Study, summary: &Summary) -> Result<Vec<u8>, Refusal> {
             "digest": study.digest(),
         }),
     )
+}
+
+/// The numbers of a column in some rows; none where the column is missing or the cell is no number.
+fn numbers(column: Option<usize>, rows: &[Vec<String>]) -> Vec<Option<f64>> {
+    rows.iter().map(|row| row.get(column?)?.parse().ok()).collect()
 }

@@ -105,14 +105,14 @@ impl Parameter {
                 let last = steps.unwrap_or(2).saturating_sub(1).max(1);
                 self.number(between((*from, *to), *scale, (index, last)))
             }
-            Values::Normal { .. } => self.at(0.5),
+            Values::Normal { .. } => self.value_at(0.5),
         }
     }
 
     /// The value below which a share of all lies.
     #[must_use]
     #[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts")]
-    pub fn at(&self, share: f64) -> ParameterValue {
+    pub fn value_at(&self, share: f64) -> ParameterValue {
         match (&self.values, self.count()) {
             (_, Some(count)) => self.level(((share * count as f64) as u64).min(count.saturating_sub(1))),
             (Values::Normal { mean, deviation, within: (low, high) }, _) => {
@@ -196,14 +196,14 @@ mod tests {
     #[test]
     fn a_truncated_distribution_keeps_its_ends() {
         let half = of(Values::Normal { mean: 5.0, deviation: 2.0, within: (5.0, f64::INFINITY) });
-        assert!((half.at(0.5).number.expect("a number") - (5.0 + 2.0 * 0.674_489_750_196_081_7)).abs() < 1e-13);
+        assert!((half.value_at(0.5).number.expect("a number") - (5.0 + 2.0 * 0.674_489_750_196_081_7)).abs() < 1e-13);
         let far = of(Values::Normal { mean: 0.0, deviation: 1.0, within: (30.0, 31.0) });
         for share in [1e-9, 0.5, 1.0 - 1e-9] {
-            let value = far.at(share).number.expect("a number");
+            let value = far.value_at(share).number.expect("a number");
             assert!((30.0..=31.0).contains(&value), "{share} {value}");
         }
         // The mean excess of a tail at a is 1/a, its median ln 2/a, to 1/a² of it.
-        assert!((far.at(0.5).number.expect("a number") - 30.0 - 2_f64.ln() / 30.0).abs() < 1e-4);
+        assert!((far.value_at(0.5).number.expect("a number") - 30.0 - 2_f64.ln() / 30.0).abs() < 1e-4);
         assert_eq!(half.column(), "set.a.b_mm");
     }
 }

@@ -28,7 +28,7 @@ enum CellKind {
 }
 
 impl CellKind {
-    fn of(cell: &str) -> Self {
+    fn from_cell(cell: &str) -> Self {
         match cell {
             "" => Self::Empty,
             "true" | "false" => Self::Truth,
@@ -87,12 +87,12 @@ fn add(
 
 /// The columns of a table in the form of Parquet.
 fn schema(names: &[String], kinds: &[CellKind]) -> Result<Type, ParquetError> {
-    let field = |(name, kind): (&String, &CellKind)| {
+    let fields = names.iter().zip(kinds).map(|(name, kind)| {
         let text = (kind.physical() == PhysicalType::BYTE_ARRAY).then_some(LogicalType::String);
         let builder = Type::primitive_type_builder(name, kind.physical());
         Ok(Arc::new(builder.with_repetition(Repetition::OPTIONAL).with_logical_type(text).build()?))
-    };
-    let fields: Vec<Arc<Type>> = names.iter().zip(kinds).map(field).collect::<Result<_, ParquetError>>()?;
+    });
+    let fields: Vec<Arc<Type>> = fields.collect::<Result<_, ParquetError>>()?;
     Type::group_type_builder("study").with_fields(fields).build()
 }
 
@@ -109,7 +109,7 @@ pub(super) fn write<T: BufRead>(
     let mut kinds = vec![CellKind::Empty; names.len()];
     each_row(&mut open()?, |_, row| {
         for (kind, cell) in kinds.iter_mut().zip(row) {
-            *kind = kind.and(CellKind::of(cell));
+            *kind = kind.and(CellKind::from_cell(cell));
         }
     })?;
     let units = names.iter().filter_map(|name| Some(KeyValue::new(format!("unit.{name}"), unit_of(name)?.to_owned())));

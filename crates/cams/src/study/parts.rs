@@ -25,8 +25,10 @@ pub(super) fn base_of(name: &str, folder: Option<&Path>, files: &InputFiles) -> 
         }
         None => PathBuf::from(name),
     };
-    let unnamed = || fault(format!("the path `{}` is not UTF-8", path.display()), None);
-    let loaded = MachineSource::load_with(path.to_str().ok_or_else(unnamed)?, files);
+    let Some(utf8) = path.to_str() else {
+        return Err(fault(format!("the path `{}` is not UTF-8", path.display()), None));
+    };
+    let loaded = MachineSource::load_with(utf8, files);
     loaded.map(MachineSource::with_confined_overrides).map_err(|error| match error.faults.into_iter().next() {
         Some(first) => Box::new(first),
         None => fault(format!("cannot read the base `{name}`"), None),
@@ -36,10 +38,10 @@ pub(super) fn base_of(name: &str, folder: Option<&Path>, files: &InputFiles) -> 
 /// The command, where the word is one.
 pub(super) fn command(root: &TableReader<'_>, machine: &Machine) -> Option<&'static DesignCommand> {
     let Some(word) = root.get(&keys::COMMAND) else { return Some(usual_command(machine)) };
-    let all = || commands().filter(|command| command.is_for_one_speed());
-    let found = all().find(|command| command.word == word);
+    let all: Vec<_> = commands().filter(|command| command.is_for_one_speed()).collect();
+    let found = all.iter().copied().find(|command| command.word == word);
     if found.is_none() {
-        let words: Vec<&str> = all().map(|command| command.word).collect();
+        let words: Vec<&str> = all.iter().map(|command| command.word).collect();
         let near =
             similar(&word, words.iter().copied()).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
         let help = format!("{near}It is one of {}", words.join(", "));

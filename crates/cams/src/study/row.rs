@@ -1,6 +1,6 @@
 //! One design: from the values of the keys to a line of figures.
 
-use super::figures::{Plan, at};
+use super::figures::{Plan, figure_at};
 use super::parameter::{ParameterValue, SPEED};
 use super::specification::Study;
 use crate::body::{DrawingEvidence, Request};
@@ -27,11 +27,11 @@ fn line(why: &str) -> String {
 
 /// The faults of a machine file without the lines that they quote.
 fn faults(error: &MachineError) -> String {
-    let of = |fault: &crate::machine::FileFault| match &fault.help {
+    let faults = error.faults.iter().map(|fault| match &fault.help {
         Some(help) => format!("{}; {help}", fault.message),
         None => fault.message.clone(),
-    };
-    error.faults.iter().map(of).collect::<Vec<_>>().join("; ")
+    });
+    faults.collect::<Vec<_>>().join("; ")
 }
 
 /// A text as a cell: in quotes where a reader of tables would otherwise take it for several cells or for a formula.
@@ -156,7 +156,7 @@ impl Study {
     pub(super) fn write_row(&self, row: u64, out: &mut Vec<u8>) {
         let values = self.values(row);
         let (found, why) = self.figures(&values);
-        let figures: Vec<Option<&Value>> = self.columns.iter().map(|path| at(&found, path)).collect();
+        let figures: Vec<Option<&Value>> = self.columns.iter().map(|path| figure_at(&found, path)).collect();
         let mut text = row.to_string();
         for value in &values {
             text.push(',');

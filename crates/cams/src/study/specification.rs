@@ -1,6 +1,6 @@
 //! The study file: TOML to a [`Study`] with every value in range.
 
-use super::figures::{Plan, at, paths_of};
+use super::figures::{Plan, figure_at, paths_of};
 use super::keys;
 use super::kind::{Constraint, Objective, StudyKind};
 use super::parameter::{Parameter, SPEED, Values};
@@ -21,14 +21,14 @@ use std::sync::Arc;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum StudyError {
     /// Faults of the study file or of its base, each with its place.
-    #[error("{}", told(.0))]
+    #[error("{}", message(.0))]
     Faults(Vec<FileFault>),
     /// Something that has no place in the file, or a file that cannot be written.
     #[error(transparent)]
     Refused(#[from] Refusal),
 }
 
-fn told(faults: &[FileFault]) -> String {
+fn message(faults: &[FileFault]) -> String {
     faults.iter().map(FileFault::to_string).collect::<Vec<_>>().join("\n")
 }
 
@@ -136,7 +136,7 @@ impl Study {
 
     fn read(source: &str, text: StudyText<'_>) -> Result<Self, StudyError> {
         let reader = Reader::new(source, text.text, &[], keys::SECTIONS);
-        let study = Self::of(&reader, text);
+        let study = Self::from_reader(&reader, text);
         reader.finish().map_err(StudyError::Faults)?;
         match study {
             Ok(Some(study)) => Ok(study),
@@ -147,7 +147,7 @@ impl Study {
     }
 
     /// `None` after a fault that was reported.
-    fn of(reader: &Reader<'_>, study: StudyText<'_>) -> Result<Option<Self>, StudyError> {
+    fn from_reader(reader: &Reader<'_>, study: StudyText<'_>) -> Result<Option<Self>, StudyError> {
         let StudyText { text, stem, folder, files } = study;
         let root = reader.table(&keys::ROOT);
         let parameters: Option<Vec<Parameter>> =
@@ -243,17 +243,18 @@ impl Study {
 
     /// Refuses limits and objectives that are words: they have no size.
     fn refuse_words(&self, reader: &Reader<'_>, tried: &Value) {
-        let is_word =
-            |column: usize| self.columns.get(column).filter(|path| at(tried, path).is_some_and(Value::is_string));
-        let help = || Some("take a number, or `passed`, which is 1 or 0".to_owned());
+        let is_word = |column: usize| {
+            self.columns.get(column).filter(|path| figure_at(tried, path).is_some_and(Value::is_string))
+        };
+        let help = Some("take a number, or `passed`, which is 1 or 0".to_owned());
         for (table, constraint) in reader.elements(&keys::CONSTRAINT).zip(&self.constraints) {
             if let Some(path) = is_word(constraint.column) {
-                table.fail(&keys::COLUMN, format!("\"{path}\" is a word and has no limits"), help());
+                table.fail(&keys::COLUMN, format!("\"{path}\" is a word and has no limits"), help.clone());
             }
         }
         for (table, objective) in reader.elements(&keys::OBJECTIVE).zip(&self.objectives) {
             if let Some(path) = is_word(objective.column) {
-                table.fail(&keys::COLUMN, format!("\"{path}\" is a word, and words have no order"), help());
+                table.fail(&keys::COLUMN, format!("\"{path}\" is a word, and words have no order"), help.clone());
             }
         }
     }
@@ -261,7 +262,7 @@ impl Study {
     /// What is wrong with a parameter, where neither its first nor its last value fits its key.
     fn misfit(&self, number: usize) -> Option<FileFault> {
         let parameter = self.parameters.get(number)?;
-        let ends = [0.0, 1.0 - f64::EPSILON].map(|share| parameter.at(share).typed);
+        let ends = [0.0, 1.0 - f64::EPSILON].map(|share| parameter.value_at(share).typed);
         let mut found = None;
         for typed in ends {
             if parameter.key == SPEED {
@@ -273,8 +274,9 @@ impl Study {
             let own = format!("{}={typed}", parameter.key);
             let all: Vec<String> = self.set.iter().cloned().chain([own]).collect();
             let faults = Machine::of_source(&self.base, &all).err()?.faults;
-            let of_key = |fault: &FileFault| fault.place.as_ref().is_some_and(|place| place.source == "--set");
-            found = Some(faults.into_iter().find(of_key)?);
+            found = Some(
+                faults.into_iter().find(|fault| fault.place.as_ref().is_some_and(|place| place.source == "--set"))?,
+            );
         }
         found
     }
@@ -292,7 +294,7 @@ impl Study {
     fn planned(&self) -> (Plan, Option<Value>) {
         let tried = (0..self.rows.min(ROWS_TRIED)).find_map(|row| self.both_reports(row));
         match tried {
-            Some((solved, proven)) => (Plan::of(&self.columns, &solved, &proven), Some(proven)),
+            Some((solved, proven)) => (Plan::new(&self.columns, &solved, &proven), Some(proven)),
             None => (Plan::proving(&self.columns), None),
         }
     }
@@ -362,17 +364,17 @@ impl Study {
     pub fn values(&self, row: u64) -> Vec<super::ParameterValue> {
         if let Some(sampling) = self.sampling {
             let share = |number: usize| sampling::share(sampling, self.seed, (row, self.rows), number as u64);
-            return self.parameters.iter().enumerate().map(|(number, of)| of.at(share(number))).collect();
+            return self.parameters.iter().enumerate().map(|(number, of)| of.value_at(share(number))).collect();
         }
         // The last parameter changes from row to row.
         let mut rest = row;
-        let level = |parameter: &Parameter| {
+        let all = self.parameters.iter().rev().map(|parameter| {
             let count = parameter.count().unwrap_or(1).max(1);
             let level = parameter.level(rest % count);
             rest /= count;
             level
-        };
-        let mut all: Vec<_> = self.parameters.iter().rev().map(level).collect();
+        });
+        let mut all: Vec<_> = all.collect();
         all.reverse();
         all
     }

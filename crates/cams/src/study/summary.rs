@@ -199,11 +199,11 @@ impl Study {
     /// The row joins the front where no row of it beats it, and removes those that it beats. Equal rows stay together.
     fn enter(&self, front: &mut Vec<FrontRow>, values: &[Option<f64>], line: &str) {
         let first = 1 + self.parameters.len();
-        let of = |objective: &super::kind::Objective| {
+        let own = self.objectives.iter().map(|objective| {
             let value = values.get(first + objective.column).copied().flatten()?;
             Some(if objective.goal == Goal::Least { value } else { -value })
-        };
-        let Some(own) = self.objectives.iter().map(of).collect::<Option<Vec<f64>>>() else { return };
+        });
+        let Some(own) = own.collect::<Option<Vec<f64>>>() else { return };
         let beats = |a: &[f64], b: &[f64]| a != b && a.iter().zip(b).all(|(a, b)| a <= b);
         if front.iter().any(|(other, _)| beats(other, &own)) {
             return;

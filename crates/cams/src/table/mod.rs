@@ -236,10 +236,10 @@ pub fn value(row: &Row, column: &Column) -> f64 {
 /// The value of a row in the column of a name; `None` where its cam does not have the column.
 #[must_use]
 pub fn named_value(row: &Row, name: &str) -> Option<f64> {
-    let added = || row.added.iter().find(|(column, _)| column.name == name).map(|(_, value)| *value);
     let own = COLUMNS.iter().find(|(column, _)| *column == name).and_then(|(_, of)| of(row));
+    let mut added = row.added.iter().filter(|(column, _)| column.name == name).map(|(_, value)| *value);
     // A negative zero is zero.
-    own.or_else(added).map(|value| value + 0.0)
+    own.or_else(|| added.next()).map(|value| value + 0.0)
 }
 
 /// Whether a row may have no value in a column.
@@ -251,7 +251,7 @@ pub fn may_lack(column: &Column) -> bool {
 impl Table {
     /// The rows of a cam under the columns that it has.
     #[must_use]
-    pub fn of(rows: &[Row]) -> Self {
+    pub fn from_rows(rows: &[Row]) -> Self {
         let columns = columns(rows);
         Self {
             columns: columns.iter().map(|column| column.name).collect(),
@@ -281,10 +281,9 @@ impl Table {
     /// Rows of anything but a cam, under the names of the columns.
     #[must_use]
     pub fn listed<T>(listed: &[ListedColumn<T>], rows: &[T]) -> Self {
-        let values = |row: &T| listed.iter().map(|(_, value)| value(row) + 0.0).collect();
         Self {
             columns: listed.iter().map(|(name, _)| *name).collect(),
-            rows: rows.iter().map(values).collect(),
+            rows: rows.iter().map(|row| listed.iter().map(|(_, value)| value(row) + 0.0).collect()).collect(),
             may_lack: vec![true; listed.len()],
             words: None,
             more_words: Vec::new(),
@@ -364,7 +363,7 @@ mod tests {
         let swinging = Row { lift: None, swing: Some(Jet::default()), swings: true, ..turning.clone() };
         let mut all: Vec<&str> = Vec::new();
         for row in [turning, swinging, travelling] {
-            let columns = Table::of(&[row]).columns;
+            let columns = Table::from_rows(&[row]).columns;
             let mut names = columns.clone();
             names.sort_unstable();
             names.dedup();
@@ -372,7 +371,7 @@ mod tests {
             all.extend(names);
         }
         assert!(COLUMNS.iter().all(|(name, _)| all.contains(name)), "every column belongs to some cam");
-        assert!(Table::of(&[]).columns.is_empty());
+        assert!(Table::from_rows(&[]).columns.is_empty());
     }
 
     #[test]
@@ -381,7 +380,7 @@ mod tests {
         const NEXT: AddedColumn = AddedColumn { name: "dx_mm", after: "cam_deg" };
         let row =
             |x: f64| Row { lift: Some(Jet::default()), added: vec![(&FIRST, x), (&NEXT, -0.0)], ..Row::default() };
-        let table = Table::of(&[row(1.0), row(2.0)]);
+        let table = Table::from_rows(&[row(1.0), row(2.0)]);
         assert_eq!(table.columns[..3], ["x_mm", "dx_mm", "lift_mm"]);
         assert_eq!(table.rows[1][..2], [2.0, 0.0]);
         assert!(table.rows[1][1].is_sign_positive());

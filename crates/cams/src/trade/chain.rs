@@ -43,7 +43,7 @@ impl LeftOver {
 }
 
 /// The parts in their order, the outline of the advised setting among them.
-pub(super) fn of(chosen: Option<&TradeRow>, others: &[LeftOver]) -> Vec<LeftOver> {
+pub(super) fn left_over(chosen: Option<&TradeRow>, others: &[LeftOver]) -> Vec<LeftOver> {
     let outline = chosen.map(|row| LeftOver {
         part: "outline",
         residual_n: Some(row.residual_n).filter(|force| *force > 0.0),
@@ -57,14 +57,15 @@ pub(super) fn of(chosen: Option<&TradeRow>, others: &[LeftOver]) -> Vec<LeftOver
 
 /// Where another part leaves more force than the outline, that; a finer outline would not help there.
 pub(super) fn not_the_outline(chain: &[LeftOver]) -> Option<String> {
-    let force = |part: &&LeftOver| part.residual_n.unwrap_or(0.0);
-    let outline = chain.iter().find(|part| part.part == "outline")?;
-    let largest = chain.iter().filter(|part| part.part != "outline").max_by(|a, b| force(a).total_cmp(&force(b)))?;
-    (force(&largest) > force(&outline)).then(|| {
+    let forces = chain.iter().map(|part| (part, part.residual_n.unwrap_or(0.0)));
+    let (_, of_outline) = forces.clone().find(|(part, _)| part.part == "outline")?;
+    let others = forces.filter(|(part, _)| part.part != "outline");
+    let (largest, force) = others.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    (force > of_outline).then(|| {
         format!(
             "the outline is not what limits: the part `{}` leaves {} N, and no finer outline changes that",
             largest.part,
-            shown(force(&largest))
+            shown(force)
         )
     })
 }

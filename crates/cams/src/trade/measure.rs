@@ -301,7 +301,7 @@ fn ranking(rows: &[TradeRow], limits: TradeLimits) -> Vec<usize> {
 
 impl TradeRow {
     /// Nothing measured yet.
-    fn of(law: &TradeLaw, setting: &TradeSetting, law_us: f64, step_us: Option<f64>) -> Self {
+    fn new(law: &TradeLaw, setting: &TradeSetting, law_us: f64, step_us: Option<f64>) -> Self {
         Self {
             setting: setting.name.clone(),
             flags: setting.flags.clone(),
@@ -413,7 +413,7 @@ fn outline(
         bytes: bytes + sizes,
         deviation_mm: deviation,
         torque_error_nm: torque_error(law, proven.outlines()),
-        ..rolled(TradeRow::of(law, setting, law_us, step), law, proven.rolled())
+        ..rolled(TradeRow::new(law, setting, law_us, step), law, proven.rolled())
     };
     Ok((row, times))
 }
@@ -457,7 +457,7 @@ fn points(
         bytes: bytes.len(),
         deviation_mm: table.rows.error,
         torque_error_nm: torque_error(law, &[outline]),
-        ..rolled(TradeRow::of(law, setting, law_us, None), law, rolled_on.as_ref())
+        ..rolled(TradeRow::new(law, setting, law_us, None), law, rolled_on.as_ref())
     };
     Ok((row, times))
 }
@@ -491,11 +491,12 @@ fn rolled(row: TradeRow, law: &TradeLaw, rolled: Option<&Rolled>) -> TradeRow {
 /// Largest roller force times velocity error over the rows of the table, N·m; `None` of a plate, which turns nothing.
 fn torque_error(law: &TradeLaw, outlines: &[WrittenOutline]) -> Option<f64> {
     let table = csv::table(law.cam.body(), None, outlines, SAMPLES);
-    let column = |name: &str| table.columns.iter().position(|column| *column == name);
-    let [force, motion, cut] = ["roller_force_n", "velocity_mm_per_rad", "velocity_cut_mm_per_rad"].map(column);
+    let [force, motion, cut] = ["roller_force_n", "velocity_mm_per_rad", "velocity_cut_mm_per_rad"]
+        .map(|name| table.columns.iter().position(|column| *column == name));
     let (force, motion, cut) = (force?, motion?, cut?);
-    let of_row = |row: &Vec<f64>| Some(1e-3 * row.get(force)? * (row.get(cut)? - row.get(motion)?));
-    Some(table.rows.iter().filter_map(of_row).map(f64::abs).fold(0.0, f64::max))
+    let rows = table.rows.iter();
+    let errors = rows.filter_map(|row| Some(1e-3 * row.get(force)? * (row.get(cut)? - row.get(motion)?)));
+    Some(errors.map(f64::abs).fold(0.0, f64::max))
 }
 
 /// Times of the formats other than the cut file that the cam can have, and the bytes of all.

@@ -75,12 +75,13 @@ pub fn of_program(
     run: TradeRun<'_>,
 ) -> Result<Analysis, Refusal> {
     let (own, of_file) = (machine.clone(), machine.motion().and_then(|(_, rpm)| rpm));
-    let no_motion = || {
-        Refusal::new("the machine file has no motion")
-            .remedy("`camgen trade make` needs the tables [motion] and [[motion.segment]]")
-    };
     needs_base_circle(machine, "the outline of `camgen trade`")?;
-    let settings = of_disc(move || Spec::of_program(own.clone(), rpm).ok_or_else(no_motion))?;
+    let settings = of_disc(move || {
+        Spec::of_program(own.clone(), rpm).ok_or_else(|| {
+            Refusal::new("the machine file has no motion")
+                .remedy("`camgen trade make` needs the tables [motion] and [[motion.segment]]")
+        })
+    })?;
     let limits = TradeLimits { residual: None, acceleration: Some(acceleration.unwrap_or(ACCELERATION)) };
     let (cam, rpm, inputs, others) = ("make", rpm.or(of_file), machine.inputs(cams::MAKE), Vec::new());
     analysis(&TradeTask { kind: &KIND, cam, machine, rpm, settings, limits, inputs, others }, run)
@@ -95,7 +96,7 @@ pub fn analysis(task: &TradeTask<'_>, run: TradeRun<'_>) -> Result<Analysis, Ref
     let limits = task.limits;
     let measured = measure::measure(laws, settings, limits, run)?;
     let (advised, chosen) = (report::advice(&measured.rows, limits), report::chosen(&measured.rows));
-    let chain = chain::of(chosen, &task.others);
+    let chain = chain::left_over(chosen, &task.others);
     let advice = chain::not_the_outline(&chain).map_or(advised.clone(), |why| format!("{advised}; {why}"));
     let against = if limits.residual.is_some() { "force" } else { "gap" };
     let speed = task.rpm.map_or(String::new(), |rpm| format!(" at {} rpm", shortest(rpm)));

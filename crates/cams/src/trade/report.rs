@@ -149,10 +149,10 @@ pub(super) fn words(measured: &TradeMeasurement) -> Vec<ReportLine> {
 /// front.
 pub(super) fn chart_of(rows: &[TradeRow], limits: TradeLimits, title: String) -> Chart {
     let points = |value: fn(&TradeRow) -> Option<f64>| {
-        let point = |row: &TradeRow| {
+        let points = rows.iter().filter_map(|row| {
             Some(ChartPoint { x: count(row.pieces), y: value(row)?, label: row.setting.clone(), best: false })
-        };
-        let mut points: Vec<ChartPoint> = rows.iter().filter_map(point).collect();
+        });
+        let mut points: Vec<ChartPoint> = points.collect();
         chart::mark_front(&mut points);
         points
     };

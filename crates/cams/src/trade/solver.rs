@@ -95,14 +95,13 @@ pub fn analysis(
         if failed.is_empty() { advice } else { format!("{advice}; but its check {} fails", failed.join(", ")) };
     let chosen = chosen.filter(|_| failed.is_empty());
     let flags = chosen.map(|row| Section::new("flags", &row.flags));
-    let values: Vec<Value> = rows
-        .iter()
-        .map(|row| {
-            json!({"setting": row.setting, "flags": row.flags, "pieces": row.pieces, column: row.error, "time_us": row.time_us})
-        })
-        .collect();
+    let values = rows.iter().map(|row| {
+        json!({"setting": row.setting, "flags": row.flags, "pieces": row.pieces, column: row.error, "time_us": row.time_us})
+    });
+    let values: Vec<Value> = values.collect();
     let head = ReportLine::row(format!("{:<16} {:>8} {:>12} {:>10}", "setting", "pieces", "error", "time/ms"));
-    let line = |row: &SolverRow| {
+    let mut words = vec![format!("{about}; time of this computer, the least of {ROUNDS} rounds").into(), head];
+    words.extend(rows.iter().map(|row| {
         ReportLine::row(format!(
             "{:<16} {:>8} {:>12} {:>10.2}",
             row.setting,
@@ -110,8 +109,7 @@ pub fn analysis(
             told(row.error),
             1e-3 * row.time_us
         ))
-    };
-    let words = [format!("{about}; time of this computer, the least of {ROUNDS} rounds").into(), head];
+    }));
     let mut inputs = task.inputs;
     inputs.push(Input::word("command", format!("{COMMAND} {}", task.word)));
     let names = rows.iter().map(|row| row.setting.clone()).collect();
@@ -123,7 +121,7 @@ pub fn analysis(
         speeds: task.speeds,
         inputs,
         sections: [
-            Section::new("rows", &values).with_words(words.into_iter().chain(rows.iter().map(line)).collect()),
+            Section::new("rows", &values).with_words(words),
             Section::new("advice", &advice).with_words(std::iter::once(advice.clone()).chain(told_flags).collect()),
         ]
         .into_iter()
@@ -161,8 +159,10 @@ fn advice(rows: &[SolverRow], chosen: Option<&SolverRow>, limit: &str, told: imp
 }
 
 fn chart_of(rows: &[SolverRow], title: String, about: &'static str) -> Chart {
-    let point = |row: &SolverRow| ChartPoint { x: count(row), y: row.error, label: row.setting.clone(), best: false };
-    let mut points: Vec<ChartPoint> = rows.iter().map(point).collect();
+    let mut points: Vec<ChartPoint> = rows
+        .iter()
+        .map(|row| ChartPoint { x: count(row), y: row.error, label: row.setting.clone(), best: false })
+        .collect();
     chart::mark_front(&mut points);
     Chart { title, x_name: "pieces", panels: vec![ChartPanel { y_name: about, points }] }
 }

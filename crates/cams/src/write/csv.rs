@@ -38,7 +38,7 @@ pub const FORMAT: View = View {
 /// shaft.
 #[must_use]
 pub fn table(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutline], samples: u32) -> Table {
-    Table::of(&rows(body, second, outlines, samples))
+    Table::from_rows(&rows(body, second, outlines, samples))
 }
 
 /// The further tables of a body.

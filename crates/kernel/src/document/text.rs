@@ -297,15 +297,13 @@ impl<'a> Document<'a> {
         }
         let more = once.len().saturating_sub(MOST_FAULTS);
         once.truncate(MOST_FAULTS);
-        let mut faults: Vec<FileFault> = once
-            .into_iter()
-            .map(|fault| FileFault {
-                key: fault.key.or_else(|| self.key_at(fault.place.as_ref()?)),
-                place: fault.place.map(|place| self.excerpt(&place)),
-                message: brief(&fault.message),
-                help: fault.help.map(|help| brief(&help)),
-            })
-            .collect();
+        let faults = once.into_iter().map(|fault| FileFault {
+            key: fault.key.or_else(|| self.key_at(fault.place.as_ref()?)),
+            place: fault.place.map(|place| self.excerpt(&place)),
+            message: brief(&fault.message),
+            help: fault.help.map(|help| brief(&help)),
+        });
+        let mut faults: Vec<FileFault> = faults.collect();
         if more > 0 {
             faults.push(FileFault {
                 key: None,

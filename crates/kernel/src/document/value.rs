@@ -425,9 +425,8 @@ fn length_or_angle((dimension, value): (Dimension, f64)) -> KeyValue {
 fn points_of_flag(text: &str) -> Vec<Scalar> {
     let points = text.trim().trim_start_matches('[').trim_end_matches(']').split(']');
     let points = points.map(|point| point.trim().trim_start_matches(',').trim().trim_start_matches('['));
-    points
-        .map(|point| {
-            Scalar::List(point.split(',').map(|text| Scalar::Text(text.trim().trim_matches('"').to_owned())).collect())
-        })
-        .collect()
+    let points = points.map(|point| {
+        Scalar::List(point.split(',').map(|text| Scalar::Text(text.trim().trim_matches('"').to_owned())).collect())
+    });
+    points.collect()
 }

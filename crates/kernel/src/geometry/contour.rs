@@ -72,19 +72,14 @@ impl Contour {
     /// The contour with all of its lengths multiplied, about the origin.
     #[must_use]
     pub fn scaled(&self, scale: f64) -> Self {
-        Self {
-            vertices: self
-                .vertices
-                .iter()
-                .map(|vertex| {
-                    let bend = match vertex.bend {
-                        Bend::Arc(bulge) => Bend::Arc(bulge),
-                        Bend::Cubic([leaves, arrives]) => Bend::Cubic([leaves * scale, arrives * scale]),
-                    };
-                    Vertex { point: vertex.point * scale, bend }
-                })
-                .collect(),
-        }
+        let vertices = self.vertices.iter().map(|vertex| {
+            let bend = match vertex.bend {
+                Bend::Arc(bulge) => Bend::Arc(bulge),
+                Bend::Cubic([leaves, arrives]) => Bend::Cubic([leaves * scale, arrives * scale]),
+            };
+            Vertex { point: vertex.point * scale, bend }
+        });
+        Self { vertices: vertices.collect() }
     }
 
     /// A full circle, counter-clockwise, as two half arcs.
@@ -177,13 +172,11 @@ impl Contour {
     pub fn tangent_breaks(&self) -> Vec<f64> {
         let edges: Vec<Edge> = self.edges().collect();
         let before = edges.iter().cycle().skip(edges.len().saturating_sub(1));
-        before
-            .zip(&edges)
-            .map(|(before, after)| {
-                let (a, b) = (before.end_tangent(), after.start_tangent());
-                libm::atan2(a.perp(&b), a.dot(&b))
-            })
-            .collect()
+        let breaks = before.zip(&edges).map(|(before, after)| {
+            let (a, b) = (before.end_tangent(), after.start_tangent());
+            libm::atan2(a.perp(&b), a.dot(&b))
+        });
+        breaks.collect()
     }
 
     /// Exact extents, including the bulging of arcs.

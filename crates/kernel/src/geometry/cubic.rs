@@ -165,13 +165,12 @@ impl Cubic {
     /// By how much it turns left from its start to its end, rad.
     #[must_use]
     pub fn turning(&self) -> f64 {
-        self.smooth_parts()
-            .iter()
-            .map(|(part, _)| {
-                let (a, b) = (part.start_tangent(), part.end_tangent());
-                libm::atan2(a.perp(&b), a.dot(&b))
-            })
-            .sum()
+        let parts = self.smooth_parts();
+        let turns = parts.iter().map(|(part, _)| {
+            let (a, b) = (part.start_tangent(), part.end_tangent());
+            libm::atan2(a.perp(&b), a.dot(&b))
+        });
+        turns.sum()
     }
 
     /// Parameters at which it is perpendicular to a direction.

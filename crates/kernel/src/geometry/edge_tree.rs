@@ -71,13 +71,11 @@ impl EdgeTree {
     /// A chain that need not close: its nearest edge is found by [`Self::nearest_segment`].
     #[must_use]
     pub fn along(edges: Vec<Edge>) -> Self {
-        let boxes: Vec<Aabb> = edges
-            .iter()
-            .map(|edge| {
-                let extents = edge.extents();
-                Aabb::new(parry(extents.least), parry(extents.largest))
-            })
-            .collect();
+        let boxes = edges.iter().map(|edge| {
+            let extents = edge.extents();
+            Aabb::new(parry(extents.least), parry(extents.largest))
+        });
+        let boxes: Vec<Aabb> = boxes.collect();
         Self { edges, tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) }
     }
 

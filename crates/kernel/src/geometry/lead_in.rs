@@ -99,13 +99,11 @@ pub fn reversed(way: &[Segment]) -> Vec<Segment> {
 /// How deep a cutter of a radius (mm) cuts into the metal of any of the chains along paths of its centre, mm.
 #[must_use]
 pub fn depth_along(trees: &[EdgeTree], centre: &[Segment], radius: f64, fine: f64) -> f64 {
-    trees
-        .iter()
-        .map(|tree| {
-            let depths = centre.iter().map(|segment| depth_of_disc(tree, &Edge::Segment(*segment), radius, fine));
-            depths.fold(0.0, f64::max)
-        })
-        .fold(0.0, f64::max)
+    let depths = trees.iter().map(|tree| {
+        let depths = centre.iter().map(|segment| depth_of_disc(tree, &Edge::Segment(*segment), radius, fine));
+        depths.fold(0.0, f64::max)
+    });
+    depths.fold(0.0, f64::max)
 }
 
 #[cfg(test)]

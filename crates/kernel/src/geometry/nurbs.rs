@@ -140,12 +140,11 @@ impl NurbsCurve {
         for span in degree..poles.len() {
             let (Some(&low), Some(&high)) = (knots.get(span), knots.get(span + 1)) else { continue };
             if high > low {
-                let row: Option<Vec<_>> = (0..=degree)
-                    .map(|at_high| {
-                        let [x, y, z, _] = blossom(degree, span, knots, &poles, low, high, at_high)?;
-                        Some(Vector3::new(x, y, z))
-                    })
-                    .collect();
+                let row = (0..=degree).map(|at_high| {
+                    let [x, y, z, _] = blossom(degree, span, knots, &poles, low, high, at_high)?;
+                    Some(Vector3::new(x, y, z))
+                });
+                let row: Option<Vec<_>> = row.collect();
                 parted(row?, within, most, &mut found)?;
             }
         }

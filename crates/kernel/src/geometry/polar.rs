@@ -36,14 +36,12 @@ pub fn crossing(
 #[must_use]
 pub fn outermost(contour: &Contour, directions: &[Vector2<f64>]) -> Vec<Option<f64>> {
     let edges: Vec<(Edge, f64)> = contour.edges().map(|edge| (edge, edge.length())).collect();
-    directions
-        .iter()
-        .map(|direction| {
-            // An edge does not reach farther from its start than its length.
-            let near = edges.iter().filter(|(edge, length)| direction.perp(&edge.start()).abs() <= *length);
-            near.filter_map(|(edge, _)| of_edge(edge, *direction)).reduce(f64::max)
-        })
-        .collect()
+    let distances = directions.iter().map(|direction| {
+        // An edge does not reach farther from its start than its length.
+        let near = edges.iter().filter(|(edge, length)| direction.perp(&edge.start()).abs() <= *length);
+        near.filter_map(|(edge, _)| of_edge(edge, *direction)).reduce(f64::max)
+    });
+    distances.collect()
 }
 
 fn of_edge(edge: &Edge, direction: Vector2<f64>) -> Option<f64> {

@@ -32,19 +32,17 @@ pub(super) fn by_lift<M: Motion + ?Sized>(motion: &M) -> Vec<NamedStretch> {
         }
     }
     let most = found.iter().flat_map(|(_, lifts, _)| lifts).fold(0.0_f64, |most, lift| most.max(lift.abs()));
-    found
-        .into_iter()
-        .map(|(stretch, [from, to], (dwell, rolled))| {
-            let name = match to - from {
-                _ if !rolled => "no follower",
-                _ if dwell => "dwell",
-                travel if travel > LEVEL * most => "rise",
-                travel if travel < -LEVEL * most => "return",
-                _ => "movement",
-            };
-            NamedStretch { name: name.into(), ..stretch }
-        })
-        .collect()
+    let named = found.into_iter().map(|(stretch, [from, to], (dwell, rolled))| {
+        let name = match to - from {
+            _ if !rolled => "no follower",
+            _ if dwell => "dwell",
+            travel if travel > LEVEL * most => "rise",
+            travel if travel < -LEVEL * most => "return",
+            _ => "movement",
+        };
+        NamedStretch { name: name.into(), ..stretch }
+    });
+    named.collect()
 }
 
 #[cfg(test)]

@@ -307,18 +307,15 @@ impl Unknowns {
             (&[(v1, -h), (a1, 0.25 * h * h)], 0.0),
             (&[(v1, -h)], 0.0),
         ];
-        rows.into_iter()
-            .map(|(terms, most)| Bound {
-                terms: terms
-                    .iter()
-                    .filter_map(|((node, which), factor)| {
-                        self.unknown(*node, *which).map(|unknown| (unknown, up * factor))
-                    })
-                    .collect(),
-                most: most
-                    - terms.iter().map(|((node, which), factor)| up * factor * self.known(*node, *which)).sum::<f64>(),
-            })
-            .collect()
+        let bounds = rows.into_iter().map(|(terms, most)| Bound {
+            terms: terms
+                .iter()
+                .filter_map(|((node, which), factor)| self.unknown(*node, *which).map(|unknown| (unknown, up * factor)))
+                .collect(),
+            most: most
+                - terms.iter().map(|((node, which), factor)| up * factor * self.known(*node, *which)).sum::<f64>(),
+        });
+        bounds.collect()
     }
 }
 

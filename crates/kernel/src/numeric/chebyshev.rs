@@ -275,12 +275,11 @@ impl ChebyshevCell {
 /// The Chebyshev points cos(π i/n), i = 0…n; exactly −1, 0 and 1 at the ends and in the middle.
 fn points(degree: usize) -> Vec<f64> {
     #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
-    (0..=degree)
-        .map(|index| {
-            let (i, n) = (index as f64, degree as f64);
-            libm::sin(0.5 * PI * ((n - 2.0 * i) / n))
-        })
-        .collect()
+    let points = (0..=degree).map(|index| {
+        let (i, n) = (index as f64, degree as f64);
+        libm::sin(0.5 * PI * ((n - 2.0 * i) / n))
+    });
+    points.collect()
 }
 
 /// The points of each degree with their cosines, and the grid on which slopes are examined, made once.

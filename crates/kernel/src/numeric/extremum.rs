@@ -125,12 +125,11 @@ pub fn largest_with_slope(mut both: impl FnMut(f64) -> (f64, f64), range: (f64, 
 
 /// The places between the cells with value and slope.
 pub fn places(mut both: impl FnMut(f64) -> (f64, f64), range: (f64, f64), cells: u32) -> Vec<ValueAndSlope> {
-    between_cells(range, cells)
-        .map(|at| {
-            let (value, slope) = both(at);
-            ValueAndSlope { at, value, slope }
-        })
-        .collect()
+    let places = between_cells(range, cells).map(|at| {
+        let (value, slope) = both(at);
+        ValueAndSlope { at, value, slope }
+    });
+    places.collect()
 }
 
 /// The highest of places and of what is known; the first of equals.
@@ -249,17 +248,13 @@ fn is_higher(one: f64, other: f64) -> bool {
 
 /// The neighbours of each of the `hills` highest points that are not lower than these.
 fn highest_hills(points: &[Extremum], hills: usize) -> Vec<(f64, f64)> {
-    let mut tops: Vec<_> = points
-        .iter()
-        .enumerate()
-        .filter_map(|(index, here)| {
-            let neighbours =
-                [index.checked_sub(1), Some(index + 1)].map(|index| index.and_then(|index| points.get(index)));
-            let is_top = neighbours.iter().flatten().all(|neighbour| !is_higher(neighbour.value, here.value));
-            let [before, after] = neighbours.map(|neighbour| neighbour.unwrap_or(here).at);
-            is_top.then_some(((before, after), here.value))
-        })
-        .collect();
+    let tops = points.iter().enumerate().filter_map(|(index, here)| {
+        let neighbours = [index.checked_sub(1), Some(index + 1)].map(|index| index.and_then(|index| points.get(index)));
+        let is_top = neighbours.iter().flatten().all(|neighbour| !is_higher(neighbour.value, here.value));
+        let [before, after] = neighbours.map(|neighbour| neighbour.unwrap_or(here).at);
+        is_top.then_some(((before, after), here.value))
+    });
+    let mut tops: Vec<_> = tops.collect();
     tops.sort_by(|a, b| b.1.total_cmp(&a.1));
     tops.into_iter().take(hills).map(|(about, _)| about).collect()
 }

@@ -41,26 +41,21 @@ fn rule() -> &'static GaussRule {
     RULE.get_or_init(|| {
         #[expect(clippy::cast_precision_loss, reason = "sixteen")]
         let count = TERMS as f64;
-        GaussRule {
-            nodes: (0..)
-                .map(f64::from)
-                .take(TERMS)
-                .map(|index| {
-                    let mut x = libm::cos(PI * (index + 0.75) / (count + 0.5));
-                    let mut slope = 1.0;
-                    for _ in 0..NEWTON_STEPS {
-                        let last = polynomials(x);
-                        let (high, low) = (last.last().copied().unwrap_or(0.0), last.iter().rev().nth(1).copied());
-                        // P of the order of the rule, and its derivative.
-                        let value = ((2.0 * count - 1.0) * x * high - (count - 1.0) * low.unwrap_or(0.0)) / count;
-                        slope = count * (x * value - high) / (x * x - 1.0);
-                        x -= value / slope;
-                    }
-                    let weight = 2.0 / ((1.0 - x * x) * slope * slope);
-                    (x, polynomials(x).map(|p| weight * p))
-                })
-                .collect(),
-        }
+        let nodes = (0..).map(f64::from).take(TERMS).map(|index| {
+            let mut x = libm::cos(PI * (index + 0.75) / (count + 0.5));
+            let mut slope = 1.0;
+            for _ in 0..NEWTON_STEPS {
+                let last = polynomials(x);
+                let (high, low) = (last.last().copied().unwrap_or(0.0), last.iter().rev().nth(1).copied());
+                // P of the order of the rule, and its derivative.
+                let value = ((2.0 * count - 1.0) * x * high - (count - 1.0) * low.unwrap_or(0.0)) / count;
+                slope = count * (x * value - high) / (x * x - 1.0);
+                x -= value / slope;
+            }
+            let weight = 2.0 / ((1.0 - x * x) * slope * slope);
+            (x, polynomials(x).map(|p| weight * p))
+        });
+        GaussRule { nodes: nodes.collect() }
     })
 }
 

@@ -42,16 +42,15 @@ pub fn solutions(equations: &[(Vec<f64>, f64)], unknowns: usize) -> Option<Linea
         *particular.get_mut((*column)?)? = *right;
     }
     let free = (0..unknowns).filter(|column| !given.contains(&Some(*column)));
-    let directions = free
-        .map(|column| {
-            let mut direction = vec![0.0; unknowns];
-            *direction.get_mut(column)? = 1.0;
-            for ((coefficients, _), own) in rows.iter().zip(&given) {
-                *direction.get_mut((*own)?)? = -coefficients.get(column).copied()?;
-            }
-            Some(direction)
-        })
-        .collect::<Option<_>>()?;
+    let directions = free.map(|column| {
+        let mut direction = vec![0.0; unknowns];
+        *direction.get_mut(column)? = 1.0;
+        for ((coefficients, _), own) in rows.iter().zip(&given) {
+            *direction.get_mut((*own)?)? = -coefficients.get(column).copied()?;
+        }
+        Some(direction)
+    });
+    let directions = directions.collect::<Option<_>>()?;
     Some(LinearSolutions { particular, directions })
 }
 

@@ -177,15 +177,12 @@ impl<'a> Judge<'a> {
     /// Standard deviation of the scatter from the windows of each order whose first samples are in `first`: the smaller of both orders, because the
     /// curve's own contribution differs between them.
     fn scatter_in(&self, first: [Range<usize>; 2]) -> f64 {
-        self.scatter
-            .iter()
-            .zip(first)
-            .map(|(all, first)| {
-                let windows = all.get(first.start.min(all.len())..first.end.min(all.len())).unwrap_or_default();
-                let mut moving: Vec<f64> = windows.iter().copied().filter(|off| *off > DIGITS * self.range).collect();
-                if moving.len() < FEWEST_NEAR { 0.0 } else { OF_MEDIAN * median(&mut moving) }
-            })
-            .fold(f64::INFINITY, f64::min)
+        let scatters = self.scatter.iter().zip(first).map(|(all, first)| {
+            let windows = all.get(first.start.min(all.len())..first.end.min(all.len())).unwrap_or_default();
+            let mut moving: Vec<f64> = windows.iter().copied().filter(|off| *off > DIGITS * self.range).collect();
+            if moving.len() < FEWEST_NEAR { 0.0 } else { OF_MEDIAN * median(&mut moving) }
+        });
+        scatters.fold(f64::INFINITY, f64::min)
     }
 
     /// Standard deviation of the scatter near a sample, without the sample: the larger of both sides, because a flank may scatter more than a dwell.

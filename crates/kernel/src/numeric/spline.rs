@@ -49,13 +49,11 @@ impl Spline {
     /// From the second derivatives at the knots.
     fn with_second(knots: &[f64], values: &[f64], second: &[f64]) -> Self {
         let intervals = knots.iter().zip(knots.iter().skip(1)).zip(values.iter().zip(values.iter().skip(1)));
-        let cubics = intervals
-            .zip(second.iter().zip(second.iter().skip(1)))
-            .map(|(((x0, x1), (y0, y1)), (m0, m1))| {
-                let h = x1 - x0;
-                [*y0, (y1 - y0) / h - h * (2.0 * m0 + m1) / 6.0, 0.5 * m0, (m1 - m0) / (6.0 * h)]
-            })
-            .collect();
+        let cubics = intervals.zip(second.iter().zip(second.iter().skip(1))).map(|(((x0, x1), (y0, y1)), (m0, m1))| {
+            let h = x1 - x0;
+            [*y0, (y1 - y0) / h - h * (2.0 * m0 + m1) / 6.0, 0.5 * m0, (m1 - m0) / (6.0 * h)]
+        });
+        let cubics = cubics.collect();
         Self { knots: knots.to_vec(), cubics }
     }
 
@@ -65,18 +63,16 @@ impl Spline {
     pub fn controls(&self) -> Vec<f64> {
         let full = bspline_knots(&self.knots);
         let count = self.cubics.len() + 3;
-        (0..count)
-            .map(|control| {
-                // Any interval within the support is suitable; this one contains the middle of the three knots or touches it.
-                let interval = control.saturating_sub(1).min(self.cubics.len() - 1);
-                let (Some(start), Some([c0, c1, c2, c3])) = (self.knots.get(interval), self.cubics.get(interval))
-                else {
-                    return f64::NAN;
-                };
-                let [a, b, c] = [1, 2, 3].map(|n| full.get(control + n).copied().unwrap_or(f64::NAN) - start);
-                c0 + c1 * (a + b + c) / 3.0 + c2 * (a * b + b * c + c * a) / 3.0 + c3 * a * b * c
-            })
-            .collect()
+        let controls = (0..count).map(|control| {
+            // Any interval within the support is suitable; this one contains the middle of the three knots or touches it.
+            let interval = control.saturating_sub(1).min(self.cubics.len() - 1);
+            let (Some(start), Some([c0, c1, c2, c3])) = (self.knots.get(interval), self.cubics.get(interval)) else {
+                return f64::NAN;
+            };
+            let [a, b, c] = [1, 2, 3].map(|n| full.get(control + n).copied().unwrap_or(f64::NAN) - start);
+            c0 + c1 * (a + b + c) / 3.0 + c2 * (a * b + b * c + c * a) / 3.0 + c3 * a * b * c
+        });
+        controls.collect()
     }
 
     /// Value and first three derivatives; beyond the ends the outer cubics go on. At a knot the later one counts.
@@ -169,14 +165,11 @@ fn tridiagonal(rows: impl Iterator<Item = [f64; 4]>) -> Vec<f64> {
         eliminated.push((above / pivot, (right - below * before) / pivot));
     }
     let mut next = 0.0;
-    let mut solution: Vec<f64> = eliminated
-        .iter()
-        .rev()
-        .map(|(factor, right)| {
-            next = right - factor * next;
-            next
-        })
-        .collect();
+    let solution = eliminated.iter().rev().map(|(factor, right)| {
+        next = right - factor * next;
+        next
+    });
+    let mut solution: Vec<f64> = solution.collect();
     solution.reverse();
     solution
 }
@@ -189,16 +182,13 @@ fn cyclic(h: &[f64], d: &[f64]) -> Vec<f64> {
     let pairs = h.iter().zip(d);
     let before = std::iter::once((&last, d.last().unwrap_or(&0.0))).chain(pairs.clone());
     let (gamma, end) = (-2.0 * (last + first), h.len() - 1);
-    let rows: Vec<[f64; 4]> = before
-        .zip(pairs)
-        .enumerate()
-        .map(|(index, ((a, left), (b, right)))| {
-            let [below, mut diagonal, above, bend] = inner_row(*a, *b, right - left);
-            diagonal -= if index == 0 { gamma } else { 0.0 };
-            diagonal -= if index == end { last * last / gamma } else { 0.0 };
-            [if index == 0 { 0.0 } else { below }, diagonal, if index == end { 0.0 } else { above }, bend]
-        })
-        .collect();
+    let rows = before.zip(pairs).enumerate().map(|(index, ((a, left), (b, right)))| {
+        let [below, mut diagonal, above, bend] = inner_row(*a, *b, right - left);
+        diagonal -= if index == 0 { gamma } else { 0.0 };
+        diagonal -= if index == end { last * last / gamma } else { 0.0 };
+        [if index == 0 { 0.0 } else { below }, diagonal, if index == end { 0.0 } else { above }, bend]
+    });
+    let rows: Vec<[f64; 4]> = rows.collect();
     let solved = tridiagonal(rows.iter().copied());
     let other = tridiagonal(rows.iter().enumerate().map(|(index, [a, b, c, _])| {
         let corner = match index {

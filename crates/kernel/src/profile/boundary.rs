@@ -47,16 +47,11 @@ pub fn stretches(curves: Curves<'_>, sharp: bool) -> Result<Vec<BoundaryStretch>
 #[must_use]
 pub fn of_centre(curves: Curves<'_>) -> Vec<BoundaryStretch> {
     let period = curves.motion.period();
-    curves
-        .motion
-        .pieces()
-        .iter()
-        .enumerate()
-        .flat_map(|(index, piece)| {
-            let ranges = outline::parts(piece, &[], period).into_iter();
-            ranges.flat_map(|range| cut(index, piece, range.0, range.1, period.is_none())).collect::<Vec<_>>()
-        })
-        .collect()
+    let stretches = curves.motion.pieces().iter().enumerate().flat_map(|(index, piece)| {
+        let ranges = outline::parts(piece, &[], period).into_iter();
+        ranges.flat_map(|range| cut(index, piece, range.0, range.1, period.is_none())).collect::<Vec<_>>()
+    });
+    stretches.collect()
 }
 
 /// The exact path of the centre of a cutter (radius in m) along the profile as stretches in millimetres: parallel to the

@@ -37,12 +37,11 @@ fn places(
     quantity: impl Fn(usize, f64) -> (f64, f64),
 ) -> Vec<(usize, Vec<extremum::ValueAndSlope>)> {
     let pieces = curves.motion.distinct().iter().enumerate().filter(|(index, _)| searched(*index));
-    pieces
-        .map(|(index, piece)| {
-            let cells = curves.motion.cells(index);
-            (index, extremum::places(|at| quantity(index, at), (piece.start, piece.end), cells))
-        })
-        .collect()
+    let places = pieces.map(|(index, piece)| {
+        let cells = curves.motion.cells(index);
+        (index, extremum::places(|at| quantity(index, at), (piece.start, piece.end), cells))
+    });
+    places.collect()
 }
 
 /// Cosine of the turn of the follower's curve within a cell below which the cell is halved, and how often: where a curve turns by half a
@@ -110,17 +109,13 @@ const FORCE_SECTIONS: u32 = 30;
 
 /// Largest value, where a follower runs, of something that depends on the cam angle of a piece and whose derivative is not known.
 pub fn largest_without_slope(curves: Curves<'_>, value: impl Fn(usize, f64) -> f64) -> Extremum {
-    curves
-        .motion
-        .distinct()
-        .iter()
-        .enumerate()
-        .filter(|(index, _)| curves.motion.is_rolled(*index))
-        .map(|(index, piece)| {
+    let largest = curves.motion.distinct().iter().enumerate().filter(|(index, _)| curves.motion.is_rolled(*index)).map(
+        |(index, piece)| {
             let (cells, sections) = if piece.dwell { (1, 0) } else { (FORCE_CELLS, FORCE_SECTIONS) };
             extremum::largest_without_slope(|angle| value(index, angle), (piece.start, piece.end), cells, sections)
-        })
-        .fold(NOTHING, larger)
+        },
+    );
+    largest.fold(NOTHING, larger)
 }
 
 /// A closed range of the motion's parameter at whose ends a quantity may jump to its values within the range.
@@ -233,14 +228,11 @@ pub fn pressure_angles(curves: Curves<'_>) -> [Extremum; 2] {
         let Some(((_, places), own)) = first.and_then(|found| Some((found, motion.pieces().get(found.0)?))) else {
             continue;
         };
-        let places = places
-            .iter()
-            .rev()
-            .map(|place| {
-                let at = (own.end - place.at + piece.start).clamp(piece.start, piece.end);
-                extremum::ValueAndSlope { at, value: -place.value, slope: place.slope }
-            })
-            .collect();
+        let places = places.iter().rev().map(|place| {
+            let at = (own.end - place.at + piece.start).clamp(piece.start, piece.end);
+            extremum::ValueAndSlope { at, value: -place.value, slope: place.slope }
+        });
+        let places = places.collect();
         rising.push((index, places));
     }
     rising.sort_by_key(|(index, _)| *index);
@@ -371,14 +363,13 @@ const LEAST_CORNER: f64 = 1e-7;
 pub fn corners(curves: Curves<'_>) -> Vec<Corner> {
     let pieces = curves.motion.pieces();
     let joints = if curves.motion.period().is_some() { pieces.len() } else { pieces.len().saturating_sub(1) };
-    (0..joints)
-        .filter_map(|index| {
-            let next = (index + 1) % pieces.len();
-            let (before, after) = (pieces.get(index)?, pieces.get(next)?);
-            let left = curves.touch(index, before.end).curve.tangent;
-            let right = curves.touch(next, after.start).curve.tangent;
-            let turn = libm::atan2(left.perp(&right), left.dot(&right));
-            (turn.abs() > LEAST_CORNER).then_some(Corner { at: before.end, turn })
-        })
-        .collect()
+    let corners = (0..joints).filter_map(|index| {
+        let next = (index + 1) % pieces.len();
+        let (before, after) = (pieces.get(index)?, pieces.get(next)?);
+        let left = curves.touch(index, before.end).curve.tangent;
+        let right = curves.touch(next, after.start).curve.tangent;
+        let turn = libm::atan2(left.perp(&right), left.dot(&right));
+        (turn.abs() > LEAST_CORNER).then_some(Corner { at: before.end, turn })
+    });
+    corners.collect()
 }

@@ -76,22 +76,21 @@ fn broken(
 ) -> Vec<AngleCondition> {
     let size = shaft.norm() + place.of_roller().norm();
     let pieces = motion.distinct().iter().enumerate().filter(|(index, _)| motion.is_rolled(*index));
-    pieces
-        .filter_map(|(index, piece)| {
-            let cells = motion.cells(index);
-            let Extremum { at, value } = extremum::largest_with_slope(
-                |at| {
-                    let plane = place.condition(&motion.jet(index, at), limit, falling);
-                    (plane.least - plane.normal.dot(&shaft), plane.least_slope - plane.normal_slope.dot(&shaft))
-                },
-                (piece.start, piece.end),
-                cells,
-            );
-            let plane = place.condition(&motion.jet(index, at), limit, falling);
-            (value > BROKEN * (size + plane.least.abs()))
-                .then_some(AngleCondition { plane, of: BindingPressureAngle { at, falling } })
-        })
-        .collect()
+    let conditions = pieces.filter_map(|(index, piece)| {
+        let cells = motion.cells(index);
+        let Extremum { at, value } = extremum::largest_with_slope(
+            |at| {
+                let plane = place.condition(&motion.jet(index, at), limit, falling);
+                (plane.least - plane.normal.dot(&shaft), plane.least_slope - plane.normal_slope.dot(&shaft))
+            },
+            (piece.start, piece.end),
+            cells,
+        );
+        let plane = place.condition(&motion.jet(index, at), limit, falling);
+        (value > BROKEN * (size + plane.least.abs()))
+            .then_some(AngleCondition { plane, of: BindingPressureAngle { at, falling } })
+    });
+    conditions.collect()
 }
 
 /// The point of an intersection of half-planes that is nearest to another; `None` where they have no point in common.

@@ -65,7 +65,7 @@ fn between_turns(motion: &dyn Motion, index: usize, piece: &Piece) -> Vec<JumpRa
 
 /// The force of spring, damping and inertia, and of a load; the lift matters where it is not constant.
 fn with_load(pressing: &Pressing, load: f64, lift: impl FnOnce() -> Jet) -> f64 {
-    load + if pressing.is_constant() { pressing.constant } else { pressing.at(&lift()) }
+    load + if pressing.is_constant() { pressing.constant } else { pressing.force_at(&lift()) }
 }
 
 /// Torque of the shaft against a force at a velocity: where the follower rests there is no work, jammed or not.
@@ -311,7 +311,7 @@ impl Disc {
     pub(super) fn holding(&self, speed: f64) -> Option<KeyChange> {
         let pressing = self.pressing().filter(|_| self.is_of_program() && !self.is_closed())?;
         let faster = pressing.at_speed(speed * pressing.speed);
-        let missing = self.largest_force(|piece, angle| -faster.at(&self.motion.jet(piece, angle))).value;
+        let missing = self.largest_force(|piece, angle| -faster.force_at(&self.motion.jet(piece, angle))).value;
         let follower = &self.machine.follower;
         Some(match self.motion.quantity() {
             Quantity::Length => {

@@ -56,7 +56,7 @@ impl Disc {
     fn damped_jump(&self, pressing: &Pressing, undamped: Worst) -> Worst {
         let least = |speed: f64| {
             let faster = pressing.at_speed(speed);
-            let lifting = self.largest_force(|piece, angle| -faster.at(&self.motion.jet(piece, angle)));
+            let lifting = self.largest_force(|piece, angle| -faster.force_at(&self.motion.jet(piece, angle)));
             Worst { value: -lifting.value, ..lifting }
         };
         if undamped.value.is_infinite() {

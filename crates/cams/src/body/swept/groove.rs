@@ -118,7 +118,7 @@ impl SweptGroove {
 
     /// Angular speed of the cam, rad/s.
     pub(crate) fn speed(&self) -> Option<f64> {
-        self.rpm.map(|rpm| rpm * TAU / 60.0)
+        self.rpm.map(units::rad_per_s)
     }
 
     /// Whether the cam turns clockwise.

@@ -42,7 +42,7 @@ pub(super) fn judge(evidence: &Evidence<'_>, table: Result<NumberTable, String>)
 
 /// The tables of a body with so many rows over a turn, a tool of a radius, m, in the further ones.
 fn tables(body: &dyn Body, samples: u32, tool: Option<f64>) -> Vec<Table> {
-    let mut all = vec![Table::of(&body.rows(samples))];
+    let mut all = vec![Table::from_rows(&body.rows(samples))];
     all.extend(body.further_tables(samples, tool));
     all
 }

@@ -216,14 +216,10 @@ impl ArcTrial {
     /// Share of a step that moves no joint along the curve by more than `most` of its shorter chord.
     pub(super) fn step_share(&self, step: &ChainStep, most: f64) -> f64 {
         let pairs = self.links.iter().zip(self.links.iter().skip(1));
-        step.0
-            .iter()
-            .skip(1)
-            .zip(pairs)
-            .map(|([along, ..], (before, after))| {
-                most * before.chord.min(after.chord) / (along.abs() * 0.5 * (before.chord + after.chord))
-            })
-            .fold(1.0, f64::min)
+        let shares = step.0.iter().skip(1).zip(pairs).map(|([along, ..], (before, after))| {
+            most * before.chord.min(after.chord) / (along.abs() * 0.5 * (before.chord + after.chord))
+        });
+        shares.fold(1.0, f64::min)
     }
 
     /// The joints after a share of a step.
@@ -233,15 +229,12 @@ impl ArcTrial {
 
     /// The joints with the bulges of their arcs.
     pub(super) fn joints(&self) -> Vec<ArcJoint> {
-        self.stands
-            .iter()
-            .zip(&self.links)
-            .map(|(stand, link)| ArcJoint {
-                point: stand.point,
-                parameter: stand.place.parameter,
-                bulge: link.arc.bulge,
-            })
-            .collect()
+        let joints = self.stands.iter().zip(&self.links).map(|(stand, link)| ArcJoint {
+            point: stand.point,
+            parameter: stand.place.parameter,
+            bulge: link.arc.bulge,
+        });
+        joints.collect()
     }
 
     /// The chain made tangent by the least change of its freedoms; `None` where that is impossible.

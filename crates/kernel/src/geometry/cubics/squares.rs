@@ -86,23 +86,22 @@ fn free(nodes: &[SplineNode], knots: &[f64]) -> Option<Vec<ControlFreedom>> {
     let (start, end) = (first.frame, last.frame);
     let count = knots.len() - ORDER;
     let still = Vector2::zeros();
-    (0..count)
-        .map(|index| {
-            let place = knots.iter().skip(index + 1).take(ORDER - 1).sum::<f64>() / 3.0;
-            let (base, ways) = if index == 0 {
-                (start.point, [still, still])
-            } else if index + 1 == count {
-                (end.point, [still, still])
-            } else if index == 1 {
-                (start.point + start.tangent * place, [start.tangent, still])
-            } else if index + 2 == count {
-                (end.point - end.tangent * (last.length - place), [end.tangent, still])
-            } else {
-                (near(nodes, place)?, [Vector2::x(), Vector2::y()])
-            };
-            Some(ControlFreedom { base, ways })
-        })
-        .collect()
+    let controls = (0..count).map(|index| {
+        let place = knots.iter().skip(index + 1).take(ORDER - 1).sum::<f64>() / 3.0;
+        let (base, ways) = if index == 0 {
+            (start.point, [still, still])
+        } else if index + 1 == count {
+            (end.point, [still, still])
+        } else if index == 1 {
+            (start.point + start.tangent * place, [start.tangent, still])
+        } else if index + 2 == count {
+            (end.point - end.tangent * (last.length - place), [end.tangent, still])
+        } else {
+            (near(nodes, place)?, [Vector2::x(), Vector2::y()])
+        };
+        Some(ControlFreedom { base, ways })
+    });
+    controls.collect()
 }
 
 /// The spline on these knots; `None` when no spline runs forwards.

@@ -446,17 +446,16 @@ fn sections(goal: &PlacingGoal<'_, '_>) -> Vec<PlacingSection> {
         same
     });
     let pairs = spots.iter().zip(spots.iter().skip(1));
-    pairs
-        .map(|(from, to)| {
-            let turn = TAU * (to.place - from.place) / path.length();
-            // On a plate nothing rotates.
-            let quarters = if path.is_closed() { scaled(1, turn / FRAC_PI_2).max(1) } else { 1 };
-            let mut section = PlacingSection { from: *from, to: *to, fewest: quarters, inner: Vec::new() };
-            let first = if wish.between == PointInterpolation::Cubic || quarters > 1 { quarters } else { 1 };
-            section.evenly(first.max(FIRST_OF_SECTION));
-            section
-        })
-        .collect()
+    let sections = pairs.map(|(from, to)| {
+        let turn = TAU * (to.place - from.place) / path.length();
+        // On a plate nothing rotates.
+        let quarters = if path.is_closed() { scaled(1, turn / FRAC_PI_2).max(1) } else { 1 };
+        let mut section = PlacingSection { from: *from, to: *to, fewest: quarters, inner: Vec::new() };
+        let first = if wish.between == PointInterpolation::Cubic || quarters > 1 { quarters } else { 1 };
+        section.evenly(first.max(FIRST_OF_SECTION));
+        section
+    });
+    sections.collect()
 }
 
 fn by_error(goal: &PlacingGoal<'_, '_>) -> Result<PointRows, Refusal> {

@@ -81,14 +81,11 @@ impl GrooveGloboid<'_> {
     fn boundary(&self) -> TruckBoundary {
         let height = self.rim(1.0, false).1;
         let mut walls = ShellBuilder::new((-height, height));
-        let flanks: Vec<(ShellFlank, ShellFlank)> = self
-            .grooves
-            .iter()
-            .map(|groove| {
-                let upper = ShellFlank::add(&mut walls, &groove.upper, 1.0, false);
-                (upper, ShellFlank::add(&mut walls, &groove.lower, -1.0, false))
-            })
-            .collect();
+        let flanks = self.grooves.iter().map(|groove| {
+            let upper = ShellFlank::add(&mut walls, &groove.upper, 1.0, false);
+            (upper, ShellFlank::add(&mut walls, &groove.lower, -1.0, false))
+        });
+        let flanks: Vec<(ShellFlank, ShellFlank)> = flanks.collect();
         let (mut bottom, mut top) = (Vec::new(), Vec::new());
         let count = flanks.len().max(1);
         for (index, (upper, lower)) in flanks.iter().enumerate() {
@@ -180,15 +177,12 @@ impl GrooveGloboid<'_> {
         let edges = |flank: &ShellFlank, from: usize, to: usize| -> Vec<usize> {
             if strip.outside { flank.outer_edges(from, to).collect() } else { flank.floor_edges(from, to).collect() }
         };
-        let across: Vec<usize> = strip
-            .seams
-            .iter()
-            .map(|(below, above)| {
-                let ends = (vertex(strip.below, *below), vertex(strip.above, *above));
-                let curve = tube_line([walls.place(ends.0), walls.place(ends.1)], major, minor);
-                walls.add_spline(ends.0, ends.1, curve)
-            })
-            .collect();
+        let across = strip.seams.iter().map(|(below, above)| {
+            let ends = (vertex(strip.below, *below), vertex(strip.above, *above));
+            let curve = tube_line([walls.place(ends.0), walls.place(ends.1)], major, minor);
+            walls.add_spline(ends.0, ends.1, curve)
+        });
+        let across: Vec<usize> = across.collect();
         let [low, high] = &strip.openings;
         let mut from = (0, 0);
         for index in 0..=strip.seams.len() {

@@ -138,20 +138,18 @@ impl LocalPiece {
         if let Some(known) = usize::try_from(order).ok().and_then(|order| self.values_at(x).get(order).copied()) {
             return known;
         }
-        self.waves
-            .iter()
-            .map(|wave| {
-                let pace = f64::from(wave.harmonic) * self.pace;
-                let (sin, cos) = libm::sincos(pace * (x - self.from));
-                // The derivatives of −sin τ and of −cos τ.
-                let (turn, rise) = match order % 4 {
-                    0 => (-sin, -cos),
-                    1 => (-cos, sin),
-                    2 => (sin, cos),
-                    _ => (cos, -sin),
-                };
-                (0..order).fold(wave.turn * turn + wave.rise * rise, |product, _| product * pace)
-            })
-            .sum()
+        let waves = self.waves.iter().map(|wave| {
+            let pace = f64::from(wave.harmonic) * self.pace;
+            let (sin, cos) = libm::sincos(pace * (x - self.from));
+            // The derivatives of −sin τ and of −cos τ.
+            let (turn, rise) = match order % 4 {
+                0 => (-sin, -cos),
+                1 => (-cos, sin),
+                2 => (sin, cos),
+                _ => (cos, -sin),
+            };
+            (0..order).fold(wave.turn * turn + wave.rise * rise, |product, _| product * pace)
+        });
+        waves.sum()
     }
 }

@@ -126,14 +126,11 @@ impl Ring {
 
     /// Accelerations at both ends of each curve that is known; 0 of a dwell.
     fn known(&self) -> Vec<Option<[f64; 2]>> {
-        self.curves
-            .iter()
-            .zip(&self.steps)
-            .map(|(known, step)| {
-                let (curve, travel) = known.as_ref()?;
-                Some(curve.as_ref().map_or([0.0; 2], |curve| accelerations(curve, *travel, step.over)))
-            })
-            .collect()
+        let known = self.curves.iter().zip(&self.steps).map(|(known, step)| {
+            let (curve, travel) = known.as_ref()?;
+            Some(curve.as_ref().map_or([0.0; 2], |curve| accelerations(curve, *travel, step.over)))
+        });
+        known.collect()
     }
 
     /// Gives each turn the acceleration of the curve before it, or else of that behind it.

@@ -112,20 +112,16 @@ impl Program {
     pub fn harmonics(&self, count: u32) -> Harmonics {
         let last = self.segments.last().map_or(0.0, |segment| end_velocities(segment)[1]);
         let all = Accelerations::new(self.segments.iter().map(|segment| (segment, 0.0)), last, last);
-        Harmonics {
-            mean: self.mean() - self.lowest,
-            waves: (1..=count)
-                .map(|order| {
-                    // Other waves cancel over the lobes.
-                    if !order.is_multiple_of(self.lobes) {
-                        return [0.0; 2];
-                    }
-                    let order = f64::from(order);
-                    let found = all.transform(order) * (-f64::from(self.lobes) / (PI * order * order));
-                    [found.re, found.im]
-                })
-                .collect(),
-        }
+        let waves = (1..=count).map(|order| {
+            // Other waves cancel over the lobes.
+            if !order.is_multiple_of(self.lobes) {
+                return [0.0; 2];
+            }
+            let order = f64::from(order);
+            let found = all.transform(order) * (-f64::from(self.lobes) / (PI * order * order));
+            [found.re, found.im]
+        });
+        Harmonics { mean: self.mean() - self.lowest, waves: waves.collect() }
     }
 
     /// Mean position.

@@ -90,17 +90,11 @@ impl TaylorExpansion {
         if self.coefficients.iter().any(|coefficient| !coefficient.is_finite()) {
             return f64::NAN;
         }
-        self.coefficients
-            .iter()
-            .enumerate()
-            .skip(1)
-            .rev()
-            .take(3)
-            .map(|(power, coefficient)| {
-                let power = number(power);
-                libm::pow(tolerance / (power * coefficient.abs()), 1.0 / power)
-            })
-            .fold(f64::INFINITY, f64::min)
+        let steps = self.coefficients.iter().enumerate().skip(1).rev().take(3).map(|(power, coefficient)| {
+            let power = number(power);
+            libm::pow(tolerance / (power * coefficient.abs()), 1.0 / power)
+        });
+        steps.fold(f64::INFINITY, f64::min)
     }
 }
 

@@ -320,12 +320,11 @@ impl ParallelStretch<'_> {
 /// The lengths 1, 2 and 5 times a power of ten below one, in falling order.
 fn finer(length: f64) -> impl Iterator<Item = f64> {
     let decade = libm::floor(libm::log10(length));
-    (0..FINER_DECADES)
-        .flat_map(move |below| {
-            let power = libm::pow(10.0, decade - f64::from(below));
-            [5.0 * power, 2.0 * power, power]
-        })
-        .filter(move |finer| *finer < length * (1.0 - SAME_LENGTH))
+    let lengths = (0..FINER_DECADES).flat_map(move |below| {
+        let power = libm::pow(10.0, decade - f64::from(below));
+        [5.0 * power, 2.0 * power, power]
+    });
+    lengths.filter(move |finer| *finer < length * (1.0 - SAME_LENGTH))
 }
 
 /// Whether the motion of a fit is kept by the radius of curvature: a flat face on arcs.

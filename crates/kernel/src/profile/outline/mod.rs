@@ -514,10 +514,9 @@ pub fn parts(piece: &Piece, gaps: &[(f64, f64)], period: Option<f64>) -> Vec<(f6
         }
     }
     let longest = if piece.dwell { LONGEST_DWELL } else { LONGEST_PIECE };
-    left.into_iter()
-        .flat_map(|(start, end)| {
-            let middle = 0.5 * (start + end);
-            if end - start > longest { vec![(start, middle), (middle, end)] } else { vec![(start, end)] }
-        })
-        .collect()
+    let parts = left.into_iter().flat_map(|(start, end)| {
+        let middle = 0.5 * (start + end);
+        if end - start > longest { vec![(start, middle), (middle, end)] } else { vec![(start, end)] }
+    });
+    parts.collect()
 }
