@@ -156,7 +156,7 @@ fn joint(letter: &'static str, at: Vector2<f64>, fixed: bool, towards: Vector2<f
 fn stand(lying: &LinkagePicture<'_>, name: String, places: &Places) -> SchemePose {
     let (o2, c, d) = (Vector2::zeros(), places.crank, places.slider);
     let mut strokes: Vec<Stroke> =
-        lying.paths().iter().map(|(name, points)| stroke(*name, StrokeKind::Path, points)).collect();
+        lying.paths().iter().map(|(name, points)| stroke(name, StrokeKind::Path, points)).collect();
     strokes.push(stroke("line of the slider", StrokeKind::Guide, &lying.guide()));
     let (a, b) = (lying.half_body(), Vector2::new(lying.half_body().x, -lying.half_body().y));
     strokes.push(stroke("bed", StrokeKind::Body, &[d - a, d + b, d + a, d - b, d - a]));
