@@ -1,4 +1,4 @@
-//! The domains of printing machines: a folder for each kind of machine. A domain knows the core, and the domains before it in the list.
+//! The domains of printing machines: a folder for each kind of machine. A domain uses the core, and the domains before it in the list.
 //!
 //! Users take the crate `camgen`, where this is the module `domains`.
 #![forbid(unsafe_code)]

@@ -48,7 +48,7 @@ pub struct TensionDisc<'a> {
 pub struct BrakeRequest {
     /// Equal steps of the radius in the table.
     pub steps: u32,
-    /// The goal of a frame to be designed instead of that of the file.
+    /// Goal of a frame design; overrides the file.
     pub goal: Option<FrameGoal>,
     /// Seed of the random numbers of the design.
     pub seed: u64,

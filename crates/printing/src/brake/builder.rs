@@ -21,7 +21,7 @@ pub struct BrakeSettings {
     pub weight: Option<f64>,
     /// Rotation of the roll.
     pub rotation: RollRotation,
-    /// Speed of a slipping belt over that of the web.
+    /// Speed of a slipping belt / web speed.
     pub belt_speed_ratio: f64,
     /// Least tension that a belt without slip can hold, over the wanted tension.
     pub grip: f64,

@@ -21,8 +21,8 @@ const CELLS: u32 = 64;
 const TERMS: [u32; 4] = [24, 48, 96, 192];
 const ROUNDING: f64 = 1e-14;
 
-/// Work, torque and two derivatives on the disc over the working stretch as sums of Chebyshev polynomials; `None` where that of the torque
-/// does not converge to rounding: near a limit of the frame.
+/// Work, torque and two derivatives on the disc over the working stretch as sums of Chebyshev polynomials; `None` if the torque series does
+/// not converge to rounding, near a limit of the frame.
 fn series_of(holding: &TensionHolding) -> Option<SeriesGroup<4>> {
     let range = (0.0, holding.total_angle());
     let torque = TERMS.into_iter().find_map(|terms| {

@@ -61,7 +61,7 @@ pub enum BrakeOutput {
     Figures,
     /// The disc of `[brake.cam]` too.
     Disc,
-    /// A frame, instead of that of the file.
+    /// A frame; overrides the file.
     Frame,
 }
 
@@ -89,7 +89,7 @@ pub struct BrakeData {
     pub friction: f64,
     /// Weight of the frame with its load, N; `None` is `auto`.
     pub weight: Option<f64>,
-    /// Speed of a slipping belt over that of the web.
+    /// Speed of a slipping belt / web speed.
     pub belt_speed_ratio: f64,
     /// Least grip of a belt that does not slip, over the wanted tension.
     pub grip: f64,

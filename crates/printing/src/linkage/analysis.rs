@@ -113,7 +113,7 @@ pub enum DragLinkGoal {
     Least {
         /// Out and back take the same time.
         symmetric: bool,
-        /// Largest peak of power over that of the crank-slider alone.
+        /// Largest peak of power / peak of the crank-slider alone.
         power: Option<f64>,
     },
 }
@@ -366,7 +366,7 @@ fn signed_percent(share: f64) -> String {
     format!("{:+.2} %", 100.0 * share)
 }
 
-/// x, x' and x'' over a turn, with those of the crank-slider alone after them, from the same outer dead point on: figure 3 of the paper.
+/// x, x' and x'' over a turn, then the same of the crank-slider alone, both from the outer dead point on: figure 3 of the paper.
 fn curves(machine: &str, data: &LinkageData, bed: &Bed, outer: f64, rows: &[LinkageRow]) -> Plot {
     let own: Vec<[f64; 6]> = rows.iter().map(|row| row.motion).collect();
     let alone: Option<Vec<[f64; 6]>> = match data.linkage {

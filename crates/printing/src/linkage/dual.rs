@@ -17,7 +17,7 @@ pub(super) struct Dual {
 }
 
 impl Dual {
-    /// The value with its slopes made from those of one or two operands.
+    /// A value whose slopes combine the slopes of one or two operands.
     fn with(value: f64, slope: impl FnMut((f64, f64)) -> f64, a: Self, b: Self) -> Self {
         let mut pairs = a.slope.into_iter().zip(b.slope).map(slope);
         Self { value, slope: array::from_fn(|_| pairs.next().unwrap_or(f64::NAN)) }

@@ -52,7 +52,7 @@ const ROUNDING: f64 = 1e-9;
 const PLACES: usize = 256;
 /// How far within a piece its first and last place lie, as a share of it.
 const INSET: f64 = 1e-9;
-/// Places of a piece at which torques at other speeds are looked at; the top between three of them is that of their parabola, so that
+/// Angles of a piece at which torques at other speeds are evaluated; a parabola through three of them finds the top between, so that
 /// the largest is reported to a millionth.
 const TURN: usize = 720;
 /// Cells and golden sections in which the preload for another speed is searched.
@@ -200,7 +200,7 @@ impl RotaryCam {
         one + other
     }
 
-    /// The torque on the camshaft at a cam angle of the force that the air of a press that loses has beyond that of the law, N·m.
+    /// The torque on the camshaft at a cam angle by the excess of the air force, with the losses of the press, over the law's, N·m.
     fn torque_of_losses(&self, lossy: &LossyReversal, angle: f64) -> f64 {
         let motion = self.disc.curves().motion;
         let (piece, inside) = motion.locate(angle);
@@ -295,7 +295,7 @@ fn largest_torque(torques: &[TorqueParts], preload: f64, share: f64) -> f64 {
     left.chunks(TURN + 1).flat_map(|piece| piece.windows(3)).map(top).fold(0.0, f64::max)
 }
 
-/// The largest size of three neighbouring values, or that of the top of the parabola through them.
+/// The largest size of three neighbouring values and of the top of the parabola through them.
 fn top(three: &[f64]) -> f64 {
     let &[before, at, after] = three else { return 0.0 };
     let (slope, bend) = (0.5 * (after - before), before - 2.0 * at + after);
@@ -304,7 +304,7 @@ fn top(three: &[f64]) -> f64 {
 }
 
 /// Equal parts of a piece from slightly after its start to slightly before its end, where the force of one disc may have jumped already and
-/// that of the other not yet.
+/// the force of the other not yet.
 #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
 fn within(piece: &Piece, parts: usize) -> impl Iterator<Item = f64> + use<> {
     let (start, whole) = (piece.start, piece.end - piece.start);

@@ -208,7 +208,7 @@ fn lever(
     let (low, high) = range(driven.rollers.iter().map(|p| p.x));
     let line_y = driven.rollers.first().map_or(0.0, |p| p.y);
     let (middle, travel) = (0.5 * (low + high), high - low);
-    // From the pivot to the line of the roller, and to that of the bottom.
+    // From the pivot to the lines of the roller and of the bottom.
     let longer = 1.5 * low.max(travel).max(travel / ratio);
     let (to_roller, to_bottom) = (longer * ratio.min(1.0), longer * (1.0 / ratio).min(1.0));
     let (x, pivot_y, bottom_y) = (middle + clear, line_y + to_roller, line_y + to_roller - to_bottom);

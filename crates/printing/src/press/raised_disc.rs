@@ -1,6 +1,6 @@
 //! A disc that is cut higher, so that its follower keeps the law on a shaft that deflects.
 //!
-//! Under load the follower is to be where the law has it; there the force Φ is that of the law, independent of the shaft. So the cam
+//! Under load the follower is to be where the law has it, under the force Φ of the law, independent of the shaft. So the cam
 //! is cut higher by
 //!
 //! ```text

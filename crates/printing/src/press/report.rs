@@ -250,7 +250,7 @@ impl AirLaw {
     }
 }
 
-/// A tolerance below this, mm, is that of the arithmetic.
+/// Tolerance, mm, below which only the arithmetic limits the result.
 const ROUNDING_MM: f64 = 1e-9;
 
 impl Equation18 {

@@ -8,7 +8,7 @@ use camgen_cams::machine::Machine;
 use camgen_kernel::motion::jump;
 use camgen_kernel::text::{KeyChange, Remedy, Text, text};
 
-/// Width of a run-up where the file gives none, rad of crank angle: that of the embedded machines.
+/// Width of a run-up where the file gives none, rad of crank angle, as in the embedded machines.
 const RUN_UP: f64 = std::f64::consts::PI / 9.0;
 
 /// The first change with which the motions of these laws of a press keep `limits.continuity`: each is tried.

@@ -39,7 +39,7 @@ pub(super) const COMMANDS: &[DesignCommand] = &[
     },
 ];
 
-/// The speed that is asked for, or that of the machine, rpm.
+/// The requested speed, or the speed of the machine, rpm.
 fn speed(machine: &Machine, rpm: Option<f64>) -> Result<f64, Refusal> {
     rpm.map_or_else(|| machine.press().map(|press| press.design_rpm), Ok)
 }

@@ -139,7 +139,7 @@ impl<'a> LoadedBrake<'a> {
         self.of_grip(self.grip(pose))
     }
 
-    /// Speed of the belt, divided by that of the web, by (9).
+    /// Belt speed / web speed, by (9).
     pub(super) fn regulated(&self, pose: &FramePose) -> f64 {
         1.0 - self.data.tension / self.grip(pose)
     }

@@ -16,7 +16,7 @@ const DENSEST: f64 = 1e5;
 const QUICKEST: f64 = 1e4;
 /// Largest strain wound into a roll: more tears it.
 const MOST_WOUND: f64 = 0.5;
-/// Largest speed of a slipping belt, divided by that of the web.
+/// Largest speed of a slipping belt / web speed.
 const FASTEST_BELT: f64 = 0.999_999;
 /// Largest friction coefficient.
 const STICKIEST: f64 = 100.0;

@@ -54,7 +54,7 @@ pub struct Regulation {
 }
 
 impl RollEnds {
-    /// Wraps of the full and of the empty roll, rad, friction, and the press force of the empty roll over that of the full one.
+    /// Wraps of the full and of the empty roll, rad, friction, and the ratio of the press forces, empty roll / full roll.
     ///
     /// # Errors
     /// [`Refusal`] unless both are between 0 and 2π, and the others above 0.

@@ -23,7 +23,7 @@ impl std::fmt::Display for Pulley {
     }
 }
 
-/// Why a brake, or a query about it, is refused. Values are SI; a radius is that of the roll.
+/// Why a brake, or a query about it, is refused. Values are SI; radii are roll radii.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BrakeError {

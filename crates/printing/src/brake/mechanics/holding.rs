@@ -136,7 +136,7 @@ impl TensionHolding {
         self.ratio
     }
 
-    /// M, N·m: the moment that the disc must add to that of the weight.
+    /// M, N·m: the moment that the disc must add to the moment of the weight.
     #[must_use]
     pub fn moment(&self, pose: &FramePose) -> f64 {
         self.brake.moment_for(self.tension, pose) - self.weight * pose.h1
@@ -219,7 +219,7 @@ impl TensionHolding {
         )
     }
 
-    /// M as a series in φ at a place of the roll. The first pass knows R to its slope, and gives the slope of that.
+    /// M as a series in φ at one radius of the roll. R is first known to its slope only, from which the slope of M follows.
     fn along(&self, place: &BeltState) -> MomentSeries {
         let slope = place.radius_by_turn();
         let [_, bend, _] = self.series(PowerSeries([place.radius, slope, 0.0]), place.turn).radius_by_turn.0;

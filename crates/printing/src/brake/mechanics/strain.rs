@@ -107,7 +107,7 @@ impl Web {
         Some(self.strain(tension) * self.length?)
     }
 
-    /// The power P V of the web, W: that of the belt drive (P V_z), and heat (P (V − V_z)).
+    /// The power P V of the web, W, split into belt drive (P V_z) and heat (P (V − V_z)).
     #[must_use]
     pub fn powers(&self, tension: f64, belt_speed: f64) -> (f64, f64) {
         let power = tension * self.speed;

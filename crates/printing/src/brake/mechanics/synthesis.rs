@@ -28,7 +28,7 @@ const TAKEN: f64 = 0.9;
 const POLISH: usize = 1500;
 const AGREED: f64 = 1e-12;
 
-/// The cost of a frame that does not follow the whole roll, plus the share that is left: more than that of any frame that does.
+/// The cost of a frame that cannot follow the whole roll, plus the share it misses: more than any frame that can.
 const WALLED: f64 = 1e3;
 
 /// The coordinates.

@@ -44,7 +44,7 @@ pub struct SynthesisLimits {
     pub transmission_angle: f64,
     /// Least coupler and follower, in driving cranks.
     pub link_ratio: f64,
-    /// Largest W as a share of that of the crank-slider without drag link.
+    /// Largest W / W of the crank-slider without drag link.
     pub power: Option<f64>,
     /// Whether the motion must take half a turn each way, K_φ = 1.
     pub symmetric: bool,

@@ -59,7 +59,7 @@ fn bed_motion(links: &Links<Dual>, slider: &Slider, theta: f64) -> [Dual; 3] {
     slider.slide(cos, sin).derivatives()
 }
 
-/// The extremes of a linkage. At a fixed place the slope of an extreme value is that of the value: the place moves along a level
+/// The extremes of a linkage. An extreme value has the slope of the value at a fixed angle: its angle moves along a level
 /// tangent. A dead point moves by −(∂x'/∂link)/x''.
 fn local(drag_link: &DragLink, slider: &Slider) -> Local {
     let linkage = Linkage::SixBar(*drag_link, *slider);

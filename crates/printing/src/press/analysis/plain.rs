@@ -30,7 +30,7 @@ use serde::Serialize;
 const SPEEDS: WorkBound = WorkBound { what: "speeds", most: 1000 };
 /// Cubic millimetres in a cubic metre.
 const CUBIC: f64 = MILLIMETRES * MILLIMETRES * MILLIMETRES;
-/// End pressures of the family, over the ambient one; that of the file is among them.
+/// End pressures of the family / ambient pressure; the pressure of the file is among them.
 const FAMILY: [f64; 6] = [1.5, 2.0, 2.5, 3.0, 4.0, 5.0];
 /// Two end pressures are one within this share.
 const SAME: f64 = 1e-9;
@@ -222,7 +222,7 @@ fn notes(machine: &Machine) -> Vec<String> {
     let of_cam = ["buffer.column", "buffer.lead"].into_iter();
     let of_cam = of_cam.filter(|key| machine.given().iter().any(|given| given == key));
     let of_cam = of_cam.map(|key| format!("`{key}` has no effect on fixed bottoms: the column is that of the reset, and the port shuts as the reversal starts"));
-    // The plate is that of figure 9.
+    // The plate of figure 9.
     let idle = machine.idle_key_notes(KIND.keys, KIND.noun).into_iter().filter(|note| !note.contains("`translating."));
     idle.chain(of_cam).collect()
 }

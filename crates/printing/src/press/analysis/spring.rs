@@ -27,7 +27,7 @@ pub const KIND: Kind = Kind { command: "spring", noun: "pneumatic-spring buffer"
 
 /// Springs of one call, each at a speed.
 const SETS: WorkBound = WorkBound { what: "springs at a speed", most: 1000 };
-/// Stiffnesses that are looked at by default, over the least one: near those of the paper's figure.
+/// Default stiffnesses / least stiffness: near the paper's figure.
 const USUAL: [f64; 3] = [1.125, 1.375, 2.75];
 
 fn braked_by(press: &Press) -> BrakedBed {

@@ -74,7 +74,7 @@ pub fn rotary(
     of_press(&ROTARY, machine, rpm, limits, settings, others, run)
 }
 
-/// The plate of a press for a speed (rpm) over all settings, those of its differential equation among them.
+/// The plate of a press for a speed (rpm) over all settings, including the settings of its differential equation.
 ///
 /// # Errors
 /// [`Refusal`] when the machine is no press, or a setting cannot be made.

@@ -1,6 +1,6 @@
 //! What a bed drive is worth: dead points, stroke, largest accelerations, power and speed, without units.
 //!
-//! The names C⁺, C⁻, K_c, K_φ and the "kinetic power" are those of V. O. Kuznetsov (1997); their normalisation is derived here
+//! The names C⁺, C⁻, K_c, K_φ and the "kinetic power" are by V. O. Kuznetsov (1997); their normalisation is derived here
 //! and fixed by his printed 6.58 and 5.92: with the drive's speed ω and the stroke S the acceleration is C S (ω/π)², the peak of
 //! power m ω³ S² W/π³. C is π²/2 and W is π³/8 for a harmonic motion; no motion has C < 4.
 //!
@@ -184,7 +184,7 @@ pub fn characteristics(linkage: &Linkage) -> Characteristics {
     }
 }
 
-/// A linkage's figures compared with those of its crank-slider alone (a yoke and a crank-slider are compared with themselves).
+/// A linkage compared with its crank-slider alone (a yoke and a crank-slider are compared with themselves).
 #[must_use]
 pub fn compared(linkage: &Linkage) -> LinkageComparison {
     let plain = linkage.slider().map_or(Linkage::Yoke, Linkage::CrankSlider);

@@ -75,7 +75,7 @@ impl InLine {
         1.0 - 24.0 * d * square * (d - square) / (v * v * v * v)
     }
 
-    /// Speed of the bed on its way out over that of the crank, m/rad; 0 beyond the stroke of the slider.
+    /// Speed of the bed on its way out per crank speed, m/rad; 0 beyond the stroke of the slider.
     #[must_use]
     pub fn speed(&self, x: f64) -> f64 {
         // sin²β = δ (2 − δ) ((X + λ)² − 1)/(4 X²), δ the travel to the dead point in cranks.

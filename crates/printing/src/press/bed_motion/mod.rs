@@ -4,7 +4,7 @@
 //! the crank O2–C of the same slider. He prints no formula; all kinematics is derived here. It has his accelerations and
 //! shares, not his K_c = 1.96 and 1.506 of the plain crank-slider: exact kinematics gives 1.9115 and 1.5.
 //!
-//! Lengths of the drag link are in units of the driving crank O1A, those of the slider in units of its crank O2C:
+//! Lengths of the drag link are in units of the driving crank O1A, lengths of the slider in units of its crank O2C:
 //!
 //! ```text
 //! λ1 = O1O2, λ2 = AB, λ3 = O2B (over O1A);   λ5 = CD (rod), λ6 = offset of the slider's line (over O2C)
@@ -451,7 +451,7 @@ impl Linkage {
         self.crank(theta).angle + self.drag_link().map_or(0.0, |drag_link| drag_link.turn)
     }
 
-    /// θ of the outer dead point (x largest) and of the inner one, rad, in [0, 2π): exact, from those of the slider.
+    /// θ of the outer dead point (x largest) and of the inner one, rad, in [0, 2π): exact, from the dead points of the slider.
     #[must_use]
     pub fn dead_points(&self) -> [f64; 2] {
         match self {

@@ -363,8 +363,8 @@ impl CrankLaw {
     }
 
     /// Pressure ratio at a crank angle where the bed decelerates by this much (m) and the bottom is this far (m, towards the piston) from where
-    /// the forces balance. There the ratio is 1 + A a, so that an exact bottom has an exact force; of a law that levels both ways it is that of
-    /// the way, the dead point taken where the law has it.
+    /// the forces balance. There the ratio is 1 + A a, so that an exact bottom has an exact force; a law that levels both ways has the ratio
+    /// of the respective way, with the dead point where the law has it.
     #[must_use]
     pub fn pressure_ratio_off(&self, angle: f64, deceleration: f64, off: f64) -> f64 {
         if let Self::Yoke(BottomLaw { level: Some(air), column, loading, .. }) = self {

@@ -105,7 +105,7 @@ impl LevelAir {
         self.start_length() * libm::expm1(self.start - self.logarithm(load))
     }
 
-    /// w with its derivatives by u: those of S(y) = e^(κ1 y) + C e^(κ2 y) = 2 (1 + u), S_n its n-th derivative by y.
+    /// w with its derivatives by u, from S(y) = e^(κ1 y) + C e^(κ2 y) = 2 (1 + u), S_n its n-th derivative by y.
     #[must_use]
     pub fn derivatives(&self, load: f64) -> LengthDerivatives {
         let y = self.logarithm(load);

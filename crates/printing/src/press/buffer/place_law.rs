@@ -1,6 +1,6 @@
 //! The bed and its air as functions of the place of the bed, for a plate on the bed.
 //!
-//! A plate knows the overrun x of the bed and nothing else, so the deceleration has to be one function a(x) of it. It is under a
+//! A plate follows the overrun x of the bed alone, so the deceleration has to be one function a(x) of it. It is under a
 //! yoke, a = x, and under a crank-slider without offset ([`InLine`]), whose return mirrors its outward motion.
 //!
 //! # Why no other linkage moves a plate
@@ -16,7 +16,7 @@
 //! point, so that no roller can follow it there, and on the return its force is off by twice the root.
 //!
 //! The mean of the two ways, (a_out + a_back)/2, is even in t and therefore smooth in x at the dead point. But it does not begin with
-//! either reversal: at x = 0, where the bed begins to be braked, it is half of that of the return there, and a column that is
+//! either reversal: at x = 0, where the bed begins to be braked, it is half of the deceleration of the return there, and a column that is
 //! closed there has no pressure against it; (18) then requires Δx ~ √x. Closed at the zero of the mean, between the two ends of the
 //! reversal, the column would balance the mean and leave |a_out − a_back|/2 in either direction without any friction: 2.5 % of the largest
 //! inertia for the six-bar 0.1, 0.8, 0.6 at λ5 = 3, and 1.3 % (outer end) and 2.9 % (inner end) for a crank-slider with λ6 = 0.1 and

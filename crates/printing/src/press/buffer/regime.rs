@@ -68,7 +68,7 @@ pub struct Regime {
     curve: ResidualCurve,
 }
 
-/// The residual over 2 p0 F as a function of u in [0, U]; `rest` is U − u, given by who knows it better than a subtraction.
+/// The residual over 2 p0 F as a function of u in [0, U]; `rest` is U − u, passed in because callers compute it without the loss of a subtraction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct ResidualCurve {
     k: f64,

@@ -13,7 +13,7 @@ const DENSITY: f64 = 7850.0;
 const ELASTICITY: f64 = 206e9;
 /// Share of the deflection that is left between the coils at its end (eq. 10–20 there).
 const CLASH_ALLOWANCE: f64 = 0.15;
-/// Free length that counts between parallel plates, over that of a spring with hinged ends.
+/// Effective free length between parallel plates / with hinged ends.
 const BETWEEN_PLATES: f64 = 0.5;
 /// Coils that are ground flat and do not give way.
 const DEAD_COILS: f64 = 2.0;

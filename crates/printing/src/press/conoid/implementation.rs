@@ -48,7 +48,7 @@ const BROKEN: CurvePoint = CurvePoint {
     curvature_slope: f64::NAN,
 };
 
-/// A cut offset from the exact one with what its heading and curvature may miss, as those of a plane outline: the sphere's path
+/// A cut offset from the exact one, and the tolerance of its heading and curvature as for a plane outline: the sphere's path
 /// makes the same angle with the normal of the cut.
 fn cut_within(frame: CurvePoint, angle: f64, motion: MotionTolerance) -> (CurvePoint, ChainTolerance) {
     let path = Vector2::new(libm::cos(angle), libm::sin(angle));
@@ -115,7 +115,7 @@ impl Conoid {
         )
     }
 
-    /// The exact cut at z (m), mm, of a clockwise cam or mirrored as that of one that turns counter-clockwise.
+    /// The exact cut at z (m), mm, of a clockwise cam or mirrored for a counter-clockwise cam.
     pub(super) fn exact_cut(&self, z: f64, turned: bool) -> Boundary<'_> {
         let mut stretches: Vec<BoundaryStretch> = Vec::new();
         for (index, piece) in self.pieces().iter().enumerate() {

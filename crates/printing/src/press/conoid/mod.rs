@@ -9,8 +9,8 @@
 //! P = (u û + ε n̂, z),   N = (n, −τ)/√(1+τ²),   contact = P − r N = (C − r n/√(1+τ²), z + r τ/√(1+τ²))
 //! ```
 //!
-//! n the normal of the plane pitch curve. A cut at z₀ is touched by the rollers at ζ(θ) with ζ + r τ/√(1+τ²) = z₀; its
-//! tangent is that of the plane pitch curve at ζ, since the section of a surface lies across its normal.
+//! n the normal of the plane pitch curve. A cut at z₀ is touched by the rollers at ζ(θ) with ζ + r τ/√(1+τ²) = z₀; it
+//! has the tangent of the plane pitch curve at ζ, since the section of a surface lies across its normal.
 
 mod as_surface;
 mod balance;
@@ -307,7 +307,7 @@ impl Conoid {
         Ok(radius)
     }
 
-    /// From the one that keeps the limits in every slice on: the smallest that keeps those of the whole surface.
+    /// Smallest radius that keeps the limits on the whole surface, searched from the radius that keeps them in every slice.
     fn size(&mut self, required: &SizeLimits, in_slices: f64) -> Result<f64, NoRadius> {
         let mut radius = in_slices;
         // Where one radius was too sharp, the next one mostly is.
@@ -453,7 +453,7 @@ impl Conoid {
         Curves { motion: slice, follower: &self.follower }
     }
 
-    /// Force between roller and cam along the roller's path at the speed of a section, N: that of the air, and preload and
+    /// Force between roller and cam along the roller's path at the speed of a section, N: the air, and preload and
     /// inertia of the follower where they are given.
     #[must_use]
     pub fn path_force(&self, section: &Reversal, rpm: f64, piece: usize, angle: f64) -> f64 {
@@ -581,7 +581,7 @@ fn positions(data: &ConoidData, speeds: &[f64]) -> Result<Vec<f64>, Refusal> {
     Ok(positions)
 }
 
-/// z(n) between the slowest and the fastest speed; v is that of the mass and the ambient pressure of the file.
+/// z(n) between the slowest and the fastest speed, for the mass and the ambient pressure of the file.
 fn position(data: &ConoidData, first: f64, last: f64, rpm: f64) -> f64 {
     let share = match data.shift {
         Shift::Linear => (rpm - first) / (last - first),

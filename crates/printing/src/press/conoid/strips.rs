@@ -1,5 +1,5 @@
 //! The law from one section to the next: between two sections the splines along the axis are cubics, given by the lifts of the
-//! two and by the slopes there, so that a place costs two laws instead of those of all sections.
+//! two and by the slopes there, so that a point costs two laws instead of one for each section.
 //!
 //! A slope is a sum over all sections with fixed shares. Over a grid, where many places along the axis are requested at one cam angle,
 //! the laws of all sections are evaluated once; for one place the slopes come from Chebyshev series over the cam angle, one for each

@@ -1,8 +1,8 @@
 //! A conoid whose shift follows v, `conoid.shift = "v"`: one hand wheel for speed, forme and weather.
 //!
-//! With M the ratio of the masses times the square of that of the speeds, and π that of the ambient pressures, what is left is
-//! U π [v u − ((L/(L − x − Δx))^k − 1)], v = M/π: the law of a section depends on v alone, and so do the column and what is left between
-//! two sections, but for the factor π. So mass, speed and weather are balanced together, by one place along the axis.
+//! With M the mass ratio times the squared speed ratio, and π the ratio of the ambient pressures, the residual force is
+//! U π [v u − ((L/(L − x − Δx))^k − 1)], v = M/π: the law of a section depends on v alone, and so do the column and, but for the factor π, the residual
+//! between two sections. So one position along the axis balances mass, speed and weather together.
 
 use super::{Conoid, bottom_law_at};
 use crate::press::machine::Shift;

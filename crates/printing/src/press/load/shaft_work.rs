@@ -22,7 +22,7 @@ struct Origin {
     compressed: bool,
 }
 
-/// The pieces of a motion, those of a blend divided where the air begins and ends to act: there the force jumps.
+/// The pieces of a motion, a blend split where the air begins or ceases to act: there the force jumps.
 fn divided(reversal: &Reversal) -> (Vec<Piece>, Vec<(usize, bool)>) {
     let (mut pieces, mut shown) = (Vec::new(), Vec::new());
     for (index, piece) in reversal.pieces().iter().enumerate() {

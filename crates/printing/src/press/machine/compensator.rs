@@ -21,7 +21,7 @@ pub struct CompensatorData {
     pub roller_radius: f64,
     /// Base radius, m; `None` is `auto`.
     pub base_radius: Option<f64>,
-    /// Angle of its follower from that of the first disc, in the direction of the cam angle, rad.
+    /// Angle from the follower of the first disc to its own, in the direction of the cam angle, rad.
     pub angle: f64,
     /// Mass that moves with its follower, kg.
     pub mass: Option<f64>,

@@ -118,7 +118,7 @@ impl Press {
         self.with_column(rpm, self.column_rule(rpm))
     }
 
-    /// The law of the rotary cam at a speed of the main shaft, rpm: that of the bottom, or the one that levels both ways of a loop of the air.
+    /// The law of the rotary cam at a speed of the main shaft, rpm: the bottom law, or the law that levels both ways of the air loop.
     ///
     /// # Errors
     /// [`Refusal`] where both ways are to be levelled and there is no loop, or a linkage moves the bed.

@@ -123,7 +123,7 @@ impl Reversal {
         Self::with_raise(law, None)
     }
 
-    /// The motion of a cam that is cut higher over the reversal. The state of the machine is that of the law: under load the follower
+    /// The motion of a cam that is cut higher over the reversal. The machine is still in the state of the law: under load the follower
     /// is there.
     ///
     /// # Errors
@@ -145,7 +145,7 @@ impl Reversal {
         TAU * f64::from(lobe) / self.count()
     }
 
-    /// The pieces of a lobe by the cam angle; each starts where the one before it ends, also that of the lobe before.
+    /// The pieces of a lobe by the cam angle; each starts where the one before it ends, across lobes too.
     fn lobe(&self, lobe: u32) -> Vec<Piece> {
         let count = self.count();
         let first = self.parts.first().map_or(0.0, |part| part.start);
@@ -416,7 +416,7 @@ impl Reversal {
     }
 }
 
-/// Δx by the crank angle of the reversal. The second half of that of a yoke is computed in its mirror.
+/// Δx by the crank angle of the reversal. Under a yoke the second half is computed in its mirror.
 fn law_at(law: &CrankLaw, crank: f64) -> Derivatives {
     match law {
         CrankLaw::Yoke(law) => bottom_law_at(law, crank),

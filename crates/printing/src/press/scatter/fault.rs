@@ -68,7 +68,7 @@ fn compressed(fault: &Fault, s: f64, w: f64) -> f64 {
     fault.closing * libm::exp(fault.exponent * libm::log(s / w))
 }
 
-/// A buffer whose bottom is where it is, whatever the machine is: that of a cam, or a fixed one.
+/// A buffer whose bottom keeps its design position in every machine: moved by the cam, or fixed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrozenBuffer {
     /// U = 2 p0 F, N.
@@ -165,7 +165,7 @@ impl FrozenBuffer {
         libm::exp(-libm::log1p(self.peak_load) / self.exponent)
     }
 
-    /// Exponent of the air on its way back in a machine that differs, where the cam levels a loop: never below that of the way in.
+    /// Exponent of the air on its way back in a machine that differs, where the cam levels a loop: never below the exponent of the way in.
     fn expansion(air: &LevelAir, fault: &Fault) -> f64 {
         air.expansion.max(fault.exponent)
     }
@@ -386,7 +386,7 @@ impl FrozenBuffer {
     }
 
     /// Residual force on the way in for a cam that is ahead, N a radian of the crank, to first order, and its slope by the crank angle;
-    /// opposite on the way back: U k (r/L) cos φ [(1+u)^(1+p) − c], c = L A/k. Under a linkage that of the whole reversal, with its sign.
+    /// opposite on the way back: U k (r/L) cos φ [(1+u)^(1+p) − c], c = L A/k. Under a linkage for the whole reversal, with its sign.
     #[must_use]
     pub fn phase_force(&self, angle: f64) -> [f64; 2] {
         if let BedPath::Linkage(law) = &self.path {

@@ -69,7 +69,7 @@ const NEWTON: u32 = 60;
 #[derive(Debug, Clone)]
 pub struct LossyReversal {
     cam: FrozenBuffer,
-    /// The bottom is fixed, w = 1 − x/L, and not that of the cam.
+    /// The bottom is fixed, w = 1 − x/L; no cam moves it.
     fixed: bool,
     fault: Fault,
     losses: Losses,

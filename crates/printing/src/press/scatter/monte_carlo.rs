@@ -40,7 +40,7 @@ impl Distribution {
         }
     }
 
-    /// Its variance over the square of the half width; that of `air_lost` is of the size of the deviation.
+    /// Its variance / (half width)²; for `air_lost`, of the size of the deviation.
     #[must_use]
     pub fn variance(self, parameter: Parameter) -> f64 {
         match (self, parameter) {
@@ -322,7 +322,7 @@ fn rank(count: usize, q: f64) -> usize {
     (q * count as f64 - 1e-9).ceil().max(1.0) as usize
 }
 
-/// The value of rank ⌈q N⌉ of sorted samples, and those of ranks q N ∓ 1.96 √(N q (1−q)), rounded outwards: the 95 % interval of the
+/// The samples of rank ⌈q N⌉ and of ranks q N ∓ 1.96 √(N q (1−q)), rounded outwards: the 95 % interval of the
 /// percentile. `None` without samples.
 #[must_use]
 pub fn percentile(sorted: &[f64], q: f64) -> Option<[f64; 3]> {

@@ -45,7 +45,7 @@ fn followed(shift: Shift) -> &'static [Parameter] {
     }
 }
 
-/// The bands without those of some parameters.
+/// The bands, some parameters left out.
 fn without(half_widths: &HalfWidths, parameters: &[Parameter]) -> HalfWidths {
     let mut left = *half_widths;
     for (half_width, parameter) in left.iter_mut().zip(Parameter::ALL) {

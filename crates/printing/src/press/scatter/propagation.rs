@@ -153,7 +153,7 @@ impl PressResiduals {
     }
 }
 
-/// What the bands leave, each alone, in its worse direction: as built, after the end setting, and after the level one where that is asked for.
+/// What the bands leave, each alone, in its worse direction: as built, after the end setting, and, on request, after the level setting.
 ///
 /// # Errors
 /// When a band reaches a press that cannot be.

@@ -98,7 +98,7 @@ impl FrozenBuffer {
         worst.unwrap_or(f64::INFINITY)
     }
 
-    /// The setting of the screw by a rule, m; that of the fault where it stays.
+    /// The setting of the screw by a rule, m; as in the fault if the rule keeps it.
     ///
     /// # Errors
     /// When no column balances the end.

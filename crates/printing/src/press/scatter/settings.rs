@@ -23,7 +23,7 @@ pub struct Setting {
     pub fixed_residual: f64,
 }
 
-/// Places of a reversal under a linkage at which a fixed bottom is looked at; the top between three of them is that of their parabola.
+/// Crank angles at which a fixed bottom under a linkage is evaluated; a parabola through three of them finds the top between.
 const PLACES: u32 = 180;
 /// Halvings of the air at the end of the stroke, and doublings of the column, in which a fixed bottom is bracketed.
 const REACH: i32 = 200;
@@ -150,7 +150,7 @@ impl<'a> FixedBottom<'a> {
         Ok(Setting { variable, column, residual, fixed_column, fixed_residual: self.left(fixed_column, variable) })
     }
 
-    /// Residual force of the cam minus that of the fixed bottom, each reset by the rule, N.
+    /// Residual force with the cam − residual force with a fixed bottom, each reset by the rule, N.
     fn more(&self, variable: f64, rule: ScrewRule) -> Result<f64, ScatterError> {
         let setting = self.setting(variable, rule)?;
         Ok(setting.residual.value.abs() - setting.fixed_residual)

@@ -23,7 +23,7 @@ const EFFICIENCY_STEPS: f64 = 100.0;
 const ARM_STEP_MM: f64 = 10.0;
 /// A roller arm so many times as long is looked at.
 const LONGEST_ARM: f64 = 4.0;
-/// Columns that are looked at, over that of the plate.
+/// Trial columns / column of the plate.
 const LONGER_COLUMNS: [f64; 7] = [1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0];
 
 impl Wedge {

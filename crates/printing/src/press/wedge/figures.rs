@@ -85,7 +85,7 @@ impl ForceBalanced for Wedge {
 
 impl LoadAsCut for Wedge {
     /// In the directions in which the forces are to balance. The roller moves on its arm l1, the bottom on l2; the slope is
-    /// that of the flank where the roller touches, dΔx/dx = C σ with tan α of the normal.
+    /// taken from the flank at the contact, dΔx/dx = C σ with tan α of the normal.
     fn unbalanced(&self, (piece, x): (usize, f64), moved: f64, normal: Vector2<f64>) -> f64 {
         if x < 0.0 {
             return 0.0;

@@ -271,7 +271,7 @@ impl Wedge {
     }
 
     /// Force that presses a roller onto its flank along its path, N: the air's share by the lever, preload, and the inertia of
-    /// what moves with the roller, whose path is l1 ψ and whose time is that of the bed.
+    /// what moves with the roller, whose path is l1 ψ; the bed sets its pace.
     fn path_force(&self, piece: usize, x: f64) -> f64 {
         let follower = &self.machine.follower;
         let bottom = self.motion.bottom(piece, x);

@@ -93,7 +93,7 @@ fn of_cam(why: Refusal) -> Refusal {
 fn as_disc(body: &Disc, machine: &Machine, at: f64) -> Result<Option<mechanics::ShaftDisc>, Refusal> {
     let drawn = body.draw(&Request::within(TOLERANCE)).map_err(|error| of_cam(Refusal::of(error)))?;
     let inertia = drawn.parts.first().and_then(|part| part.inertia(machine));
-    // A cam that turns counter-clockwise is drawn in the mirror; angles of unbalance are those of the cam.
+    // A cam that turns counter-clockwise is drawn in the mirror; angles of unbalance are cam angles.
     let side = if machine.cam.rotation == Rotation::CounterClockwise { -1.0 } else { 1.0 };
     Ok(inertia.map(|inertia| mechanics::ShaftDisc {
         at,

@@ -12,7 +12,7 @@ const SECTIONS: u32 = 30;
 /// Share of the height of a crest that two samples may hide between them: 1 − cos ¼ = 0.03 of a wave of half a radian in a cell.
 const HIDDEN: f64 = 0.1;
 
-/// Crests up and down that differ by less than this part are equal: those of an antisymmetric mode differ by rounding, which must
+/// Crests up and down that differ by less than this part are equal: in an antisymmetric mode they differ by rounding, which must
 /// not give its curve a sign.
 const EQUAL: f64 = 1e-9;
 
@@ -63,7 +63,7 @@ impl DeflectionCurve {
 
     /// Deflection and slope at x, m from the left end; of the nearer end outside of the shaft.
     ///
-    /// The unit is that of what the curve is: 1 and 1/m of a mode, m/N and rad/N under 1 N, m and rad of a response.
+    /// Units: 1 and 1/m of a mode, m/N and rad/N under 1 N, m and rad of a response.
     #[must_use]
     pub fn evaluate(&self, x: f64) -> [f64; 2] {
         let right = self.pieces.partition_point(|piece| piece.at <= x);

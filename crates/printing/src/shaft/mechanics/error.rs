@@ -41,7 +41,7 @@ pub(super) fn without_mass() -> Refusal {
         .remedy("give it a density above 0, or a disc away from the rigid supports")
 }
 
-/// That numbers are beyond those of a computer.
+/// Refuses values beyond the floating-point range.
 pub(super) fn out_of_range() -> Refusal {
     Refusal::new("the numbers of the shaft leave the range of the arithmetic").remedy("check its units")
 }

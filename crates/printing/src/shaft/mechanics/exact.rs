@@ -161,7 +161,7 @@ fn weighted(matrix: &DMatrix<f64>, weights: &[f64], of: impl Fn(f64) -> f64) -> 
 struct EigenProblem {
     frame: Frame,
     spectrum: TridiagonalForm,
-    /// S √W where the eigenvalues are those of √W SᵀS √W.
+    /// S √W, for the eigenvalues of √W SᵀS √W.
     rooted: Option<DMatrix<f64>>,
     /// The largest size of an eigenvalue, also of the negative ones: what rounding is measured by.
     size: f64,
@@ -200,7 +200,7 @@ impl EigenProblem {
         let values = self.spectrum.largest(count, self.wall());
         if values.len() < count {
             let exist = self.spectrum.largest(count, NOTHING * self.size).len();
-            // A shaft with a mass of its own has modes without end; one without has those of its discs.
+            // A shaft with a mass of its own has modes without end; one without only the modes of its discs.
             let endless = shaft.segments().iter().any(|segment| segment.density > 0.0);
             return Err(if endless || values.len() < exist {
                 ShaftError::ModeTooHigh { mode: values.len() + 1 }

@@ -23,7 +23,7 @@
 //!    against each other. It is not modelled.
 //! 3. **It leaves out gyroscopic moments, at most 2 %, and forgets shear, which is larger.** For a slender pinned beam the
 //!    one is +½(πD/4l)², the other −2.93 times that. So [`Beam::Timoshenko`] is the rule.
-//! 4. **It knows supports at the two ends only.** With supports further in, a symmetric start of the iteration misses a
+//! 4. **Supports at the two ends only.** With supports further in, a symmetric start of the iteration misses a
 //!    lower rocking mode: ∅50 × 1.6 m on 1e5 N/m at 0.6 and 1.0 m runs critical at 371 rpm, not 850.
 //!
 //! SI throughout: m, N/m, kg, rad/s. Lateral vibration in one plane, or the whirl of a round shaft at its own speed. Without
@@ -175,7 +175,7 @@ impl NamedChoice for Whirl {
 }
 
 impl Whirl {
-    /// Couples of a turning slope, over ω² ψ: (I_t − γ I_p), with γ the speed of the shaft over that of the line.
+    /// Couples of a turning slope, over ω² ψ: (I_t − γ I_p), with γ = shaft speed / whirl speed.
     fn gamma(self) -> f64 {
         match self {
             Self::Planar => 0.0,

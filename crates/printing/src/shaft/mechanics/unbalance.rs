@@ -85,7 +85,7 @@ pub fn shares(centre: f64, a: f64, b: f64) -> Result<[f64; 2], Refusal> {
     Ok(lever.map(|share| share.clamp(least, most)))
 }
 
-/// Angles, rad, at which two equal weights, kg m each, cancel an unbalance: that of U + π ∓ δ, cos δ = |U|/(2w).
+/// Angles, rad, at which two equal weights, kg m each, cancel an unbalance: the angle of U + π ∓ δ, cos δ = |U|/(2w).
 ///
 /// One degree of misplacement of one of them leaves 0.0175 of it.
 ///

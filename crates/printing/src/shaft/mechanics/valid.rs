@@ -1,4 +1,4 @@
-//! What a shaft must be before anything is asked about it.
+//! Limits of a shaft's input, checked before any computation.
 
 use super::error::out_of_range;
 use super::panels::{Panels, SAME_PLACE};

@@ -56,7 +56,7 @@ impl BottomMotion {
         }
     }
 
-    /// Δx and its first three derivatives by x in [0, r], SI; at a break those of the later side, or of the earlier one.
+    /// Δx and its first three derivatives by x in [0, r], SI; at a break of the later side, or, with `before`, of the earlier one.
     #[must_use]
     pub fn at(&self, x: f64, before: bool) -> Derivatives {
         match self {
@@ -262,7 +262,7 @@ impl Motion for WedgeMotion {
         None
     }
 
-    /// That of the bed on its way out.
+    /// The pace of the bed on its way out.
     fn pace(&self, x: f64) -> (f64, f64) {
         let [first, second, _] = self.mechanism.bottom_law.pace(x);
         (first, second)

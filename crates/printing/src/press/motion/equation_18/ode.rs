@@ -31,7 +31,7 @@ const STEEP: f64 = 50.0;
 /// Slopes of series and equation that differ by more belong to different branches; the error of a step is far smaller
 /// at any tolerance, the difference of the branches far larger.
 const SAME_SLOPE: f64 = 0.01;
-/// Least overrun, in strokes, at which the equation is asked without its series.
+/// Least overrun, in strokes, at which the equation is evaluated without its series.
 const LEAST_OVERRUN: f64 = 1e-9;
 
 /// A stretch of the solution, lengths in strokes.
@@ -98,7 +98,7 @@ impl Solution {
         self.stretches.len()
     }
 
-    /// Δx and its first three derivatives by x at an overrun in [0, r], SI; at a break those of the later stretch, or,
+    /// Δx and its first three derivatives by x at an overrun in [0, r], SI; at a break of the later stretch, or,
     /// with `before`, of the earlier one.
     #[must_use]
     pub fn at(&self, x: f64, before: bool) -> [f64; 4] {
