@@ -79,7 +79,7 @@ pub trait BuilderOfBrake: Sized {
     #[must_use]
     fn brake_frame(self, frame: BrakeFrame) -> Self;
 
-    /// In place of a frame: the angles of wrap (rad) on the full roll and on the run-down roll, and the press force on the run-down roll
+    /// Replaces a frame: the angles of wrap (rad) on the full roll and on the run-down roll, and the press force on the run-down roll
     /// over that on the full roll.
     #[must_use]
     fn brake_ends(self, wrap: [f64; 2], press_ratio: f64) -> Self;

@@ -25,7 +25,7 @@ struct TensionDuty {
 /// The disc that holds the tension of a belt brake, with its motion; `None` of a brake that was read without.
 #[must_use]
 pub fn spec(brake: &BrakeMachine, disc: Arc<BrakeDisc>) -> Option<Spec> {
-    // The law's lift counts from its own lowest place; the closing stretch may lie lower.
+    // The law's lift counts from its own lowest point; the closing stretch may lie lower.
     let preload = disc.law().spring_force(disc.origin().unwrap_or(0.0));
     let own = brake.of_disc(preload)?;
     let duty = TensionDuty { disc: Arc::clone(&disc), limits: brake.limits };

@@ -72,7 +72,7 @@ pub struct BrakeCam {
     pub turns_per_frame_turn: f64,
     /// Rate of the spring of its follower, N/m.
     pub spring_rate: f64,
-    /// Force of that spring at the lowest place of its law, N.
+    /// Force of that spring at the lowest lift of its law, N.
     pub preload: f64,
 }
 
@@ -317,7 +317,7 @@ impl BrakeMachine {
     /// Reads a machine from a text that was read before, with overrides, each `key=value`.
     ///
     /// # Errors
-    /// All faults found, each with its place.
+    /// All faults found, each with its position in the file.
     pub fn of_source(source: &MachineSource, overrides: &[String], wanted: BrakeOutput) -> Result<Self, MachineError> {
         let mut brake = source.read(overrides, |reader| Self::parts(source.catalogue, reader, wanted))?;
         if wanted == BrakeOutput::Disc {

@@ -37,7 +37,7 @@ pub const KIND: Kind = Kind { command: "linkage", noun: "drive of the bed", keys
 /// Rows of the table over a turn.
 const ROWS: u32 = 720;
 
-/// A place of the turn.
+/// One crank angle of the turn.
 struct LinkageRow {
     crank: f64,
     /// Position of the bed and its derivatives by the crank angle, m.

@@ -21,7 +21,7 @@ const VELOCITY: AddedColumn = AddedColumn { name: "velocity_mm_per_rad", after: 
 const ACCELERATION: AddedColumn = AddedColumn { name: "acceleration_mm_per_rad2", after: "torque_left_nm" };
 const JERK: AddedColumn = AddedColumn { name: "jerk_mm_per_rad3", after: "torque_left_nm" };
 
-/// Columns with their values at a place.
+/// Columns of a row, with their values.
 pub type ColumnValues = Vec<(&'static AddedColumn, f64)>;
 
 /// Crank angle (deg, of a cam that turns), overrun of the bed and Δx of the bottom, mm.
@@ -30,7 +30,7 @@ pub(super) fn of_bed(crank_deg: Option<f64>, x: f64, dx: f64) -> ColumnValues {
     crank.into_iter().chain([(&OVERRUN, x), (&BOTTOM, dx)]).collect()
 }
 
-/// The force balance of a press at a place, N; 0 outside the reversal.
+/// The force balance of a press in one row, N; 0 outside the reversal.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BalanceRow {
     /// Inertia force of the bed, (1).
@@ -52,7 +52,7 @@ impl BalanceRow {
     }
 }
 
-/// A wedge at a place.
+/// A wedge in one row.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct WedgeRow {
     /// Lift of the bottom by the angle of the crank, m.

@@ -50,7 +50,7 @@ fn of_a_loop() -> Refusal {
 const ROUNDING: f64 = 1e-9;
 /// Places of a piece at which the torque left by the law is looked at: it is rounding, or the smooth torque of inertia.
 const PLACES: usize = 256;
-/// How far within a piece its first and last place lie, as a share of it.
+/// How far within a piece its first and last angle lie, as a share of it.
 const INSET: f64 = 1e-9;
 /// Angles of a piece at which torques at other speeds are evaluated; a parabola through three of them finds the top between, so that
 /// the largest is reported to a millionth.

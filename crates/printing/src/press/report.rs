@@ -190,7 +190,7 @@ pub struct Equation18 {
     pub breaks: Vec<SlopeBreak>,
 }
 
-/// A place where the law of the slope changes.
+/// An overrun at which the law of the slope changes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "the names say it, with their units")]
 pub struct SlopeBreak {

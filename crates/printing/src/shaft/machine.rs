@@ -285,7 +285,7 @@ fn shaft(reader: &Reader<'_>) -> Option<ShaftData> {
     match Shaft::new(known?, supports, discs, beam) {
         Ok(shaft) => Some(ShaftData { shaft, cam_at, drive_at, compensate: table.get(&COMPENSATE)? }),
         Err(error) => {
-            // What is wrong with a part has been reported at its place.
+            // Faults of the part itself are already reported.
             if reader.is_faultless() {
                 table.fail(&BEAM, error.to_string(), None);
             }
@@ -294,7 +294,7 @@ fn shaft(reader: &Reader<'_>) -> Option<ShaftData> {
     }
 }
 
-/// Reports a place beyond the end of the shaft.
+/// Reports a position beyond the end of the shaft.
 fn within_length(table: &TableReader<'_>, place: &Field<f64>, length: Option<f64>) {
     if let (Some(at), Some(length)) = (table.get(place), length)
         && at > length + SAME_PLACE
@@ -425,7 +425,7 @@ impl ShaftMachine {
     /// Reads a machine from TOML text; `source` names it in messages, each override is `key=value`.
     ///
     /// # Errors
-    /// All faults found, each with its place.
+    /// All faults found, each with its position in the file.
     pub fn from_toml(source: &str, text: &str, overrides: &[String]) -> Result<Self, MachineError> {
         Self::of_source(&MachineSource::from_toml(source, text), overrides)
     }
@@ -433,7 +433,7 @@ impl ShaftMachine {
     /// Reads a machine from a text that was read before, with overrides, each `key=value`.
     ///
     /// # Errors
-    /// All faults found, each with its place.
+    /// All faults found, each with its position in the file.
     pub fn of_source(source: &MachineSource, overrides: &[String]) -> Result<Self, MachineError> {
         let (mut shaft, carries) = source.read(overrides, |reader| Self::parts(source.catalogue, reader))?;
         if carries {

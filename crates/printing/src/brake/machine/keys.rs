@@ -166,7 +166,7 @@ pub(in crate::brake) const WEB: KeySection = KeySection {
     keys: &[THICKNESS.key, WIDTH.key, MODULUS.key, SPEED.key, WOUND_STRAIN.key, WEB_LENGTH.key],
 };
 
-/// Coordinates of a place, from the axis of the roll.
+/// Coordinates of a point, from the axis of the roll.
 const AROUND: document::Bounds = within(-LONGEST, LONGEST);
 pub(super) const PIVOT: Field<[f64; 2]> = Field::pair(
     "pivot",

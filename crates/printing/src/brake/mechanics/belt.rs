@@ -105,7 +105,7 @@ impl Belt {
         opening(right, left)
     }
 
-    /// The belt of a frame at the largest radius of a roll, and its place there.
+    /// The belt of a frame at the largest radius of a roll, and its state there.
     pub(super) fn new(frame: &BrakeFrame, radius: f64) -> Result<(Self, BeltState), BrakeError> {
         let pivot = Vector2::from(frame.pivot);
         let mut belt = Self {
@@ -132,7 +132,7 @@ impl Belt {
         }
     }
 
-    /// The place at a radius and a turn.
+    /// The state at a radius and a turn.
     ///
     /// # Errors
     /// [`BrakeError::PulleyMeetsRoll`] where a pulley reaches into the roll.
@@ -164,11 +164,11 @@ impl Belt {
         ROUNDING * (self.length + radius + self.pulley_radius)
     }
 
-    /// The place at a turn, from a guess of its radius. ∂ℓ/∂R = a > 0 and ∂a/∂R = 1/S1 + 1/S2 > 0: there is one, and Newton's method
+    /// The state at a turn, from a guess of its radius. ∂ℓ/∂R = a > 0 and ∂a/∂R = 1/S1 + 1/S2 > 0: there is one, and Newton's method
     /// converges from above; below, and where it leaves the bracket, that is halved.
     ///
     /// # Errors
-    /// [`BrakeError::PulleyMeetsRoll`] where the belt is too long for the place, [`BrakeError::BeltLeavesRoll`] where it is too short.
+    /// [`BrakeError::PulleyMeetsRoll`] if the belt is too long to close there, [`BrakeError::BeltLeavesRoll`] where it is too short.
     pub(super) fn at_turn(&self, turn: f64, guess: f64) -> Result<BeltState, BrakeError> {
         let FrameParts { right, left, .. } = self.parts(turn);
         let (d1, d2) = (libm::hypot(right.x, right.y), libm::hypot(left.x, left.y));

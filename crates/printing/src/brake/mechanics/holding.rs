@@ -193,7 +193,7 @@ impl TensionHolding {
         })
     }
 
-    /// The last station before an angle, and the place there.
+    /// The last station before an angle, and the belt there.
     fn located(&self, angle: f64) -> Result<(usize, BeltState), BrakeError> {
         let turn = (angle / self.ratio).clamp(0.0, self.turn);
         let places = &self.brake.places;
@@ -211,7 +211,7 @@ impl TensionHolding {
 
     /// ∫ M dφ from a station to a turn within its step, J.
     fn work_between(&self, from: &BeltState, turn: f64) -> f64 {
-        // Within a step of the walk there is a place at every turn.
+        // Within a step of the walk the belt has a solution at every turn.
         quadrature::integrate(
             |turn| self.place_from(from, turn).map_or(f64::NAN, |place| self.moment(&self.brake.pose(&place))),
             (from.turn, turn),

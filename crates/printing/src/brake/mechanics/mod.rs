@@ -60,7 +60,7 @@ pub enum RollRotation {
     CounterClockwise,
 }
 
-/// The hinged frame at the largest radius of the roll; places from the roll's axis, m.
+/// The hinged frame at the largest radius of the roll; coordinates from the roll's axis, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BrakeFrame {
     /// O.

@@ -1,7 +1,7 @@
 //! The path of the frame as the roll runs down, from station to station.
 //!
 //! R is a function of the turn φ (`belt`), with dR/dφ = −(q1 + q2)/a: the walk is along φ, so that a dead point, where the path over R
-//! would turn back, is passed like any other place and found by the sign of q1 + q2.
+//! would turn back, is passed like any other radius and found by the sign of q1 + q2.
 
 use super::belt::{Belt, BeltState};
 use super::{BrakeError, PaperRoll};
@@ -36,7 +36,7 @@ impl Grip {
         tight + (tight + slack) / libm::expm1(place.wrap * self.friction)
     }
 
-    /// The place, unless the frame can go no further there.
+    /// The belt there, unless the frame can go no further.
     pub(super) fn check(self, place: BeltState, smallest: f64) -> Result<BeltState, BrakeError> {
         let radius = place.radius;
         if !(place.wrap.is_finite() && place.length.is_finite() && place.both_arms().is_finite()) {
@@ -55,7 +55,7 @@ impl Grip {
     }
 }
 
-/// The places at the stations, the largest radius first; the last is at the smallest radius or just below. At least `stations` steps.
+/// The belt at the stations, the largest radius first; the last is at the smallest radius or just below. At least `stations` steps.
 ///
 /// # Errors
 /// The limit of the movement before the smallest radius, with its radius.
@@ -84,7 +84,7 @@ pub(super) fn walk(
     Err(BrakeError::NotReached { radius: here.radius, smallest })
 }
 
-/// The place a turn further on.
+/// The belt a turn further on.
 fn next(belt: &Belt, here: &BeltState, turn: f64, grip: Grip, smallest: f64) -> Result<BeltState, BrakeError> {
     // Past a whole turn between the pulleys their angle begins at 0 again, and the belt would have to pass between them.
     if belt.opening_at(here.turn) - belt.opening_at(here.turn + turn) > PI {
@@ -94,7 +94,7 @@ fn next(belt: &Belt, here: &BeltState, turn: f64, grip: Grip, smallest: f64) -> 
     grip.check(place, smallest)
 }
 
-/// The last place before the limit within a turn, if that is past the smallest radius.
+/// The last state before the limit within a turn, if that is past the smallest radius.
 fn before_wall(
     belt: &Belt,
     here: BeltState,

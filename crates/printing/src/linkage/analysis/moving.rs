@@ -19,7 +19,7 @@ const LETTER: f64 = 0.14;
 /// Room about what moves, over the larger side.
 const MARGIN: f64 = 0.03;
 
-/// The mechanism at this many places of a turn, and once more at its end.
+/// The mechanism at this many crank angles of a turn, and once more at its end.
 pub(super) fn mechanism(lying: &LinkagePicture<'_>, rows: u32, shaft_speed: f64) -> MovingMechanism {
     let cranks: Vec<f64> = (0..=rows).map(|i| 360.0 * (f64::from(i) / f64::from(rows))).collect();
     let covered = lying.covered();
@@ -150,7 +150,7 @@ fn shaft_at(letter: &str, at: Vector2<f64>, side: f64, crank: f64) -> RigidPart 
     RigidPart::new("ground", vec![circle(at.x, at.y, SHAFT * HALF * crank)]).named(letter, letter_at.x, letter_at.y)
 }
 
-/// A body with joints at up to three places: all that is so near to the figure they span.
+/// A body with up to three joints: everything within a margin of the figure they span.
 fn bar(joints: &[Vector2<f64>], half: f64) -> SheetShape {
     let corners = spanned(joints);
     let mut vertices = Vec::with_capacity(2 * corners.len());
@@ -171,7 +171,7 @@ fn side(corners: &[Vector2<f64>], index: usize) -> Vector2<f64> {
     (to - from).normalize()
 }
 
-/// The corners of the figure that two or three places span, counter-clockwise; of places on one line the two ends.
+/// The corners of the figure that two or three joints span, counter-clockwise; of joints on one line the two ends.
 fn spanned(places: &[Vector2<f64>]) -> Vec<Vector2<f64>> {
     let [a, b, c] = *places else { return places.to_vec() };
     let (turn, sides) = ((b - a).perp(&(c - a)), [(b - a).norm(), (c - b).norm(), (a - c).norm()]);

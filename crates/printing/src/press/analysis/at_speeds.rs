@@ -47,7 +47,7 @@ pub(super) fn column_by(frozen: &FrozenBuffer, reset: Reset) -> f64 {
     }
 }
 
-/// The forces at a place of the reversal and a speed.
+/// The forces at a point of the reversal and a speed.
 pub(super) struct ForcePlace {
     pub(super) rpm: f64,
     /// Crank angle from the start of the reversal, rad; not known under a yoke.
@@ -66,7 +66,7 @@ pub(super) const CURVES: &[ListedColumn<ForcePlace>] = &[
     ("residual_n", |row| row.residual),
 ];
 
-/// Under a linkage the bed comes to one place with two forces: the curves run along the crank angle.
+/// Under a linkage the bed passes one position with two forces: the curves run along the crank angle.
 const CURVES_OF_A_LINKAGE: &[ListedColumn<ForcePlace>] = &[
     ("rpm", |row| row.rpm),
     ("crank_deg", |row| row.crank.to_degrees()),

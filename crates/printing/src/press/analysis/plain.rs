@@ -101,7 +101,7 @@ const FAMILY_COLUMNS: &[ListedColumn<FamilyRow>] = &[
     ("piston_area_total_mm2", |row| row.cylinders.piston_area_total_mm2),
 ];
 
-/// A place of figure 4.
+/// A point of figure 4.
 struct FamilyPlace {
     end_pressure: f64,
     x: f64,

@@ -60,7 +60,7 @@ const COLUMNS: &[ListedColumn<SpringSet>] = &[
     ("spring_force_max_n", |row| row.spring_force_max_n),
 ];
 
-/// A place of a curve.
+/// A point of a curve.
 struct SpringRow {
     stiffness: f64,
     rpm: f64,
@@ -83,7 +83,7 @@ const CURVES: &[ListedColumn<SpringRow>] = &[
     ("spring_travel_mm", |row| MILLIMETRES * row.travel),
 ];
 
-/// Under a linkage the bed comes to one place with two forces: the curves run along the crank angle.
+/// Under a linkage the bed passes one position with two forces: the curves run along the crank angle.
 const CURVES_OF_A_LINKAGE: &[ListedColumn<SpringRow>] = &[
     ("stiffness_n_per_mm", |row| row.stiffness / MILLIMETRES),
     ("rpm", |row| row.rpm),

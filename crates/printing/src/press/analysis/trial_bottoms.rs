@@ -1,6 +1,6 @@
 //! The graphical solution of equation (18), figure 9: its right side over trial positions of the bottom, and its left side, which does not depend on them.
 //!
-//! At each place of the bed the bottom of the place before is known, and the slope of a trial is the difference of both over the step of the bed.
+//! At each station of the bed the bottom at the station before is known, and the slope of a trial is the difference of both over the step of the bed.
 
 use crate::press::MachineOfPress;
 use crate::press::machine::{PressCams, exact_on};
@@ -64,7 +64,7 @@ fn plate(machine: &Machine) -> Option<Wedge> {
     Wedge::solve(machine, rpm, Solver::Ode { tolerance: LAW_TOLERANCE }, exact_on(machine)).ok()
 }
 
-/// Figure 9: a curve and a level for each place of the bed.
+/// Figure 9: a curve and a level for each station of the bed.
 pub(super) fn panel(rows: &[TrialRow]) -> Option<(String, PlotPanel)> {
     let places = rows.chunk_by(|a, b| a.x == b.x).enumerate();
     let mut curves = Vec::new();

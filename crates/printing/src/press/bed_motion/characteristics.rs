@@ -128,7 +128,7 @@ pub(crate) fn power_extremes(linkage: &Linkage, grid: &[GridPoint]) -> Vec<f64> 
     roots(linkage, grid, |m| m[2] * m[2] + m[1] * m[3], |m| 3.0 * m[2] * m[3] + m[1] * m[4])
 }
 
-/// The largest of a value over places.
+/// The largest of a value over crank angles.
 fn largest(places: &[f64], value: impl Fn(f64) -> f64) -> Extremum {
     let none = Extremum { at: f64::NAN, value: f64::NAN };
     places.iter().fold(none, |best, at| {

@@ -1,6 +1,6 @@
-//! The crank-slider whose line passes its shaft: how the bed moves by its place.
+//! The crank-slider whose line passes its shaft: the motion of the bed as a function of its position.
 //!
-//! Without offset the return mirrors the outward motion, so that the deceleration is one function of the place. With X = O2D and the rod λ
+//! Without offset the return mirrors the outward motion, so that the deceleration is one function of the position. With X = O2D and the rod λ
 //! over the crank O2C, the triangle O2–C–D gives cos β = (X² − D)/(2X) and X − cos β = (X² + D)/(2X), D = λ² − 1, and from these
 //!
 //! ```text
@@ -36,7 +36,7 @@ pub struct InLine {
 }
 
 impl StrokeEnd {
-    /// Motion of the bed as a function of its place; `None` unless a crank-slider without offset moves it: any other linkage but the yoke brakes it
+    /// Motion of the bed as a function of its position; `None` unless a crank-slider without offset moves it: any other linkage but the yoke brakes it
     /// otherwise than it brings it back.
     #[must_use]
     pub fn by_place(&self) -> Option<InLine> {

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! with a = −x'' of the bed and its overrun x, both m. For a yoke a = x = r sin φ and this is equation (10), which is kept in its
-//! own form ([`BottomLaw`]). The sum x + Δx = L h(A a) depends on a alone: what is a force holds for any linkage with a in place of
+//! own form ([`BottomLaw`]). The sum x + Δx = L h(A a) depends on a alone: all forces hold for any linkage with a instead of
 //! x. With κ = a'/x' at the start of the reversal and c = L A κ/k the law starts with the slope (c − 1) x', and
 //!
 //! ```text
@@ -124,7 +124,7 @@ impl LinkageLaw {
     }
 }
 
-/// Column of a plain buffer whose air balances the bed at the dead point, equation (7) with a in place of r, m.
+/// Column of a plain buffer whose air balances the bed at the dead point, equation (7) with a instead of r, m.
 pub(super) fn fixed_column(loading: f64, exponent: f64, end: &StrokeEnd) -> f64 {
     let [a, ..] = end.at(end.dead()).deceleration();
     column_for(end.stroke(), loading * a, exponent)
@@ -308,7 +308,7 @@ impl CrankLaw {
         }
     }
 
-    /// Whether the air gives back on the way back what it takes on the way in, at the same places.
+    /// Whether the air gives back on the way back what it takes on the way in, at the same overruns.
     #[must_use]
     pub fn is_symmetric(&self) -> bool {
         match self {

@@ -1,4 +1,4 @@
-//! The bed and its air as functions of the place of the bed, for a plate on the bed.
+//! The bed and its air as functions of the position of the bed, for a plate on the bed.
 //!
 //! A plate follows the overrun x of the bed alone, so the deceleration has to be one function a(x) of it. It is under a
 //! yoke, a = x, and under a crank-slider without offset ([`InLine`]), whose return mirrors its outward motion.
@@ -28,7 +28,7 @@ use super::crank_law::{CrankLaw, fixed_column};
 use crate::press::bed_motion::{InLine, StrokeEnd};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A law of the bottom whose bed is decelerated by its place alone.
+/// A law of the bottom under a bed whose deceleration depends on its position alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaceLaw {
     law: CrankLaw,
@@ -54,7 +54,7 @@ impl PlaceLaw {
         Some(Self { law, in_line })
     }
 
-    /// Motion of the bed as a function of its place and of the crank angle; `None` under a yoke.
+    /// Motion of the bed as a function of its position and of the crank angle; `None` under a yoke.
     fn moved(&self) -> Option<(&InLine, &StrokeEnd)> {
         match &self.law {
             CrankLaw::Yoke(_) => None,
@@ -62,7 +62,7 @@ impl PlaceLaw {
         }
     }
 
-    /// The law by the crank angle: its cylinder, its fixed bottom and its places.
+    /// The law by the crank angle, with its cylinder and its fixed bottom.
     #[must_use]
     pub fn by_crank(&self) -> &CrankLaw {
         &self.law
@@ -98,7 +98,7 @@ impl PlaceLaw {
         self.law.start_slope()
     }
 
-    /// Motion of the bed as a function of its place; `None` under a yoke, where a = x.
+    /// Motion of the bed as a function of its position; `None` under a yoke, where a = x.
     #[must_use]
     pub fn in_line(&self) -> Option<&InLine> {
         self.in_line.as_ref()
@@ -163,7 +163,7 @@ impl PlaceLaw {
         }
     }
 
-    /// The crank angle before the reversal at which the bed comes by a place (m, at most 0), or where it turns if it does not come so far.
+    /// The crank angle before the reversal at which the bed passes a position (m, at most 0), or where it turns back if it does not reach it.
     #[must_use]
     pub fn crank_before(&self, place: f64) -> f64 {
         match self.moved() {

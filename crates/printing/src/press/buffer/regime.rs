@@ -59,7 +59,7 @@ pub struct Regime {
     pub end_pressure: f64,
     /// Inertia − air where its size is largest over the stroke, N, signed.
     pub residual: f64,
-    /// Where it is, m of deceleration over the square of the crank speed, which under a yoke is the overrun; 0 without such a place.
+    /// Where it is, m of deceleration over the square of the crank speed, which under a yoke is the overrun; 0 if there is none.
     pub residual_at: f64,
     /// Inertia − air at x = r, N, signed.
     pub end_residual: f64,
@@ -169,7 +169,7 @@ impl ResidualCurve {
         (u > 0.0 && u < self.end).then_some(u)
     }
 
-    /// The residual at its stationary point and that place; 0 at the start where the residual is monotone.
+    /// The stationary point of the residual, and the residual there; 0 at the start where the residual is monotone.
     fn hump(&self) -> (f64, f64) {
         self.stationary().map_or((0.0, 0.0), |u| (u, self.residual(u, self.end - u)))
     }
@@ -205,7 +205,7 @@ pub fn reset(design: &CrankLaw, cylinder: &Cylinder, rpm: f64, reset: Reset) -> 
         reset_curve(design.exponent(), end, square, excess, reset)
     };
     let (at, hump) = if excess == 0.0 { (0.0, 0.0) } else { curve.hump() };
-    // A levelled residual has the same size at both places but for rounding: the place within the stroke is reported.
+    // A levelled residual has the same size at both points but for rounding: the point within the stroke is reported.
     let at_end = curve.give.abs() > hump.abs() && (reset != Reset::Level || hump == 0.0);
     let (residual, residual_at) = if at_end { (curve.give, stroke) } else { (hump, at / own) };
     Regime {

@@ -12,7 +12,7 @@
 //! (1 − κ)(g(z)/g(Q) − 1), which keeps every digit at small z and small Q. The residual is largest at the same y for every
 //! stiffness, so that it is 1 − κ of a plain buffer's.
 //!
-//! Under a linkage the travel of the spring follows from the same x(y), with the overrun and the deceleration of the dead point in the place of r:
+//! Under a linkage the travel of the spring follows from the same x(y), with the overrun and the deceleration of the dead point instead of r:
 //! q − 1 = A a(dead), κ = `c_min`/c with `c_min` = m ω² a(dead)/(2 x(dead)). The inertia is not proportional to x then, so that the residual
 //! has either sign and is searched over the crank angle.
 

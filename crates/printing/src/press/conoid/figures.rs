@@ -11,7 +11,7 @@ use camgen_kernel::profile::{Worst, extremes};
 use camgen_kernel::text::{Remedy, Text};
 
 impl Figures for Conoid {
-    /// The angle between the roller's path and the normal of the section, over every place of the roller.
+    /// The angle between the roller's path and the normal of the section, over every position of the roller.
     fn pressure_angles(&self) -> [Worst; 2] {
         let largest = self.worst(|conoid, place| {
             let (height, slope) = conoid.height_and_slope(&place.partials);
@@ -53,7 +53,7 @@ impl Figures for Conoid {
             .collect()
     }
 
-    /// Metal between the bore and the nearest place of the surface.
+    /// Metal between the bore and the nearest point of the surface.
     fn wall(&self) -> Option<(f64, Option<Worst>)> {
         let bore = self.machine.cam.bore_reach()?;
         let nearest = self.smallest_radius();

@@ -217,7 +217,7 @@ fn middles(list: &[f64]) -> Vec<f64> {
     list.iter().zip(list.iter().skip(1)).map(|(a, b)| 0.5 * (a + b)).collect()
 }
 
-/// Largest distance of a patch from the exact surface at these angles and places along the axis (mm), mm.
+/// Largest distance of a patch from the exact surface at these angles and axial positions (mm), mm.
 fn distance(exact: &ExactFlank<'_>, piece: usize, patch: &SplineSurface, angles: &[f64], places: &[f64]) -> f64 {
     let mut largest = 0.0;
     for u in angles {

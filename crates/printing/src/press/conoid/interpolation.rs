@@ -1,7 +1,7 @@
-//! How the law is interpolated along the axis: cubic splines through the sections, in the place along the axis or in a
+//! How the law is interpolated along the axis: cubic splines through the sections, in the axial position, or in a
 //! function of the speed that belongs to it.
 //!
-//! Splines in the place z swing between sections whose speeds lie far apart: the law changes with the ratio of two speeds
+//! Splines in the position z swing between sections whose speeds lie far apart: the law changes with the ratio of two speeds
 //! rather than with their difference. In t = asinh(v/c), v being the speed n, or n² where the shift is linear in that, the
 //! speeds that grow by a factor lie evenly, and at v ≪ c, and beyond the ends of the cam, t is smooth in z all the same. A
 //! crowned roller needs that: straight strips from section to section would have a ridge at each section.
@@ -29,7 +29,7 @@ pub(super) enum Variable {
 }
 
 impl Variable {
-    /// The variable at a place along the axis, m, and its first three derivatives by it.
+    /// The variable at an axial position, m, and its first three derivatives by it.
     fn jet(self, z: f64) -> [f64; 4] {
         match self {
             Self::Place => [z, 1.0, 0.0, 0.0],
@@ -48,12 +48,12 @@ impl Variable {
     }
 }
 
-/// The share of each section in the law at a place along the axis.
+/// The share of each section in the law at an axial position.
 #[derive(Debug, Clone)]
 pub(super) struct Weights {
     /// The variable at the sections.
     knots: Vec<f64>,
-    /// For each interval the cubics of all sections, so that a place is looked up once for all of them.
+    /// For each interval the cubics of all sections, so that a position is looked up once for all of them.
     cubics: Vec<Vec<[f64; 4]>>,
     /// For each section the shares of all in the slope there, from the first on that has one.
     slope_shares: Vec<(usize, Vec<f64>)>,
@@ -61,7 +61,7 @@ pub(super) struct Weights {
 }
 
 impl Weights {
-    /// The weights for sections at these places along the axis, m.
+    /// The weights for sections at these axial positions, m.
     pub(super) fn new(positions: &[f64], variable: Variable) -> Self {
         let knots: Vec<f64> = positions.iter().map(|z| variable.jet(*z)[0]).collect();
         let mut cubics = vec![Vec::with_capacity(knots.len()); knots.len().saturating_sub(1)];
@@ -74,8 +74,8 @@ impl Weights {
         Self { knots, cubics, slope_shares, variable }
     }
 
-    /// Where a place along the axis, m, lies: the interval, and how far behind its first section the variable is, with its first three
-    /// derivatives by the place.
+    /// Where an axial position, m, lies: the interval, and how far behind its first section the variable is, with its first three
+    /// derivatives by the position.
     pub(super) fn place(&self, z: f64) -> (usize, [f64; 4]) {
         let [t, t1, t2, t3] = self.variable.jet(z);
         let interval = interval_of(&self.knots, t);
@@ -104,7 +104,7 @@ impl Weights {
         slopes
     }
 
-    /// The weights at a place along the axis, m, and their first three derivatives by it, section by section.
+    /// The weights at an axial position, m, and their first three derivatives by it, section by section.
     pub(super) fn jets_at(&self, z: f64) -> impl Iterator<Item = [f64; 4]> + '_ {
         let (interval, [behind, t1, t2, t3]) = self.place(z);
         self.cubics.get(interval).into_iter().flatten().map(move |cubic| {
@@ -114,7 +114,7 @@ impl Weights {
         })
     }
 
-    /// Whether the splines are cubic in the place along the axis itself.
+    /// Whether the splines are cubic in the axial position itself.
     pub(super) fn are_in_place(&self) -> bool {
         self.variable == Variable::Place
     }
@@ -134,7 +134,7 @@ fn shares_at(knots: &[f64], cubics: &[Vec<[f64; 4]>], section: usize) -> (usize,
 
 impl Conoid {
     /// Sized, with the splines along the axis that leave the least between the sections of those that some radius lets keep
-    /// the limits, where the splines in the place along it leave more than straight strips.
+    /// the limits, where the splines in the axial position leave more than straight strips.
     pub(super) fn interpolated(self) -> Result<Self, Refusal> {
         if self.speeds.len() < 3 || !self.is_worse_than_strips() {
             return self.sized();
@@ -172,7 +172,7 @@ impl Conoid {
         self.residual_between().force > self.residual_of_strips().force * (1.0 + ROUNDING) + ROUNDING * inertia
     }
 
-    /// Whether the law is interpolated by the speed instead of the place along the axis.
+    /// Whether the law is interpolated by the speed instead of the axial position.
     #[must_use]
     pub fn interpolates_speed(&self) -> bool {
         !self.weights.are_in_place()

@@ -10,7 +10,7 @@ use camgen_kernel::profile::{Worst, extremes};
 use std::sync::Arc;
 
 impl Conoid {
-    /// What `found` makes of a section's follower: its place of the turn and the follower there.
+    /// A value by `found` of a section's follower, from the cam angle and the follower there.
     fn pressed<T>(
         &self,
         cut: SectionCut<'_>,

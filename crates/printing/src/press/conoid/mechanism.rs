@@ -70,7 +70,7 @@ fn view(conoid: &Conoid, cut: SectionCut<'_>, part: &Part, samples: u32) -> Mech
     scene.view(|parts, cover| parts.extend(axial(conoid, cut, cover)))
 }
 
-/// The cam from its side, with the places of the sections and of the roller along its axis.
+/// The cam from its side, with the axial positions of the sections and of the roller.
 fn axial(conoid: &Conoid, cut: SectionCut<'_>, cover: &mut Cover) -> Vec<RigidPart> {
     let (low, high) = conoid.ends();
     let radius = MILLIMETRES * conoid.roller.radius;

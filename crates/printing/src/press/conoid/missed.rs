@@ -1,6 +1,6 @@
-//! Errors of the follower's motion on a curve in place of the exact cut of a section, to first order.
+//! Errors of the follower's motion on a curve instead of the exact cut of a section, to first order.
 //!
-//! The cut of a section is touched by rollers at different places along the axis. What a curve misses of its heading and
+//! The cut of a section is touched by rollers at different axial positions. What a curve misses of its heading and
 //! curvature gives the errors δs' = (ℓ/cos α) δheading and δs'' = −(ℓ²/cos α) δκ, ℓ the speed of the cut and α the angle between its
 //! normal and the roller's path.
 
@@ -69,13 +69,13 @@ pub struct FollowerOnSection<'a> {
 }
 
 impl<'a> FollowerOnSection<'a> {
-    /// At a place along the axis, m.
+    /// At an axial position, m.
     #[must_use]
     pub fn new(conoid: &'a Conoid, z: f64, centre: bool) -> Self {
         Self { conoid, z, centre }
     }
 
-    /// The errors at a place of an interval.
+    /// The errors at an angle of an interval.
     fn off(&self, curve: &Interpolant, interval: usize, place: u32) -> Option<[f64; 2]> {
         let (from, to) = curve.range(interval)?;
         let point = curve.point_at(interval, from + (to - from) * f64::from(place) / f64::from(PLACES - 1))?;

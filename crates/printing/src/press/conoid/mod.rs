@@ -66,9 +66,9 @@ pub const KIND: Kind = Kind { command: "conoid", noun: "conoid", keys: cams::CON
 const SECTIONS: WorkBound = WorkBound { what: "speeds of a conoid", most: 100 };
 /// Slices between two sections at which the surface is looked at.
 const SLICES: u32 = 6;
-/// Slices where the search for its worst places begins: as many as [`SLICES`] while there are no more than [`MOST_SEARCHED`] in all, but at
+/// Slices with which the search for the worst points begins: as many as [`SLICES`] while there are no more than [`MOST_SEARCHED`] in all, but at
 /// least the section and the middle. Between two sections the second derivative along the axis is linear in the splines' variable, so that
-/// the sharpest places lie at the sections.
+/// the sharpest points lie at the sections.
 const FEWEST_SLICES: u32 = 2;
 const MOST_SEARCHED: u32 = 120;
 /// Least distance of two sections over the axial travel: nearer, the splines along the axis multiply their roundings.
@@ -82,7 +82,7 @@ const GROWTHS: usize = 700;
 const SLACK: f64 = 1e-9;
 /// How often the overhang is lengthened for a radius that was enlarged for it, before the longest is taken.
 const OVERHANGS: usize = 16;
-/// Rounding of a place along the axis, m.
+/// Rounding of an axial position, m.
 pub const ROUNDING: f64 = 1e-12;
 
 /// Lift and its derivatives: `[m][n]` by θ m times and by z n times, up to order three in all.
@@ -409,7 +409,7 @@ impl Conoid {
         self.weights.jets_at(z).collect()
     }
 
-    /// Lift at a cam angle of a piece and a place along the axis (m), with its derivatives.
+    /// Lift at a cam angle of a piece and an axial position (m), with its derivatives.
     #[must_use]
     pub fn lift(&self, piece: usize, angle: f64, z: f64) -> Partials {
         self.lift_of(&self.lifts(piece, angle), z)

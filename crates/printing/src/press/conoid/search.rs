@@ -1,7 +1,7 @@
-//! The search for the largest value of something over the surface: on a grid of cam angles and places along the axis, then
+//! The search for the largest value of something over the surface: on a grid of cam angles and axial positions, then
 //! within the cells about every local maximum that could be the largest.
 //!
-//! The lifts of the sections at an angle depend neither on the place along the axis nor on the prime radius: they are
+//! The lifts of the sections at an angle depend neither on the axial position nor on the prime radius: they are
 //! computed once for each angle of the grid.
 
 use super::{AllStrips, Conoid, Partials, Strips};
@@ -17,7 +17,7 @@ const SECTIONS: u32 = 18;
 /// How often the cell is moved when its largest value lies on its edge.
 const MOVES: usize = 16;
 
-/// A place of the pitch surface: where the centre of the roller may be.
+/// A point of the pitch surface: a possible centre of the roller.
 #[derive(Debug, Clone, Copy)]
 pub struct SurfacePlace<'a> {
     /// Index of the piece of the motion.
@@ -67,7 +67,7 @@ impl Conoid {
         parallel::map(&places, |&(piece, angle)| GridAngle { piece, angle, lifts: self.all_lifts(piece, angle) })
     }
 
-    /// The largest value of something between the first and the last of these places along the axis, rising; where it is
+    /// The largest value of something between the first and the last of these axial positions, rising; where it is
     /// smooth between them, to seven digits.
     pub(super) fn worst_over(&self, slices: &[f64], value: impl Fn(&Self, &SurfacePlace<'_>) -> f64 + Sync) -> Worst {
         let nodes = self.found.nodes.get_or_init(|| self.nodes());
@@ -92,7 +92,7 @@ impl Conoid {
         refined.into_iter().fold(best, Worst::or_larger)
     }
 
-    /// The largest value in the cells about a place of the grid, which follow it where it lies on their edge.
+    /// The largest value in the cells about a grid point, which follow it where it lies on their edge.
     fn refined<F: Fn(&Self, &SurfacePlace<'_>) -> f64 + Sync>(&self, peak: &Peak, slices: &[f64], value: &F) -> Worst {
         let Peak { piece, slice, found: from, .. } = *peak;
         let Some(span) = self.pieces().get(piece) else { return from };
@@ -162,7 +162,7 @@ impl Stretch {
     }
 }
 
-/// The places of the grid that none of their neighbours exceeds; `values` by slice and node.
+/// The grid points that none of their neighbours exceeds; `values` by slice and node.
 fn peaks(nodes: &[GridAngle], slices: &[f64], values: &[Vec<f64>]) -> Vec<Peak> {
     let mut peaks = Vec::new();
     for (slice, (z, row)) in slices.iter().zip(values).enumerate() {

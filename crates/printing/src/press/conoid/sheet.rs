@@ -123,7 +123,7 @@ impl PicturePlacing {
     }
 }
 
-/// The cam from the side, with the places of its sections.
+/// The cam from the side, with the positions of its sections.
 fn from_the_side(conoid: &Conoid, parts: &[Part], plan: &Extents) -> (Vec<ShapeGroup>, Vec<Mark>) {
     let (low, high) = conoid.ends();
     let left = plan.largest.x + 2.0 * GAP_OVER_WIDTH * plan.size().x;
@@ -164,7 +164,7 @@ fn tables(conoid: &Conoid, parts: &[Part]) -> Vec<PlaceTable> {
     profiles.into_iter().chain([sections_table(conoid, parts)]).collect()
 }
 
-/// Speed, place and extents of each section.
+/// Speed, axial position and extents of each section.
 fn sections_table(conoid: &Conoid, parts: &[Part]) -> PlaceTable {
     let units = conoid.machine.units();
     let unit = units.symbol();

@@ -1,8 +1,8 @@
 //! The law from one section to the next: between two sections the splines along the axis are cubics, given by the lifts of the
 //! two and by the slopes there, so that a point costs two laws instead of one for each section.
 //!
-//! A slope is a sum over all sections with fixed shares. Over a grid, where many places along the axis are requested at one cam angle,
-//! the laws of all sections are evaluated once; for one place the slopes come from Chebyshev series over the cam angle, one for each
+//! A slope is a sum over all sections with fixed shares. Over a grid, where many axial positions are requested at one cam angle,
+//! the laws of all sections are evaluated once; for one position the slopes come from Chebyshev series over the cam angle, one for each
 //! section and derivative, which agree with those sums to the rounding of the lift.
 
 use super::{Conoid, Partials};
@@ -59,7 +59,7 @@ pub trait Strips: std::fmt::Debug {
     fn cubics(&self, interval: usize) -> Cubics;
 }
 
-/// The lifts between all sections at a cam angle, for many places along the axis.
+/// The lifts between all sections at a cam angle, for many axial positions.
 #[derive(Debug, Clone)]
 pub struct AllStrips(Vec<Cubics>);
 
@@ -69,7 +69,7 @@ impl Strips for AllStrips {
     }
 }
 
-/// The lifts at a cam angle near some places along the axis, found when they are requested.
+/// The lifts at a cam angle near some axial positions, found when they are requested.
 #[derive(Debug)]
 pub struct StripsNear<'a> {
     conoid: &'a Conoid,
@@ -122,13 +122,13 @@ impl Conoid {
         Jet { s: bottom.s - self.lowest, ..bottom }.scaled(self.lever)
     }
 
-    /// The lifts at a cam angle, for a few places along the axis: they depend neither on that place nor on the prime radius.
+    /// The lifts at a cam angle, for a few axial positions: they depend neither on that position nor on the prime radius.
     #[must_use]
     pub fn lifts(&self, piece: usize, angle: f64) -> StripsNear<'_> {
         StripsNear { conoid: self, piece, angle, all: OnceCell::new(), last: Cell::new(None) }
     }
 
-    /// The lifts at a cam angle, for many places along the axis.
+    /// The lifts at a cam angle, for many axial positions.
     #[must_use]
     pub fn all_lifts(&self, piece: usize, angle: f64) -> AllStrips {
         let sections = self.sections_at(piece, angle);
@@ -143,7 +143,7 @@ impl Conoid {
         lifts.into_iter().zip(slopes).map(|(lift, slope)| SectionLift { lift, slope }).collect()
     }
 
-    /// Lift at a place along the axis (m), with its derivatives, at the cam angle of these lifts of the sections.
+    /// Lift at an axial position (m), with its derivatives, at the cam angle of these lifts of the sections.
     #[must_use]
     pub fn lift_of<L: Strips + ?Sized>(&self, lifts: &L, z: f64) -> Partials {
         let (interval, [t, t1, t2, t3]) = self.weights.place(z);

@@ -12,7 +12,7 @@ const CUT_STEPS: usize = 20;
 const LAST_STEP: f64 = 1e-10;
 
 impl Conoid {
-    /// Where the sphere at a cam angle and a place along the axis touches, m: its centre, the unit normal out of the
+    /// Where the sphere at a cam angle and an axial position touches, m: its centre, the unit normal out of the
     /// metal, the point of contact.
     #[must_use]
     pub fn contact(&self, piece: usize, angle: f64, z: f64) -> SpatialContact {
@@ -72,7 +72,7 @@ impl Conoid {
     }
 
     /// The cut of the cam at z (m) where the roller at a cam angle of a piece touches it: a point of the section with
-    /// its tangent and curvature, parametrised by the cam angle, and the place ζ of that roller. `None` where the
+    /// its tangent and curvature, parametrised by the cam angle, and the axial position ζ of that roller. `None` where the
     /// surface folds along the axis.
     #[must_use]
     pub fn cut(&self, piece: usize, angle: f64, z: f64) -> Option<(CurvePoint, f64)> {
@@ -80,7 +80,7 @@ impl Conoid {
         Some((frame, zeta))
     }
 
-    /// [`Conoid::cut`] by the lifts of the sections at the angle; also lift and derivatives at the place of that roller.
+    /// [`Conoid::cut`] by the lifts of the sections at the angle; also lift and derivatives at that roller.
     #[must_use]
     pub fn cut_of<L: Strips + ?Sized>(&self, lifts: &L, angle: f64, z: f64) -> Option<(CurvePoint, f64, Partials)> {
         let (partials, zeta) = self.roller_of_cut(lifts, z)?;
@@ -107,7 +107,7 @@ impl Conoid {
     }
 
     /// The roller that touches the cut at z (m) at the cam angle of these lifts of the sections: lift and derivatives there,
-    /// and its place ζ. `None` where the surface folds along the axis.
+    /// and its axial position ζ. `None` where the surface folds along the axis.
     pub(super) fn roller_of_cut<L: Strips + ?Sized>(&self, lifts: &L, z: f64) -> Option<(Partials, f64)> {
         let mut zeta = z;
         for _ in 0..CUT_STEPS {
@@ -175,7 +175,7 @@ fn partial(p: &Partials, m: usize, n: usize) -> f64 {
     p.get(m).and_then(|row| row.get(n)).copied().unwrap_or(0.0)
 }
 
-/// Height and slopes of the lift along a cut, what follows from them, and the place of the contact along the axis.
+/// Height and slopes of the lift along a cut, what follows from them, and the axial position of the contact.
 struct Across {
     u: PowerSeries<3>,
     a: PowerSeries<3>,

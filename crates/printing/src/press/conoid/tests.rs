@@ -152,7 +152,7 @@ fn the_contact_stays_on_the_flank() {
     }
 }
 
-/// Speeds far apart: splines in the place along the axis leave 1815 N, straight strips 1626 N, splines in the speed less than
+/// Speeds far apart: splines in the axial position leave 1815 N, straight strips 1626 N, splines in the speed less than
 /// either; and the named speeds keep the limit when they are applied.
 #[test]
 fn no_surface_is_worse_than_straight_strips() {

@@ -1,4 +1,4 @@
-//! The worst places of a conoid: over every turn of slices along its axis, and over its sections.
+//! The worst points of a conoid: over every turn of slices along its axis, and over its sections.
 
 use super::{Conoid, FEWEST_SLICES, MOST_SEARCHED, Partials, SLICES, SectionCut, SurfacePlace};
 use camgen_kernel::motion::Motion;
@@ -28,7 +28,7 @@ impl Conoid {
         self.sliced((MOST_SEARCHED / pairs).clamp(FEWEST_SLICES, SLICES))
     }
 
-    /// Those places and the ends of the cam.
+    /// Those points and the ends of the cam.
     fn searched_and_ends(&self) -> Vec<f64> {
         let (low, high) = self.ends();
         let mut all = self.searched();
@@ -38,13 +38,13 @@ impl Conoid {
         all
     }
 
-    /// The sharpest convex place of the pitch surface but for corners: the curvature, 1/m.
+    /// The sharpest convex point of the pitch surface but for corners: the curvature, 1/m.
     pub(super) fn sharpest_smooth(&self) -> Worst {
         let sharpest = &self.found.sharpest;
         *sharpest.get_or_init(|| self.worst_of_metal(|conoid, partials| conoid.curvatures_of(partials).0))
     }
 
-    /// The larger principal curvature of the pitch surface at the place of the roller that touches the cut at z (m) at a cam
+    /// The larger principal curvature of the pitch surface at the roller that touches the cut at z (m) at a cam
     /// angle, 1/m; infinite where the surface folds along the axis.
     pub(super) fn sharpness(&self, angle: f64, z: f64) -> f64 {
         let (piece, angle) = self.slice(z).locate(angle);
@@ -52,7 +52,7 @@ impl Conoid {
         touching.map_or(f64::INFINITY, |(partials, _)| self.curvatures_of(&partials).0)
     }
 
-    /// The largest value of something, by lift and derivatives at the place of the roller, over all the spheres that make the
+    /// The largest value of something, by lift and derivatives at the roller, over all the spheres that make the
     /// metal: those that touch a cut between the ends of the cam. Infinite where the surface folds along the axis.
     #[must_use]
     pub fn worst_of_metal(&self, value: impl Fn(&Self, &Partials) -> f64 + Sync) -> Worst {
@@ -62,13 +62,13 @@ impl Conoid {
         })
     }
 
-    /// The largest value of something over the surface of all places of the roller.
+    /// The largest value of something over the surface of all positions of the roller.
     #[must_use]
     pub fn worst(&self, value: impl Fn(&Self, &SurfacePlace<'_>) -> f64 + Sync) -> Worst {
         self.worst_over(&self.searched(), value)
     }
 
-    /// How far beyond the axial travel the roller touches at most while it is within it, m, and the place of the
+    /// How far beyond the axial travel the roller touches at most while it is within it, m, and the position of the
     /// roller then: not positive where the contact always stays within.
     #[must_use]
     pub fn reach(&self) -> Worst {

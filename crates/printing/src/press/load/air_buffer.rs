@@ -55,7 +55,7 @@ impl AirBuffer {
         &self.cylinder
     }
 
-    /// State of the press at a place of the motion.
+    /// State of the press at an angle of a piece of the motion.
     #[must_use]
     pub fn state(&self, piece: usize, at: f64) -> ReversalState {
         self.reversal.state(piece, at)
@@ -74,7 +74,7 @@ fn residual_off(cylinder: &Cylinder, law: &CrankLaw, air: AirState, square: f64,
     if left.is_nan() { f64::NEG_INFINITY } else { cylinder.unit_force() * left }
 }
 
-/// The press behind a cam at a place of its motion.
+/// The press behind a cam at one cam angle.
 #[derive(Debug, Clone, Copy)]
 struct PressState {
     cylinder: Cylinder,
@@ -222,7 +222,7 @@ impl AirBuffer {
         Some(Worst { value: -least.value, at: least.at, z: 0.0 })
     }
 
-    /// Air between piston and bottom at a place of the motion, m.
+    /// Air between piston and bottom at an angle of a piece, m.
     fn air_left(&self, piece: usize, at: f64) -> f64 {
         let law = self.bottom_law();
         // The piston is farther off while the bottom rests; nearest where the dwell begins and ends.

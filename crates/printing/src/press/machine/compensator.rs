@@ -15,7 +15,7 @@ use std::sync::Arc;
 pub struct CompensatorData {
     /// Rate of the spring, N/m.
     pub spring_rate: f64,
-    /// Force of the spring at the lowest place of the disc, N.
+    /// Force of the spring at the lowest lift of the disc, N.
     pub preload: f64,
     /// Radius of the roller, m.
     pub roller_radius: f64,

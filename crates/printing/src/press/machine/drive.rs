@@ -109,7 +109,7 @@ impl DriveMachine {
     /// Reads a machine from TOML text; `source` names it in messages, each override is `key=value`.
     ///
     /// # Errors
-    /// All faults found, each with its place.
+    /// All faults found, each with its position in the file.
     pub fn from_toml(source: &str, text: &str, overrides: &[String]) -> Result<Self, MachineError> {
         Self::of_source(&MachineSource::from_toml(source, text), overrides)
     }
@@ -117,7 +117,7 @@ impl DriveMachine {
     /// Reads a machine from a text that was read before, with overrides, each `key=value`.
     ///
     /// # Errors
-    /// All faults found, each with its place.
+    /// All faults found, each with its position in the file.
     pub fn of_source(source: &MachineSource, overrides: &[String]) -> Result<Self, MachineError> {
         source.read(overrides, |reader| Self::parts(source.catalogue, reader))
     }

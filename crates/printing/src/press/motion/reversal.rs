@@ -76,7 +76,7 @@ pub struct ReversalState {
     pub pressure_ratio: f64,
 }
 
-/// Bed and air at one place of the reversal.
+/// Bed and air at one crank angle of the reversal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AirState {
     /// Deceleration of the bed over the square of the crank speed, m.
@@ -280,12 +280,12 @@ impl Reversal {
         (state, self.lift_over(bottom))
     }
 
-    /// The lift with the bottom at a place, from its lowest.
+    /// The lift for a bottom displacement, from its lowest.
     fn lift_over(&self, bottom: Jet) -> Jet {
         Jet { s: bottom.s - self.lowest, ..bottom }.scaled(self.law.lever)
     }
 
-    /// Bed and air with the bottom off by so much (m, towards the piston) from its place; `None` outside the reversal.
+    /// Bed and air with the bottom off by so much (m, towards the piston) from its motion; `None` outside the reversal.
     #[must_use]
     pub fn air(&self, piece: usize, angle: f64, off: f64) -> Option<AirState> {
         let (part, crank) = self.part_at(piece, angle)?;

@@ -1,7 +1,7 @@
 //! The bed over a reversal, for a buffer whose bottom is where it is: by a yoke or by a linkage.
 //!
 //! What the air does depends on the load u = A a alone, a the deceleration of the bed, since x + Δx of an exact cam does. The linkage enters by
-//! the load at a crank angle, by the place of a load, and by what a phase error moves. Under a yoke, a = x, the return mirrors the outward motion.
+//! the load at a crank angle, by the position of a load, and by what a phase error moves. Under a yoke, a = x, the return mirrors the outward motion.
 
 use crate::press::buffer::crank_law::{CrankLaw, LinkageLaw};
 use camgen_kernel::numeric::root;

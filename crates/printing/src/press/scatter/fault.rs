@@ -1,7 +1,7 @@
 //! A cam as it is cut, in a machine that differs from the one it was cut for.
 //!
-//! Without a difference the air column has the length L w at every place, w = (1 + u)^(−1/k), u = A x, and balances the bed. The
-//! bottom is where the cam puts it, so that w belongs to the place whatever the machine is. In a machine that differs
+//! Without a difference the air column has the length L w at every overrun, w = (1 + u)^(−1/k), u = A x, and balances the bed. The
+//! bottom is where the cam puts it, so that w belongs to the overrun in every machine. In a machine that differs
 //!
 //! ```text
 //! r = U [M u − π (τ (s/(w + t))^κ − 1)],   s = f (1 + d),   t = d − ε        > 0: the air is too weak, the crank carries the rest
@@ -409,7 +409,7 @@ impl FrozenBuffer {
     }
 }
 
-/// A place of the crank at which a buffer is looked at.
+/// A crank angle at which a buffer is evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Station {
     /// Crank angle φ, rad.
@@ -426,14 +426,14 @@ pub struct Station {
 pub const STEPS: u32 = 180;
 
 impl FrozenBuffer {
-    /// A place of the way in, rad of the crank, of a cam.
+    /// A crank angle of the way in, rad, with a cam.
     #[must_use]
     pub fn station_of_cam(&self, angle: f64) -> Station {
         let load = self.path.load_at(angle);
         Station { angle, load, length: self.length(load), phase: self.phase_force(angle)[0] / self.unit_force }
     }
 
-    /// A place of the way in, rad of the crank, of a fixed bottom, w = 1 − x/L.
+    /// A crank angle of the way in, rad, with a fixed bottom, w = 1 − x/L.
     #[must_use]
     pub fn station_of_fixed_bottom(&self, angle: f64) -> Station {
         let load = self.path.load_at(angle);
@@ -486,7 +486,7 @@ impl FrozenBuffer {
         if with.value > against.value { with } else { against }
     }
 
-    /// The largest of the places of a reversal, and the root of the slope between its neighbours.
+    /// The largest value over the angles of a reversal, and the root of the slope between its neighbours.
     fn largest_phase_force_of_linkage(&self) -> Extremum {
         let cell = self.path.reach() / f64::from(CELLS);
         let at = (0..=CELLS).map(|cells| cell * f64::from(cells));

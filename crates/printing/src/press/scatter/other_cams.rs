@@ -114,7 +114,7 @@ impl ConoidScatter {
     }
 }
 
-/// A place of a plate.
+/// A station of a plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlateStation {
     /// Its load and the length of its air; no phase: the plate rides on the bed.

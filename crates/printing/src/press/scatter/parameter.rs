@@ -131,7 +131,7 @@ impl Parameter {
         self.effect(cam, &cam.station_of_cam(angle))
     }
 
-    /// The change of the residual force of any buffer, N, for one of it in SI, to first order, at a place of the way in.
+    /// The change of the residual force of any buffer, N, per SI unit of the parameter, to first order, at a station of the way in.
     #[must_use]
     pub fn effect(self, buffer: &FrozenBuffer, at: &Station) -> f64 {
         if let Some(air) = &buffer.level {

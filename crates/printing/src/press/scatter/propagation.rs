@@ -74,7 +74,7 @@ impl Corners {
         if angle == FRAC_PI_2 { 0.0 } else { (self.phase * cam.phase_force(angle)[0]).abs() }
     }
 
-    /// As [`Self::worst`] at the stations: of one load a linkage has two places, where the phase counts differently.
+    /// As [`Self::worst`] at the stations: under a linkage one load occurs at two angles, where the phase counts differently.
     fn worst_of_linkage(&self, cam: &FrozenBuffer) -> Result<[Extremum; 2], ScatterError> {
         cam.fits(&self.strong)?;
         cam.fits(&self.weak)?;

@@ -46,7 +46,7 @@ impl FrozenBuffer {
 
     /// ΔL with the least largest residual force, m.
     ///
-    /// At every place r grows with ΔL, so that the largest and the least force are equal and opposite at one ΔL. The force at the start
+    /// At every angle r grows with ΔL, so that the largest and the least force are equal and opposite at one ΔL. The force at the start
     /// does not depend on ΔL where the port shuts in time: where it is the largest after [`FrozenBuffer::end_reset`], that one is kept.
     ///
     /// # Errors

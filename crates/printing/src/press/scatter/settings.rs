@@ -36,7 +36,7 @@ const STEPS: i32 = 20;
 #[derive(Debug, Clone)]
 pub struct FixedBottom<'a> {
     cam: &'a FrozenBuffer,
-    /// Overrun, m, and load at places of the reversal of a linkage; empty under a yoke.
+    /// Overrun, m, and load at angles of the reversal of a linkage; empty under a yoke.
     bed: Vec<[f64; 2]>,
 }
 
@@ -76,7 +76,7 @@ impl<'a> FixedBottom<'a> {
                     (index, value) = (next, *force);
                 }
             }
-            // The top of the parabola through the three places about it.
+            // The top of the parabola through the three angles about it.
             let around = index.checked_sub(1).and_then(|before| forces.get(before..=index + 1));
             if let Some(&[before, at, after]) = around
                 && (before - 2.0 * at + after) != 0.0

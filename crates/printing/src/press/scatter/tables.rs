@@ -223,7 +223,7 @@ pub fn of_settings(rows: &[SettingRow], rule: ScrewRule) -> Listing {
     ("-settings", Table { more_words, ..Table::listed(SETTINGS, rows) })
 }
 
-/// A place of the reversal.
+/// One crank angle of the reversal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaceRow {
     /// Crank angle from the start of the reversal, rad.
@@ -263,7 +263,7 @@ const CURVES: &[ListedColumn<PlaceRow>] = &[
     ("crank_deg", |row| row.angle.to_degrees()),
 ];
 
-/// The places of the whole reversal, every half degree of the crank.
+/// The whole reversal, every half degree of the crank.
 #[must_use]
 pub fn places(cam: &FrozenBuffer, reversal: &LossyReversal, half_widths: &HalfWidths) -> Vec<PlaceRow> {
     let corners = Corners::new(cam, half_widths);
@@ -288,7 +288,7 @@ pub fn places(cam: &FrozenBuffer, reversal: &LossyReversal, half_widths: &HalfWi
     rows
 }
 
-/// The table of the places, in the order of the crank.
+/// The table of the reversal, in the order of the crank.
 #[must_use]
 pub fn of_places(rows: &[PlaceRow]) -> Listing {
     let ways = rows.iter().map(|row| if row.back { "back" } else { "in" }.to_owned()).collect();

@@ -171,7 +171,7 @@ impl Wedge {
         }
     }
 
-    /// A place of the stroke in millimetres, as a row of the table; points of the upper flank.
+    /// A bed position in millimetres, as a row of the table; points of the upper flank.
     fn row(&self, x_mm: f64) -> Row {
         let (piece, x) = self.motion.locate(x_mm / MILLIMETRES);
         self.row_at(x_mm, piece, x)

@@ -292,7 +292,7 @@ fn mirrored_about_axis(point: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(point.x, -point.y)
 }
 
-/// Why a machine whose bed has two decelerations at a place has no plate.
+/// Why there is no plate for a bed with two decelerations at one position.
 fn unsymmetric(press: &Press) -> Refusal {
     let six_bar = press.stroke_end.is_some_and(|end| matches!(end.linkage(), Linkage::SixBar(..)));
     let which = if six_bar { "a six-bar" } else { "a crank-slider with an offset" };

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 /// Distance of the side view from the front view, over the length of the plate.
 const SIDE_GAP: f64 = 0.08;
-/// Steps of the finer table of places over the stroke.
+/// Steps of the finer coordinate table over the stroke.
 const STEPS: u32 = 72;
 
 /// What the review sheet of a plate shows: both flanks with their pitch curves, the rollers where the pressure angle is worst, the

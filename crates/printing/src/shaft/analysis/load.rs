@@ -89,7 +89,7 @@ fn of_cam(why: Refusal) -> Refusal {
     why.context("the cam on the shaft")
 }
 
-/// What a drawn cam is as a disc at a place of the shaft; `None` without a thickness.
+/// A drawn cam as a disc on the shaft; `None` without a thickness.
 fn as_disc(body: &Disc, machine: &Machine, at: f64) -> Result<Option<mechanics::ShaftDisc>, Refusal> {
     let drawn = body.draw(&Request::within(TOLERANCE)).map_err(|error| of_cam(Refusal::of(error)))?;
     let inertia = drawn.parts.first().and_then(|part| part.inertia(machine));

@@ -222,7 +222,7 @@ impl EigenProblem {
     }
 }
 
-/// The shaft under 1 N at one place, at rest.
+/// The shaft under 1 N at one position, at rest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Statics {
     /// Deflection, m/N, and slope, rad/N.
@@ -236,7 +236,7 @@ impl Statics {
     /// Under 1 N at `at`, m from the left end.
     ///
     /// # Errors
-    /// A place beside the shaft.
+    /// A position beyond the shaft.
     pub fn new(shaft: &Shaft, at: f64) -> Result<Self, Refusal> {
         valid::within("the load", at, shaft.length())?;
         let frame = Frame::new(shaft, Panels::new(shaft, &[at]), 0);

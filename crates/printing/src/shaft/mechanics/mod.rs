@@ -60,7 +60,7 @@ pub const MOST_MODES: usize = 30;
 pub const MOST_ORDER: usize = 24;
 
 /// ω_j/ω_1 of the highest mode that is reported: the relative error of 1/ω_j² is ε (ω_j/ω_1)², 2e-8 there. Where a thin disc in forward
-/// whirl makes a negative 1/ω² larger than the first, that one takes the place of ω_1.
+/// whirl makes a negative 1/ω² larger than the first, which then replaces ω_1.
 pub const MOST_RATIO: f64 = 1e4;
 
 /// Stations of the paper's method: at 18 000 its error is 1e-8, and it takes longer than the exact one.
@@ -132,7 +132,7 @@ pub struct Support {
     pub stiffness: Option<f64>,
 }
 
-/// A rigid body on the shaft at one place: a cam, a gear, a weight.
+/// A rigid body on the shaft at one position: a cam, a gear, a weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShaftDisc {
     /// Place from the left end, m.
@@ -261,7 +261,7 @@ impl Shaft {
     /// Diameter and bore at x, m; at a step, of the side requested. Outside of the shaft, of the nearer end.
     #[must_use]
     pub fn section_at(&self, x: f64, side: StepSide) -> (f64, f64) {
-        // A place given by its decimal number is the step that a sum of lengths makes.
+        // A position given by its decimal number is the step that a sum of lengths makes.
         let same = panels::SAME_PLACE * self.length();
         let mut right = 0.0;
         let mut last = (0.0, 0.0);
@@ -289,7 +289,7 @@ impl Shaft {
         ends.take(self.segments.len().saturating_sub(1)).collect()
     }
 
-    /// Twist between two places under 1 N m: Σ l/(G J_p), rad/(N m). What lies outside of the shaft is rigid.
+    /// Twist between two positions under 1 N m: Σ l/(G J_p), rad/(N m). What lies outside of the shaft is rigid.
     #[must_use]
     pub fn twist_compliance(&self, a: f64, b: f64) -> f64 {
         let (low, high) = (a.min(b), a.max(b));

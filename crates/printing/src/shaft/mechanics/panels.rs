@@ -1,8 +1,8 @@
-//! The shaft cut into panels: one section each, with no support, disc or asked-for place inside.
+//! The shaft cut into panels: one section each, with no support, disc or requested position inside.
 
 use super::{Beam, Shaft, ShaftSegment};
 
-/// Places nearer to one another than this part of the length are one place: a support given at the end of a segment by
+/// Positions nearer to one another than this part of the length are one: a support given at the end of a segment by
 /// its decimal number differs from the sum of the lengths by rounding, and a panel of that width would be noise.
 pub(super) const SAME_PLACE: f64 = 1e-12;
 
@@ -67,7 +67,7 @@ pub(super) struct Panels {
 }
 
 impl Panels {
-    /// Cut at every change of section, support, disc and at these places.
+    /// Cut at every change of section, support, disc and at these positions.
     pub(super) fn new(shaft: &Shaft, places: &[f64]) -> Self {
         let same = SAME_PLACE * shaft.length();
         let asked = places.iter().copied();
@@ -99,7 +99,7 @@ impl Panels {
         Self { panels, cuts }
     }
 
-    /// The cut at a place where one was made; the nearest of all.
+    /// The nearest cut to a position at which one was made.
     pub(super) fn cut(&self, place: f64) -> usize {
         let right = self.cuts.partition_point(|cut| *cut < place);
         let left = right.saturating_sub(1);

@@ -93,7 +93,7 @@ struct Interval {
     compliance: f64,
 }
 
-/// A support: its place, station and 1/k.
+/// A support: its position, station and 1/k.
 #[derive(Debug, Clone, Copy)]
 struct SupportStation {
     at: f64,

@@ -16,7 +16,7 @@ pub const GRADES_MM_PER_S: [f64; 11] = [0.4, 1.0, 2.5, 6.3, 16.0, 40.0, 100.0, 2
 const BETWEEN: (f64, f64) = (0.3, 0.7);
 const OUTSIDE: (f64, f64) = (0.3, 1.3);
 
-/// An unbalance at its place.
+/// An unbalance and its axial position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unbalance {
     /// m along the shaft.
@@ -39,7 +39,7 @@ fn together(at: f64) -> Refusal {
 /// The same unbalance in two planes, m along the shaft: U_A = Σ U (x_B − x)/(x_B − x_A), U_B = Σ U (x − x_A)/(x_B − x_A), kg m.
 ///
 /// # Errors
-/// Both planes at one place.
+/// Both planes at one axial position.
 pub fn split(unbalances: &[Unbalance], a: f64, b: f64) -> Result<[[f64; 2]; 2], Refusal> {
     let apart = b - a;
     if !(apart.abs() > 0.0 && apart.is_finite()) {
@@ -73,7 +73,7 @@ pub fn grade_of(speed: f64) -> Option<f64> {
 /// 0.3…0.7 between the planes and 0.3…1.3 outside.
 ///
 /// # Errors
-/// Both planes at one place.
+/// Both planes at one axial position.
 pub fn shares(centre: f64, a: f64, b: f64) -> Result<[f64; 2], Refusal> {
     let apart = b - a;
     if !(apart.abs() > 0.0 && apart.is_finite()) {

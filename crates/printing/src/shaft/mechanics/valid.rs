@@ -50,7 +50,7 @@ fn not_negative(part: impl Display, name: &str, value: f64) -> Result<(), Refusa
     required(value >= 0.0 && value.is_finite(), name, part, value, "a number of at least 0")
 }
 
-/// A place on a shaft of this length; past its end by no more than the rounding of a sum of lengths.
+/// A position on a shaft of this length; past its end by no more than the rounding of a sum of lengths.
 pub(super) fn within(part: impl Display, at: f64, length: f64) -> Result<(), Refusal> {
     let past = SAME_PLACE * length;
     if at >= -past && at <= length + past {

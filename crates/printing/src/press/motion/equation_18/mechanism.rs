@@ -5,7 +5,7 @@
 //! sin ψ = Δx/l2,   θ = Δ + ψ,   dΔx/dx = λ cos ψ · sin α/sin(θ−α)                                  (19), (21)–(24)
 //! ```
 //!
-//! The deceleration a of the bed over the square of the crank speed is a function of its place, x itself under the yoke of the paper
+//! The deceleration a of the bed over the square of the crank speed is a function of its position, x itself under the yoke of the paper
 //! ([`PlaceLaw`]). With C = λ cos ψ, σ = (dΔx/dx)/C = sin α/sin(θ−α), s± = sin(θ±ρ), q = sin ρ the fraction of (18) is
 //!
 //! ```text

@@ -223,7 +223,7 @@ impl WedgeMotion {
         }
     }
 
-    /// Direction of the bottom at a place of a piece while x grows.
+    /// Direction of the bottom at x in a piece while x grows.
     #[must_use]
     pub fn trend(&self, piece: usize, x: f64) -> Trend {
         match (self.shapes.get(piece), self.pieces.get(piece)) {

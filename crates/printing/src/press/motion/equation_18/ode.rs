@@ -41,7 +41,7 @@ struct SolutionStretch {
     series: TaylorExpansion,
 }
 
-/// A place where the law of the slope changes.
+/// An overrun at which the law of the slope changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Break {
     /// Overrun, m.

@@ -12,7 +12,7 @@
 //!
 //! falls through zero once. At y₀, where σ = 0, the two laws of unequal efficiencies give the side: G > 0 as the rising
 //! law has it means a root above, G < 0 as the falling law has it one below, and neither a lever that sticks, y = y₀. From
-//! there the bracket is widened, doubling, until G has changed its sign, but never past the place where the flank jams, the
+//! there the bracket is widened, doubling, until G has changed its sign, but never past the Δx at which the flank jams, the
 //! roller moves along the bed or arm or column are used up: there the solution ends, see `wall`. Chandrupatla's method
 //! ([`camgen_kernel::numeric::root`]) then closes in, superlinearly and never leaving the bracket.
 

@@ -1,4 +1,4 @@
-//! Walls: places beyond which no plate solves equation (18), and what would avoid them.
+//! Walls: overruns beyond which no plate solves equation (18), and what would avoid them.
 
 use camgen_kernel::refusal::Refusal;
 
