@@ -48,7 +48,7 @@ fn of_a_loop() -> Refusal {
 
 /// A jump of the velocity of less than this share of the lift a radian is rounding.
 const ROUNDING: f64 = 1e-9;
-/// Places of a piece at which the torque left by the law is looked at: it is rounding, or the smooth torque of inertia.
+/// Angles of a piece at which the residual torque of the law is evaluated: it is rounding, or the smooth torque of inertia.
 const PLACES: usize = 256;
 /// How far within a piece its first and last angle lie, as a share of it.
 const INSET: f64 = 1e-9;
@@ -58,7 +58,7 @@ const TURN: usize = 720;
 /// Cells and golden sections in which the preload for another speed is searched.
 const CELLS: u32 = 8;
 const SECTIONS: u32 = 40;
-/// Other speeds that are looked at, in sevenths of the cam's own: 20, 25 and 30 rpm of the paper's 35.
+/// Other speeds, in sevenths of the cam's own: 20, 25 and 30 rpm of the paper's 35.
 const SEVENTHS: [f64; 3] = [4.0, 5.0, 6.0];
 
 /// The torques on a camshaft at a speed, with the column reset for it, N·m.

@@ -79,7 +79,7 @@ pub(super) struct PressPose {
     pub(super) ratio: f64,
 }
 
-/// The press at so many steps of a turn of the cam, and at its end.
+/// The press at equal steps of a turn of the cam, and at its end.
 pub(super) fn press_poses(reversal: &Reversal, law: &CrankLaw, lobes: u32, samples: u32) -> Vec<PressPose> {
     let mut poses = Vec::new();
     for index in 0..=samples {

@@ -32,7 +32,7 @@ const ROUNDING: f64 = 1e-15;
 const ROUNDS: usize = 24;
 const AGREED: f64 = 1e-11;
 
-/// The compliance of the shaft of a machine at its cam, where the cam is to be cut for that; or why it is not known.
+/// The compliance of the shaft at its cam, if the cam is compensated for it; or why it is unknown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutForShaft(pub Result<ShaftCompliance, String>);
 

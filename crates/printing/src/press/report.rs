@@ -136,7 +136,7 @@ pub struct ReversalOfBed {
     pub dead_point_deg: f64,
     /// Where the bed is decelerated most.
     pub largest_deceleration_deg: f64,
-    /// Overrun at the dead point, and what is left of it at the end of the reversal.
+    /// Overrun at the dead point, and the overrun at the end of the reversal.
     pub overrun_mm: f64,
     pub overrun_left_mm: f64,
 }

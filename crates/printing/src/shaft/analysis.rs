@@ -46,7 +46,7 @@ pub enum CriticalSpeedSolver {
         /// The order.
         order: Option<usize>,
     },
-    /// The paper's iteration, with so many stations.
+    /// The paper's iteration, with this number of stations.
     Paper {
         /// Number of stations.
         stations: usize,

@@ -210,7 +210,7 @@ pub(super) const DISC: KeySection = KeySection {
     ],
 };
 
-/// Reads the shaft of a file, and its compliance at the cam where the cam is to be cut for that.
+/// Reads the shaft of a file, and its compliance at the cam if the cam is compensated for it.
 pub(super) fn read(reader: &Reader<'_>, (cam, _): (Option<&CamData>, Option<&FollowerData>), parts: &mut MachineParts) {
     if let Some(limits) = limits::read(reader) {
         parts.set(limits);

@@ -7,7 +7,7 @@ use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::motion::Motion;
 use camgen_kernel::refusal::Refusal;
-use std::f64::consts::TAU;
+use camgen_kernel::units;
 use std::sync::Arc;
 
 /// Cells of a piece in which figures are searched.

@@ -29,7 +29,7 @@ fn of_slider(slider: Slider) -> [String; 2] {
     [format!("rod_ratio = {}", slider.rod_ratio), format!("offset_ratio = {}", slider.offset_ratio)]
 }
 
-/// The base lies along the line of the slider, and the driving crank has no length, where nothing is said of them.
+/// Leaves out a base along the slider's line and a driving crank without length: they are the defaults.
 fn of_drag_link(link: DragLink, data: &LinkageData) -> Vec<String> {
     let (base_angle, follower_angle) = (data.base_angle.to_degrees(), (link.turn - data.base_angle).to_degrees());
     let mut lines = vec![

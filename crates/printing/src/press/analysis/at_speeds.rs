@@ -125,7 +125,7 @@ pub(super) fn volume(resets: &[ColumnReset], own: f64) -> Measure {
     ADDED_VOLUME.measure(least, Some(0.0)).noted(note)
 }
 
-/// A number with so many decimals; what is 0 with them has no sign.
+/// A number with these decimals; a rounded 0 has no sign.
 pub(super) fn unsigned_zero(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     text.strip_prefix('-')
@@ -133,7 +133,7 @@ pub(super) fn unsigned_zero(value: f64, decimals: usize) -> String {
         .map_or(text.clone(), str::to_owned)
 }
 
-/// The forces of both and what is left, a curve for each speed.
+/// The forces of both and the residual, a curve for each speed.
 pub(super) fn force_panels(all: &[ForcePlace], along: &CurveAxis) -> Vec<PlotPanel> {
     let inertia = force_curves(all, along, false, |place| place.inertia);
     let forces = [inertia, force_curves(all, along, true, |place| place.air)].concat();

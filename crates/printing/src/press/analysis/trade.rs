@@ -36,7 +36,7 @@ pub const CONOID: Kind =
 
 /// Numbers of sections of a conoid.
 const SECTIONS: [usize; 8] = [2, 3, 4, 5, 6, 8, 10, 12];
-/// A conoid whose checks are asked for is drawn to this, m.
+/// Tolerance of a conoid drawn for its checks, m.
 const TOLERANCE: f64 = 5e-6;
 /// Largest residual force by default, as a share of the largest inertia.
 const SHARE: f64 = 1e-4;

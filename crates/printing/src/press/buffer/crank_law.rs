@@ -308,7 +308,7 @@ impl CrankLaw {
         }
     }
 
-    /// Whether the air gives back on the way back what it takes on the way in, at the same overruns.
+    /// Whether the air returns at each overrun the work that it took there on the way in.
     #[must_use]
     pub fn is_symmetric(&self) -> bool {
         match self {

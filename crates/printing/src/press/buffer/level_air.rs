@@ -13,7 +13,7 @@
 
 use camgen_kernel::numeric::extremum;
 
-/// Parts of the stroke in which what a fixed bottom leaves has at most one hill, and hills that are looked at.
+/// Parts of the stroke in which the residual of a fixed bottom has at most one maximum, and maxima that are refined.
 const CELLS: u32 = 64;
 const HILLS: usize = 3;
 /// Newton's steps end by themselves: the logarithm of a sum of exponentials is convex, and each step doubles the digits.

@@ -51,7 +51,7 @@ impl Bed {
         2.0 * PI * rpm * self.crank_turns_per_main_shaft_turn / 60.0
     }
 
-    /// The shaft of a cam of so many lobes for each turn of the crank, where it does not turn as fast as the main shaft.
+    /// The shaft of a cam with these lobes, one for each turn of the crank, if it does not turn as fast as the main shaft.
     #[must_use]
     pub fn shaft(&self, name: &'static str, lobes: u32) -> Option<Shaft> {
         let turns_per_main_shaft_turn = self.crank_turns_per_main_shaft_turn / f64::from(lobes.max(1));

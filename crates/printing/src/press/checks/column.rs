@@ -25,7 +25,7 @@ pub const CHECK: Check = Check {
 
 /// Customary largest column, m.
 pub const CUSTOMARY: f64 = 2.0;
-/// A speed so many times as high is looked at.
+/// Highest trial speed / speed of the longest column.
 const FASTEST: f64 = 1e4;
 
 /// Measure of the longest of the columns of an analysis, of which nothing is cut: beyond the customary limit it warns; `None` without one.

@@ -10,11 +10,11 @@ use camgen_kernel::profile::Worst;
 use camgen_kernel::text::{KeyChange, Remedy};
 use std::sync::Arc;
 
-/// Rollers so many times as large are tried to lower a stress.
+/// Trial rollers / given roller, to lower a stress.
 const LARGER_ROLLERS: [f64; 5] = [1.1, 1.25, 1.5, 2.0, 3.0];
 
 impl Conoid {
-    /// The inertia of the fastest section, and what is left without a cam at the speed at which most is left with it.
+    /// The inertia of the fastest section, and the residual without a cam at the speed with the largest residual of the cam.
     pub(super) fn forces_balanced(&self) -> Balance {
         let law = bottom_law_at(&self.press, &self.data, self.largest_residual().rpm);
         let fastest = self.speeds.last().copied().unwrap_or(0.0);

@@ -14,7 +14,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// Speeds looked at between two sections, and golden sections at the worst: the residual of a strip is a smooth hump or two
+/// Trial speeds between two sections, and golden sections at the worst: the residual of a strip is a smooth hump or two
 /// across it, whose top is reported to 1e-9 when its position is known to a millionth of the strip.
 const SPEEDS: u32 = 12;
 const SPEED_SECTIONS: u32 = 24;

@@ -64,7 +64,7 @@ pub const KIND: Kind = Kind { command: "conoid", noun: "conoid", keys: cams::CON
 
 /// Sections of one cam.
 const SECTIONS: WorkBound = WorkBound { what: "speeds of a conoid", most: 100 };
-/// Slices between two sections at which the surface is looked at.
+/// Slices between two sections at which the surface is evaluated.
 const SLICES: u32 = 6;
 /// Slices with which the search for the worst points begins: as many as [`SLICES`] while there are no more than [`MOST_SEARCHED`] in all, but at
 /// least the section and the middle. Between two sections the second derivative along the axis is linear in the splines' variable, so that

@@ -12,7 +12,7 @@ use camgen_kernel::numeric::parallel;
 use camgen_kernel::numeric::spline::cubic_at;
 use std::cell::{Cell, OnceCell};
 
-/// Up to so many sections their laws cost less than the series of their slopes.
+/// Most sections whose laws cost less than the series of their slopes.
 const FEW_SECTIONS: usize = 8;
 /// Terms of the series to begin with, and how often they are doubled; beyond, the sums are used.
 const TERMS: u32 = 24;

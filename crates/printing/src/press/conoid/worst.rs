@@ -8,14 +8,14 @@ use nalgebra::Vector2;
 use std::f64::consts::PI;
 
 impl Conoid {
-    /// Places along the axis at which the surface is looked at, m: the sections and some between
+    /// Axial positions at which the surface is evaluated, m: the sections and some between
     /// them.
     #[must_use]
     pub fn slices(&self) -> Vec<f64> {
         self.sliced(SLICES)
     }
 
-    /// The sections, and so many slices from each to the next.
+    /// The sections, and `each` slices from each to the next.
     fn sliced(&self, each: u32) -> Vec<f64> {
         let pairs = self.positions.iter().zip(self.positions.iter().skip(1));
         let between = pairs.flat_map(|(a, b)| (0..each).map(move |i| a + (b - a) * f64::from(i) / f64::from(each)));

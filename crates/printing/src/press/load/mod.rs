@@ -47,7 +47,7 @@ pub struct Balance {
     pub mean: bool,
 }
 
-/// Where an outline would leave the bottom off the piston, and the residual below half of what is left without a cam.
+/// Conditions under which an outline would keep the bottom off the piston, and the residual below half of the residual without a cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AsCut {
     /// Up to this speed of the main shaft, rpm; `None` where no lower one is enough.
@@ -81,7 +81,7 @@ pub trait ForceBalanced {
         None
     }
 
-    /// Changes, each of which alone brings the residual force of that direction below what is left without a cam.
+    /// Changes, each of which alone brings the residual force of that direction below the residual without a cam.
     fn remedies_of_other_way(&self) -> Vec<Remedy> {
         Vec::new()
     }

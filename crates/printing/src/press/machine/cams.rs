@@ -196,7 +196,7 @@ pub(super) fn read(reader: &Reader<'_>, roller_radius: Option<f64>) -> Option<Pr
     })
 }
 
-/// The stiffness of a train that the cam is to be cut for.
+/// Stiffness of the train for which the cam is compensated.
 pub(super) fn compensated_train(reader: &Reader<'_>) -> Option<f64> {
     let table = reader.table(&CAM);
     let (wanted, stiffness) = (table.get(&losses::COMPENSATE_TRAIN)?, table.get(&TRAIN_STIFFNESS));

@@ -1,4 +1,4 @@
-//! The analysis: what is left of a cam in machines that differ, and what its screw takes back.
+//! The analysis: the residual force of a cam in machines with deviations, as built and after a reset of the screw.
 
 use super::card;
 use super::fault::{Fault, FrozenBuffer};

@@ -59,7 +59,7 @@ impl BedPath {
         }
     }
 
-    /// Crank angle up to which the reversal is looked at, rad: the braking half where the other one mirrors it.
+    /// Crank angle up to which the reversal is evaluated, rad: the braking half if the other one mirrors it.
     #[must_use]
     pub fn reach(&self) -> f64 {
         match self {

@@ -173,7 +173,7 @@ impl FrozenPlate<'_> {
         [inertia, station.factors.get(way).copied().unwrap_or(1.0) * air]
     }
 
-    /// Standard deviation to first order, N: as built, and with the screw set by what is left at the end while the bed is braked.
+    /// Standard deviation to first order, N: as built, and with the screw set by the residual at the end of the braking half.
     fn deviations(&self, station: &PlateStation, way: usize) -> [f64; 2] {
         let end = self.stations.last();
         let mut squares = [0.0; 2];
@@ -225,7 +225,7 @@ impl FrozenPlate<'_> {
     }
 }
 
-/// The section of a plate with the law of its column and what (18) makes of its air.
+/// The section of a plate with the law of its column and its air by (18).
 #[must_use]
 pub fn of_plate(
     sampling: &Sampling,

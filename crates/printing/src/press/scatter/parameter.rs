@@ -108,7 +108,7 @@ impl Parameter {
         }
     }
 
-    /// A machine that differs by so much more of it, SI. An error of the screw acts after a reset only.
+    /// A machine with a deviation of this parameter, SI. An error of the screw acts after a reset only.
     #[must_use]
     pub fn changed(self, fault: Fault, by: f64) -> Fault {
         match self {

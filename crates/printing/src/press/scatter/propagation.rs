@@ -105,13 +105,13 @@ pub struct ParameterBand {
     pub residual: Extremum,
     /// ΔL of the end setting, m, and what it leaves.
     pub end: (f64, Extremum),
-    /// ΔL of the level setting, m, and what it leaves, where that was asked for.
+    /// ΔL of the level setting, m, and its residual force, on request.
     pub level: Option<(f64, Extremum)>,
     /// Its share of the variance at the end of the stroke as built.
     pub share_of_variance: f64,
 }
 
-/// Both directions of a deviation are looked at; a difference below this share is rounding.
+/// Relative difference between the two directions of a deviation below which it is rounding.
 const ALIKE: f64 = 1e-9;
 
 /// The residual forces of a press.

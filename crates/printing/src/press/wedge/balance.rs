@@ -21,7 +21,7 @@ use camgen_kernel::text::{KeyChange, Remedy, Text, text};
 const ANGLE_STEP: f64 = 0.1;
 const EFFICIENCY_STEPS: f64 = 100.0;
 const ARM_STEP_MM: f64 = 10.0;
-/// A roller arm so many times as long is looked at.
+/// Trial roller arm / given roller arm.
 const LONGEST_ARM: f64 = 4.0;
 /// Trial columns / column of the plate.
 const LONGER_COLUMNS: [f64; 7] = [1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0];

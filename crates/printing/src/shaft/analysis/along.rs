@@ -8,7 +8,7 @@ use camgen_cams::table::Table;
 const MODES: [&str; MOST_MODES] =
     ["mode1", "mode2", "mode3", "mode4", "mode5", "mode6", "mode7", "mode8", "mode9", "mode10", "mode11", "mode12"];
 
-/// Places along the shaft, m, each with the side from which it is looked at: both at a step.
+/// Positions along the shaft, m, each with its side of a step: at a step both.
 pub(super) fn places(found: &ShaftResults<'_>) -> Vec<(f64, StepSide)> {
     let (length, samples) = (found.shaft.length(), found.asked.samples.max(2));
     let mut places: Vec<(f64, StepSide)> = (0..samples)

@@ -95,7 +95,7 @@ impl DeflectionCurve {
         let samples: Vec<Vec<f64>> = self.pieces.iter().map(CurvePiece::samples).collect();
         [1.0, -1.0].map(|sign| {
             let highest = samples.iter().flatten().fold(f64::NEG_INFINITY, |most, y| most.max(sign * y));
-            // A crest between two samples: any that can reach the highest is looked at.
+            // A crest between two samples: every one that can reach the highest is refined.
             let least = highest - HIDDEN * highest.abs();
             let mut best = (0.0, f64::NEG_INFINITY);
             for (piece, samples) in self.pieces.iter().zip(&samples) {

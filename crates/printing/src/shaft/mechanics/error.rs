@@ -10,7 +10,7 @@ pub enum ShaftError {
     /// A massless shaft has only the modes its discs make; a thin disc in forward whirl has none by turning.
     #[error("the shaft has {exist} critical speed{}: number {asked} does not exist", if *exist == 1 { "" } else { "s" })]
     NoSuchMode {
-        /// The number asked for, from 1.
+        /// The requested number, from 1.
         asked: usize,
         /// How many there are.
         exist: usize,

@@ -190,12 +190,12 @@ impl EigenProblem {
         self.size / (MOST_RATIO * MOST_RATIO)
     }
 
-    /// ω of the highest of so many modes, or of the highest there is; never above the wall.
+    /// ω of the highest of `count` modes, or of the highest there is; never above the wall.
     fn highest(&self, count: usize) -> f64 {
         self.spectrum.last_of(count, self.wall()).map_or(0.0, |value| 1.0 / value.sqrt())
     }
 
-    /// The first modes, or why there are not so many.
+    /// The first `count` modes, or why there are fewer.
     fn modes(&self, count: usize, shaft: &Shaft) -> Result<Modes, ShaftError> {
         let values = self.spectrum.largest(count, self.wall());
         if values.len() < count {

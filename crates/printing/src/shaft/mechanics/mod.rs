@@ -185,7 +185,7 @@ impl Whirl {
     }
 }
 
-/// From which side a step is looked at.
+/// The side of a step on which a section is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StepSide {
     /// The section that ends there.

@@ -263,7 +263,7 @@ impl Drive {
         self.time_between(phase, 0.0, angle, PANELS)
     }
 
-    /// Time between two angles of a phase, s, by so many panels of eight points. Over a whole phase [`Drive::time_of`] errs by less
+    /// Time between two angles of a phase, s, by `panels` panels of eight points. Over a whole phase [`Drive::time_of`] errs by less
     /// than 1e-10 for a machine that closes and is not compressed beyond a tenth of its column; an open machine's integrand has an end
     /// that is not smooth.
     #[must_use]

@@ -63,7 +63,7 @@ fn crank_section(square: f64, w0: f64, w1: f64, from: f64, to: f64, crank_radius
     constant - first * libm::sin(to) - second * (step * libm::sin(to) + libm::cos(to))
 }
 
-/// The nodes of both phases for sections of `step` rad > 0; the last section of a phase is what is left of it. The list ends at a
+/// The nodes of both phases for sections of `step` rad > 0; the last section of a phase is the rest of it. The list ends at a
 /// node without speed.
 #[must_use]
 pub fn sections(drive: &Drive, step: f64) -> Vec<SectionEnd> {
