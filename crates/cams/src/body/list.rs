@@ -54,7 +54,7 @@ pub const BODIES: &[ProgramBody] = &[
     ProgramBody {
         kind: &barrel::BARREL,
         has_base_circle: false,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(barrel::Barrel::of(machine, motion, rpm)?)),
+        solve: barrel::solve,
     },
     ProgramBody {
         kind: &globoid::GLOBOID,

@@ -13,7 +13,7 @@ const LAST_STEP: f64 = 1e-15;
 
 /// How the roller is carried.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum RollerPath {
+pub(crate) enum RollerPath {
     /// Along the axis of the cam, at a distance from the radius, m, positive against the rotation.
     Straight {
         /// The distance, m.
@@ -35,26 +35,90 @@ pub(super) enum RollerPath {
 /// The roller's centre line at a cam angle: place against the rotation and along the axis with two derivatives by the cam angle, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct AxisLine {
-    pub(super) across: [f64; 3],
-    pub(super) along: [f64; 3],
+    pub(crate) across: [f64; 3],
+    pub(crate) along: [f64; 3],
 }
 
 /// A point of a flank, m, with its derivatives by the cam angle and by the radius of the cylinder on which it lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct FlankPoint {
+pub(crate) struct FlankPoint {
     /// Angle less the cam angle, rad.
-    pub(super) ahead: f64,
+    pub(crate) ahead: f64,
     /// Height, m.
-    pub(super) height: f64,
+    pub(crate) height: f64,
     /// Derivatives of the angle in the cam and of the height by the cam angle, the radius kept.
-    pub(super) by_angle: [f64; 2],
+    pub(crate) by_angle: [f64; 2],
     /// The roller's place that touches there.
-    pub(super) line: LinePoint,
+    pub(crate) line: LinePoint,
+}
+
+/// A place of the flank at a distance from the centre line.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct OffsetPoint {
+    pub(crate) line: LinePoint,
+    /// Signed distance from the centre line, m, positive above, and its derivative along it.
+    pub(crate) distance: f64,
+    pub(crate) widening: f64,
+}
+
+/// The centre line of a roller in a cylinder, with the flanks that its form gives.
+pub(crate) trait BarrelLine: RollerLine + Sized {
+    fn axis(&self) -> &AxisLine;
+
+    /// The line as if its roller pointed at the axis of the cam.
+    fn without_offset(&self) -> Self;
+
+    /// The flank whose signed distance on the outside is given, m, at a place along the roller.
+    fn offset(&self, v: f64, distance: f64) -> OffsetPoint;
+
+    /// Where that flank meets the cylinder of a radius, m; `None` where it does not.
+    fn on_cylinder(&self, distance: f64, radius: f64) -> Option<FlankPoint> {
+        let mut v = radius;
+        for _ in 0..STEPS {
+            let (across, slope) = self.offset(v, distance).across(self.axis());
+            let rate = v + across * slope;
+            let step = 0.5 * (v * v + across * across - radius * radius) / rate;
+            v -= step;
+            if step.abs() <= LAST_STEP * radius {
+                break;
+            }
+        }
+        let axis = self.axis();
+        let point = self.offset(v, distance);
+        let OffsetPoint { line, distance, widening } = point;
+        let (across, outwards) = point.across(axis);
+        let rate = v + across * outwards;
+        let miss = v * v + across * across - radius * radius;
+        if !(v > 0.0 && rate > 0.0 && miss.abs() <= 1e-12 * radius * radius) {
+            return None;
+        }
+        let (sin, cos) = line.slope;
+        // With the place along the roller kept, then along the cylinder.
+        let across_turn = axis.across[1] - distance * cos * line.turn;
+        let along_turn = axis.along[1] - distance * sin * line.turn;
+        let moved = -across * across_turn / rate;
+        let by_across = across_turn + outwards * moved;
+        let by_height = along_turn + (widening * cos - distance * sin * line.turn_along) * moved;
+        Some(FlankPoint {
+            ahead: libm::atan2(across, v),
+            height: axis.along[0] + distance * cos,
+            by_angle: [1.0 + (v * by_across - across * moved) / (radius * radius), by_height],
+            line,
+        })
+    }
+}
+
+impl OffsetPoint {
+    /// Its place across, m, and the derivative of that along the roller.
+    fn across(&self, axis: &AxisLine) -> (f64, f64) {
+        let (sin, cos) = self.line.slope;
+        (axis.across[0] - self.distance * sin, -self.widening * sin - self.distance * cos * self.line.turn_along)
+    }
 }
 
 impl RollerPath {
     /// The roller's centre line at a lift.
-    pub(super) fn at(&self, lift: &Jet) -> AxisLine {
+    pub(crate) fn at(&self, lift: &Jet) -> AxisLine {
         match *self {
             RollerPath::Straight { offset } => {
                 AxisLine { across: [offset, 0.0, 0.0], along: [lift.s, lift.ds, lift.dds] }
@@ -90,7 +154,7 @@ impl RollerPath {
     }
 
     /// Pressure angle at a point of the centre line with this slope, rad, signed: positive where the lift grows.
-    pub(super) fn pressure_angle(&self, lift: &Jet, (sin, cos): (f64, f64)) -> f64 {
+    pub(crate) fn pressure_angle(&self, lift: &Jet, (sin, cos): (f64, f64)) -> f64 {
         let (across, along) = self.drive(lift);
         let (normal, tangent) = (-sin * across + cos * along, cos * across + sin * along);
         libm::atan2(tangent, normal)
@@ -99,50 +163,24 @@ impl RollerPath {
 
 impl AxisLine {
     /// Where the centre line is at a distance from the axis of the cam, as a place along it, m; NaN where it never is so near.
-    pub(super) fn at_distance(&self, from_axis: f64) -> f64 {
+    pub(crate) fn at_distance(&self, from_axis: f64) -> f64 {
         let beside = self.across[0];
         ((from_axis - beside) * (from_axis + beside)).sqrt()
     }
+}
 
-    /// Where the flank at a signed distance from the centre line (m, positive above) meets the cylinder of a radius, m; `None` where it does not.
-    pub(super) fn on_cylinder(&self, distance: f64, radius: f64) -> Option<FlankPoint> {
-        let mut v = radius;
-        for _ in 0..STEPS {
-            let line = self.point(v);
-            let (across, slope) = self.across_at(distance, &line);
-            let rate = v + across * slope;
-            let step = 0.5 * (v * v + across * across - radius * radius) / rate;
-            v -= step;
-            if step.abs() <= LAST_STEP * radius {
-                break;
-            }
-        }
-        let line = self.point(v);
-        let (across, outwards) = self.across_at(distance, &line);
-        let rate = v + across * outwards;
-        let miss = v * v + across * across - radius * radius;
-        if !(v > 0.0 && rate > 0.0 && miss.abs() <= 1e-12 * radius * radius) {
-            return None;
-        }
-        let (sin, cos) = line.slope;
-        // With the place along the roller kept, then along the cylinder.
-        let across_turn = self.across[1] - distance * cos * line.turn;
-        let along_turn = self.along[1] - distance * sin * line.turn;
-        let moved = -across * across_turn / rate;
-        let by_across = across_turn + outwards * moved;
-        let by_height = along_turn - distance * sin * line.turn_along * moved;
-        Some(FlankPoint {
-            ahead: libm::atan2(across, v),
-            height: self.along[0] + distance * cos,
-            by_angle: [1.0 + (v * by_across - across * moved) / (radius * radius), by_height],
-            line,
-        })
+impl BarrelLine for AxisLine {
+    fn axis(&self) -> &AxisLine {
+        self
     }
 
-    /// Place of the flank across, m, and its derivative along the roller.
-    fn across_at(&self, distance: f64, line: &LinePoint) -> (f64, f64) {
-        let (sin, cos) = line.slope;
-        (self.across[0] - distance * sin, -distance * cos * line.turn_along)
+    fn without_offset(&self) -> Self {
+        let [_, by, second] = self.across;
+        Self { across: [0.0, by, second], ..*self }
+    }
+
+    fn offset(&self, v: f64, distance: f64) -> OffsetPoint {
+        OffsetPoint { line: self.point(v), distance, widening: 0.0 }
     }
 }
 

@@ -1,9 +1,9 @@
 //! The developed view of the outside: both flanks and the centre line of the roller as arcs, and what the customary drawings of it would miss.
 
-use super::Barrel;
 use super::swept::CURVES;
+use super::{Barrel, BarrelLine, BarrelRoller};
 use crate::body::Layer;
-use crate::body::swept::FlankSide;
+use crate::body::swept::{FlankSide, RollerLine};
 use camgen_kernel::geometry::biarcs::biarcs;
 use camgen_kernel::geometry::contour::Segment;
 use camgen_kernel::geometry::{Entity, MILLIMETRES};
@@ -19,7 +19,7 @@ const LONGEST: f64 = TAU;
 /// Steps to the nearest place of an unrolled curve.
 const STEPS: usize = 12;
 
-impl Barrel {
+impl<R: BarrelRoller> Barrel<R> {
     /// The entities of the developed view within a tolerance, mm.
     ///
     /// # Errors
@@ -73,8 +73,8 @@ impl Barrel {
         for (piece, angle) in self.groove.places() {
             for side in FlankSide::BOTH {
                 let Some((polar, height)) = place(side, (piece, angle)) else { continue };
-                let off =
-                    (self.distance_unrolled((polar, height), radius, angle) - self.groove.signed(side).abs()).abs();
+                let due = self.axis(piece, angle).radius_at(radius, self.groove.signed(side).abs());
+                let off = (self.distance_unrolled((polar, height), radius, angle) - due).abs();
                 if off > worst.value {
                     worst = Worst { value: off, at: angle, z: 0.0 };
                 }
@@ -88,7 +88,8 @@ impl Barrel {
         let mut angle = near;
         let apart = |angle: f64| {
             let (piece, inside) = self.groove.motion.locate(angle);
-            let axis = self.axis(piece, inside);
+            let line = self.axis(piece, inside);
+            let axis = line.axis();
             let x = radius * (polar - angle) - axis.across[0];
             ([x, height - axis.along[0]], [-radius - axis.across[1], -axis.along[1]], [-axis.across[2], -axis.along[2]])
         };

@@ -3,7 +3,7 @@
 //! Points and slopes by the cam angle are exact, so that two patches meet smoothly and the rims lie on their cylinders within what the splines miss.
 //! That is kept far below the tolerance: a flank that misses everywhere to one side would change the volume.
 
-use super::Barrel;
+use super::{Barrel, BarrelRoller};
 use crate::body::swept::{CELLS, FlankSide, LONGEST_PATCH, SweptBody, fitted_flanks};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::patch_fit::FlankStretch;
@@ -31,7 +31,7 @@ pub(super) struct Flanks {
     pub(super) deviation: f64,
 }
 
-impl Barrel {
+impl<R: BarrelRoller> Barrel<R> {
     /// How many patches both flanks have.
     pub(super) fn patches(&self) -> usize {
         2 * self.stretches().len()

@@ -1,13 +1,13 @@
 //! The barrel as a swept body.
 
-use super::contact::AxisLine;
-use super::{BARREL, Barrel, RollerPath, mechanism, report, sheet};
+use super::{AxisLine, BARREL, Barrel, BarrelLine, BarrelRoller, RollerPath, mechanism, report, sheet};
 use crate::body::flank_switch::SwitchFigures;
 use crate::body::swept::{
     BlankSurface, FlankSide, LinePoint, NearestRoller, RollerLine, SweptBody, SweptDrawing, SweptGeometry, SweptGroove,
     SweptWords, TouchingRoller,
 };
 use crate::body::{DrawingEvidence, Drawn, Kind};
+use crate::machine::Machine;
 use crate::report::Section;
 use crate::report::mechanism::MovingMechanism;
 use crate::report::sheet::SheetView;
@@ -28,14 +28,34 @@ const WORDS: SweptWords = SweptWords {
     ],
 };
 
+/// A cylindrical roller.
+impl BarrelRoller for RollerPath {
+    type Line = AxisLine;
+
+    const KIND: &'static Kind = &BARREL;
+    const WORDS: SweptWords = WORDS;
+
+    fn of_machine(_machine: &Machine, path: RollerPath) -> Result<Self, Refusal> {
+        Ok(path)
+    }
+
+    fn line(&self, lift: &Jet, _outer: f64) -> AxisLine {
+        self.at(lift)
+    }
+
+    fn path(&self) -> &RollerPath {
+        self
+    }
+}
+
 /// Both flanks on the outside.
 const UPPER_X: AddedColumn = AddedColumn { name: "upper_flank_x_mm", after: "pressure_angle_deg" };
 const UPPER_Z: AddedColumn = AddedColumn { name: "upper_flank_z_mm", after: "pressure_angle_deg" };
 const LOWER_X: AddedColumn = AddedColumn { name: "lower_flank_x_mm", after: "pressure_angle_deg" };
 const LOWER_Z: AddedColumn = AddedColumn { name: "lower_flank_z_mm", after: "pressure_angle_deg" };
 
-impl SweptGeometry for Barrel {
-    type Line = AxisLine;
+impl<R: BarrelRoller> SweptGeometry for Barrel<R> {
+    type Line = R::Line;
 
     const RETURNS: bool = true;
 
@@ -47,21 +67,21 @@ impl SweptGeometry for Barrel {
         self.ends
     }
 
-    fn line(&self, lift: &Jet, _roller: i32) -> AxisLine {
-        self.path.at(lift)
+    fn line(&self, lift: &Jet, _roller: i32) -> R::Line {
+        self.roller.line(lift, self.outer)
     }
 
     /// From its inner end, which stands so far below the outside as it reaches into the groove, to where it leaves the cylinder.
-    fn touched(&self, axis: &AxisLine) -> [f64; 2] {
-        [self.outer - self.reach, self.outer].map(|from_axis| axis.at_distance(from_axis))
+    fn touched(&self, axis: &R::Line) -> [f64; 2] {
+        [self.outer - self.reach, self.outer].map(|from_axis| axis.axis().at_distance(from_axis))
     }
 
-    fn middle(&self, axis: &AxisLine) -> f64 {
+    fn middle(&self, axis: &R::Line) -> f64 {
         let [inner, outer] = self.touched(axis);
         0.5 * (inner + outer)
     }
 
-    fn contact_on(&self, axis: &AxisLine, flank: FlankSide, surface: BlankSurface) -> Option<LinePoint> {
+    fn contact_on(&self, axis: &R::Line, flank: FlankSide, surface: BlankSurface) -> Option<LinePoint> {
         let radius = match surface {
             BlankSurface::Floor => self.floor(),
             BlankSurface::Outside => self.outer,
@@ -70,8 +90,8 @@ impl SweptGeometry for Barrel {
     }
 
     /// From the roller's inner end, or the floor, to the outer edge of the flank.
-    fn touching(&self, lift: &Jet, flank: FlankSide) -> Vec<TouchingRoller<AxisLine>> {
-        let line = self.path.at(lift);
+    fn touching(&self, lift: &Jet, flank: FlankSide) -> Vec<TouchingRoller<R::Line>> {
+        let line = self.roller.line(lift, self.outer);
         let [floor, outside] =
             [BlankSurface::Floor, BlankSurface::Outside].map(|surface| self.contact_on(&line, flank, surface));
         let [inner, _] = self.touched(&line);
@@ -79,16 +99,16 @@ impl SweptGeometry for Barrel {
         vec![TouchingRoller { roller: 0, line, length }]
     }
 
-    fn pressure_angle(&self, lift: &Jet, axis: &AxisLine, v: f64) -> f64 {
-        self.path.pressure_angle(lift, axis.point(v).slope)
+    fn pressure_angle(&self, lift: &Jet, axis: &R::Line, v: f64) -> f64 {
+        self.roller.path().pressure_angle(lift, axis.point(v).slope)
     }
 
     fn way_of_lift(&self) -> f64 {
-        if let RollerPath::Arm { arm, .. } = self.path { arm } else { 1.0 }
+        if let RollerPath::Arm { arm, .. } = self.roller.path() { *arm } else { 1.0 }
     }
 
-    fn carrier_turn(&self, lift: &Jet, _axis: &AxisLine) -> [f64; 2] {
-        match self.path {
+    fn carrier_turn(&self, lift: &Jet, _axis: &R::Line) -> [f64; 2] {
+        match *self.roller.path() {
             RollerPath::Straight { .. } => [0.0; 2],
             RollerPath::Arm { side, .. } => [side * lift.ds, side * lift.dds],
         }
@@ -99,13 +119,13 @@ impl SweptGeometry for Barrel {
     }
 }
 
-impl SweptBody for Barrel {
-    const KIND: &'static Kind = &BARREL;
-    const WORDS: &'static SweptWords = &WORDS;
+impl<R: BarrelRoller> SweptBody for Barrel<R> {
+    const KIND: &'static Kind = R::KIND;
+    const WORDS: SweptWords = R::WORDS;
 
     /// At the inner end of the roller or at the outside, signed.
     fn steepest(&self, lift: &Jet) -> f64 {
-        let axis = self.path.at(lift);
+        let axis = self.roller.line(lift, self.outer);
         let [inner, outer] = self.touched(&axis).map(|v| self.pressure_angle(lift, &axis, v));
         if inner.abs() > outer.abs() { inner } else { outer }
     }
@@ -116,7 +136,11 @@ impl SweptBody for Barrel {
     }
 
     fn tables(&self, samples: u32, cutter: Option<f64>) -> Vec<Table> {
-        vec![self.sections_table(samples), self.four_axes_table(samples, cutter)]
+        let sections = self.sections_table(samples);
+        if self.roller.without_tool().is_some() {
+            return vec![sections];
+        }
+        vec![sections, self.four_axes_table(samples, cutter)]
     }
 
     /// Of a point of the developed view.
@@ -130,7 +154,7 @@ impl SweptBody for Barrel {
             solid: self.solid(&flanks)?,
             deviation: flanks.deviation,
             developed: self.developed_view(tolerance)?,
-            tables: WORDS.tables,
+            tables: R::WORDS.tables,
         })
     }
 

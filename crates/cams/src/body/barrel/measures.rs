@@ -1,6 +1,6 @@
 //! What is checked of a barrel as it was solved.
 
-use super::Barrel;
+use super::{Barrel, BarrelRoller};
 use crate::body::swept::SweptMeasures;
 use crate::check::{Check, CheckExplanation, CheckScope, Measures, Subject, curvature};
 use crate::report::{Bound, shown};
@@ -23,7 +23,7 @@ pub const PLANE_OFFSET: Check = Check {
     },
 };
 
-impl SweptMeasures for Barrel {
+impl<R: BarrelRoller> SweptMeasures for Barrel<R> {
     /// A change of the outer radius with which every limit is kept.
     fn remedy(&self) -> Option<Text> {
         let outer = self.smallest_outer().ok()?;

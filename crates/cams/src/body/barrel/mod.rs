@@ -16,19 +16,23 @@ mod swept;
 mod tables;
 mod tool;
 
-use super::Kind;
 use super::swept::{
-    FlankSide, LinePoint, RollerLine, SweptGeometry, SweptGroove, largest, least_fold, pressure_angles,
+    FlankMiss, FlankSide, LinePoint, RollerLine, SweptGeometry, SweptGroove, SweptWords, largest, least_fold, miss,
+    pressure_angles,
 };
+use super::{Kind, ProgramCams};
 use crate::machine::Machine;
 use camgen_kernel::document::cams;
 use camgen_kernel::follower::{Carrier, Element};
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::motion::Motion;
+use camgen_kernel::motion::{Jet, Motion};
 use camgen_kernel::profile::size::{first_that_keeps, rounded_up};
 use camgen_kernel::profile::{Worst, lifts};
 use camgen_kernel::refusal::Refusal;
-use contact::{AxisLine, FlankPoint, RollerPath};
+use contact::FlankPoint;
+pub(super) use contact::{AxisLine, BarrelLine, OffsetPoint, RollerPath};
+use nalgebra::Vector3;
+use std::fmt::Debug;
 use std::sync::Arc;
 
 /// The barrel of any motion.
@@ -39,11 +43,46 @@ const LARGEST_GROWTH: f64 = 8.0;
 /// The roller rests where the slope of the lift, over the lift itself, is below this, 1/rad.
 const LEVEL: f64 = 1e-9;
 
-/// A barrel cam.
+/// A roller in the groove of a barrel: its form, and how it is carried.
+pub(crate) trait BarrelRoller: Debug + Clone + Send + Sync + 'static {
+    type Line: BarrelLine;
+
+    const KIND: &'static Kind;
+    const WORDS: SweptWords;
+
+    /// The roller of a machine, carried so.
+    ///
+    /// # Errors
+    /// [`Refusal`] when it cannot be carried so.
+    fn of_machine(machine: &Machine, path: RollerPath) -> Result<Self, Refusal>;
+
+    /// Its centre line at a lift, in a cylinder of a radius, m.
+    fn line(&self, lift: &Jet, outer: f64) -> Self::Line;
+
+    /// How its centre is carried.
+    fn path(&self) -> &RollerPath;
+
+    /// Why a tool on a machine with four axes does not cut its groove; `None` where one does.
+    fn without_tool(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Angle between its axis and its surface, rad; `None` of a cylinder.
+    fn half_angle(&self, _outer: f64) -> Option<f64> {
+        None
+    }
+
+    /// How a point (mm) of a flank lies to the nearest flank.
+    fn miss(barrel: &Barrel<Self>, point: Vector3<f64>) -> FlankMiss {
+        miss(barrel, point)
+    }
+}
+
+/// A barrel cam of a roller.
 #[derive(Debug, Clone)]
-pub struct Barrel {
+pub(crate) struct Barrel<R> {
     groove: SweptGroove,
-    path: RollerPath,
+    roller: R,
     /// Radius of the outside, m.
     outer: f64,
     /// Depth of the groove, m.
@@ -54,22 +93,30 @@ pub struct Barrel {
     ends: (f64, f64),
 }
 
-impl Barrel {
+/// Solves the barrel of a motion with a cylindrical roller, at a speed of the cam (rpm) where it is known.
+///
+/// # Errors
+/// [`Refusal`] as [`Barrel::of`].
+pub(super) fn solve(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<ProgramCams, Refusal> {
+    Ok(ProgramCams::alone(Barrel::<RollerPath>::of(machine, motion, rpm)?))
+}
+
+impl<R: BarrelRoller> Barrel<R> {
     /// The barrel of a motion, at a speed of the cam (rpm) where it is known.
     ///
     /// # Errors
     /// [`Refusal`] when the follower does not run in a barrel, the velocity jumps, or no radius keeps the limits.
-    pub fn of(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<Self, Refusal> {
+    pub(crate) fn of(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<Self, Refusal> {
         let track = machine.cam.track;
         let Element::Roller { radius } = machine.follower.shape.element() else { return Err(needs_a_roller()) };
         let top = lifts(&**motion).1;
-        let path = path_of(machine, top)?;
+        let roller = R::of_machine(machine, path_of(machine, top)?)?;
         let depth = track.groove_depth.ok_or_else(|| {
             Refusal::new("a barrel needs the depth of its groove").remedy("give cam.groove_depth, e.g. \"12 mm\"")
         })?;
         let mut found = Self {
             groove: SweptGroove::new(machine, motion, rpm, radius),
-            path,
+            roller,
             outer: track.outer_radius.unwrap_or(f64::NAN),
             depth,
             reach: track.barrel.roller_height.unwrap_or(depth),
@@ -99,7 +146,7 @@ impl Barrel {
         if keeps(least) {
             return Ok(least);
         }
-        let steepest = largest(self, |_, line| line.along[1].abs());
+        let steepest = largest(self, |_, line| line.axis().along[1].abs());
         let by_angle = steepest.value / libm::tan(limits.pressure_angles()[0].min(1.5)) + self.reach;
         let found = first_that_keeps(least, LARGEST_GROWTH * by_angle.max(least), keeps).map(rounded_up);
         found.ok_or_else(|| {
@@ -140,7 +187,7 @@ impl Barrel {
 
     /// How far the roller's centre line goes above and below z = 0, m.
     fn roller_heights(&self) -> [f64; 2] {
-        [1.0, -1.0].map(|sign| largest(self, |_, line| sign * line.along[0]).value)
+        [1.0, -1.0].map(|sign| largest(self, |_, line| sign * line.axis().along[0]).value)
     }
 
     /// The refusal of a groove that leaves the cylinder, or whose roller misses it.
@@ -153,15 +200,16 @@ impl Barrel {
         }
         for (piece, at) in self.groove.places() {
             let axis = self.axis(piece, at);
-            let known = |axis: &AxisLine| {
+            let known = |axis: &R::Line| {
                 [(floor, 0, 1.0), (floor, 1, -1.0), (self.outer, 0, 1.0), (self.outer, 1, -1.0)].iter().all(
                     |(radius, flank, sign)| axis.on_cylinder(sign * self.groove.distances[*flank], *radius).is_some(),
                 )
             };
             if !known(&axis) {
-                let [_, by, second] = axis.across;
-                let misses = known(&AxisLine { across: [0.0, by, second], ..axis });
-                return Err(self.leaves(misses.then_some(axis.across[0])).at(format!("{:.3} deg", at.to_degrees())));
+                let misses = known(&axis.without_offset());
+                return Err(self
+                    .leaves(misses.then_some(axis.axis().across[0]))
+                    .at(format!("{:.3} deg", at.to_degrees())));
             }
         }
         Ok(())
@@ -177,7 +225,7 @@ impl Barrel {
         let what = format!(
             "the roller stands {beside:.3} mm beside the axis of the barrel and misses its floor of radius {floor:.3} mm"
         );
-        let straight = matches!(self.path, RollerPath::Straight { .. });
+        let straight = matches!(self.roller.path(), RollerPath::Straight { .. });
         Refusal::new(what).remedy(if straight {
             "give a smaller follower.roller.offset or a larger cam.outer_radius"
         } else {
@@ -191,8 +239,8 @@ impl Barrel {
     }
 
     /// The roller's centre line at a cam angle of a piece.
-    fn axis(&self, piece: usize, angle: f64) -> AxisLine {
-        self.path.at(&self.groove.motion.jet(piece, angle))
+    fn axis(&self, piece: usize, angle: f64) -> R::Line {
+        self.roller.line(&self.groove.motion.jet(piece, angle), self.outer)
     }
 
     /// A flank on the cylinder of a radius (m) at a cam angle of a piece.

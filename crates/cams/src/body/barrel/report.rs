@@ -1,6 +1,6 @@
 //! The sections of the report on a barrel.
 
-use super::Barrel;
+use super::{Barrel, BarrelRoller};
 use crate::body::DrawingEvidence;
 use crate::body::flank_switch::SwitchFigures;
 use crate::body::swept::{SweptGeometry, largest, sharpest_curvature};
@@ -20,6 +20,8 @@ struct BarrelSection {
     groove_width_mm: f64,
     roller_radius_mm: f64,
     roller_height_mm: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    roller_half_angle_deg: Option<f64>,
     blank_length_mm: f64,
     z_from_mm: f64,
     z_to_mm: f64,
@@ -46,7 +48,11 @@ struct BarrelSection {
 }
 
 /// The section with these changes of flank.
-pub(super) fn section(barrel: &Barrel, found: &DrawingEvidence<'_>, switches: Vec<SwitchFigures>) -> Section {
+pub(super) fn section<R: BarrelRoller>(
+    barrel: &Barrel<R>,
+    found: &DrawingEvidence<'_>,
+    switches: Vec<SwitchFigures>,
+) -> Section {
     let drawn = found.drawn.and_then(|drawn| drawn.swept.as_deref());
     let swings = barrel.groove.motion.quantity() == Quantity::Angle;
     let top = lifts(&*barrel.groove.motion).1;
@@ -62,6 +68,7 @@ pub(super) fn section(barrel: &Barrel, found: &DrawingEvidence<'_>, switches: Ve
         groove_width_mm: MILLIMETRES * barrel.groove.width(),
         roller_radius_mm: MILLIMETRES * barrel.groove.roller,
         roller_height_mm: MILLIMETRES * barrel.reach,
+        roller_half_angle_deg: barrel.roller.half_angle(barrel.outer).map(f64::to_degrees),
         blank_length_mm: MILLIMETRES * (barrel.ends.1 - barrel.ends.0),
         z_from_mm: MILLIMETRES * barrel.ends.0,
         z_to_mm: MILLIMETRES * barrel.ends.1,
@@ -81,7 +88,7 @@ pub(super) fn section(barrel: &Barrel, found: &DrawingEvidence<'_>, switches: Ve
     Section::new("barrel", &value).with_words(words).with_figures(figures)
 }
 
-fn words(section: &BarrelSection, barrel: &Barrel, arcs: Option<usize>) -> Vec<Text> {
+fn words<R: BarrelRoller>(section: &BarrelSection, barrel: &Barrel<R>, arcs: Option<usize>) -> Vec<Text> {
     let BarrelSection { outer_radius_mm, floor_radius_mm, groove_width_mm, groove_depth_mm, .. } = section;
     let mut words = vec![
         text!(
@@ -100,6 +107,12 @@ fn words(section: &BarrelSection, barrel: &Barrel, arcs: Option<usize>) -> Vec<T
             Length::mm(section.roller_height_mm)
         ),
     ];
+    if let Some(angle) = section.roller_half_angle_deg {
+        words.push(text!(
+            "the roller is a cone of half angle {}°; diameter and width are those on the outside",
+            shown(angle)
+        ));
+    }
     let [inner, outer] = section.pressure_angle_deg;
     words.push(text!(
         "largest pressure angle {}° at the inner end of the roller, {}° at the outside",

@@ -1,6 +1,6 @@
 //! What the review sheet of a barrel shows: the developed view with its flanks, a section along the axis, and tables of places of both flanks.
 
-use super::Barrel;
+use super::{Barrel, BarrelLine, BarrelRoller};
 use crate::body::Layer;
 use crate::body::swept::sheet::{bore_mark, dimension};
 use crate::body::swept::{FlankSide, SweptDrawing};
@@ -16,7 +16,7 @@ const GAP: f64 = 0.5;
 const ROWS: u32 = 72;
 
 /// Adds what the review sheet shows.
-pub(super) fn fill(barrel: &Barrel, swept: Option<&SweptDrawing>, view: &mut SheetView) {
+pub(super) fn fill<R: BarrelRoller>(barrel: &Barrel<R>, swept: Option<&SweptDrawing>, view: &mut SheetView) {
     let of = |layer: Layer| -> Vec<SheetShape> {
         let entities = swept.into_iter().flat_map(|swept| &swept.developed).filter(|(other, _)| *other == layer);
         let shape = |entity: &Entity| match entity {
@@ -45,7 +45,7 @@ pub(super) fn fill(barrel: &Barrel, swept: Option<&SweptDrawing>, view: &mut She
 }
 
 /// Lengths of the developed view, and the roller in its groove at the start.
-fn developed_marks(barrel: &Barrel, view: &mut SheetView) {
+fn developed_marks<R: BarrelRoller>(barrel: &Barrel<R>, view: &mut SheetView) {
     let units = barrel.groove.machine.units();
     let start = barrel.groove.motion.range().0;
     let x = |angle: f64| MILLIMETRES * barrel.groove.sense() * barrel.outer * angle;
@@ -64,7 +64,7 @@ fn developed_marks(barrel: &Barrel, view: &mut SheetView) {
     }
     let (piece, angle) = barrel.groove.motion.locate(0.0);
     let axis = barrel.axis(piece, angle);
-    let centre = at(x(0.0), MILLIMETRES * axis.along[0]);
+    let centre = at(x(0.0), MILLIMETRES * axis.axis().along[0]);
     let radius = MILLIMETRES * barrel.groove.roller;
     let roller = vec![SheetShape::Entity(Entity::Circle(centre, radius))];
     view.groups.push(ShapeGroup::new("roller", "roller at θ = 0", roller).with_legend());
@@ -82,7 +82,7 @@ fn developed_marks(barrel: &Barrel, view: &mut SheetView) {
 }
 
 /// The section along the axis at θ = 0, to the right of the developed view.
-fn section(barrel: &Barrel, view: &mut SheetView) {
+fn section<R: BarrelRoller>(barrel: &Barrel<R>, view: &mut SheetView) {
     let units = barrel.groove.machine.units();
     let (outer, floor) = (MILLIMETRES * barrel.outer, MILLIMETRES * barrel.floor());
     let (low, high) = (MILLIMETRES * barrel.ends.0, MILLIMETRES * barrel.ends.1);
@@ -122,7 +122,7 @@ fn section(barrel: &Barrel, view: &mut SheetView) {
 }
 
 /// Angle and height of both flanks on the outside and at the floor.
-fn tables(barrel: &Barrel) -> Vec<PlaceTable> {
+fn tables<R: BarrelRoller>(barrel: &Barrel<R>) -> Vec<PlaceTable> {
     let units = barrel.groove.machine.units();
     let row = |index: u32| {
         let degrees = 360.0 * f64::from(index) / f64::from(ROWS);

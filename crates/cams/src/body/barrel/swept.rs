@@ -1,10 +1,10 @@
 //! The barrel as a body with swept flanks: the roller rolled past any point, and the curves of the developed view.
 
-use super::Barrel;
+use super::{Barrel, BarrelLine, BarrelRoller};
 use crate::body::Layer;
 use crate::body::swept::{
     Descent, FlankMiss, FlankSide, NearestRoller, RoundFace, RoundForm, SeenPoint, SweptFlanks, TurnedCam,
-    integrate_smooth, miss,
+    integrate_smooth,
 };
 use camgen_kernel::geometry::MILLIMETRES;
 use nalgebra::{Vector2, Vector3};
@@ -21,7 +21,7 @@ const AT_REST: f64 = 1e-14;
 pub(super) const CURVES: [(Option<FlankSide>, Layer); 3] =
     [(Some(FlankSide::Upper), Layer::FlankUpper), (Some(FlankSide::Lower), Layer::FlankLower), (None, Layer::Pitch)];
 
-impl Barrel {
+impl<R: BarrelRoller> Barrel<R> {
     /// Point (mm) and unit tangent of a flank, or of the centre line of the roller, in the developed view at a piece and cam angle: x along the outer circumference, growing with the cam angle
     /// if the cam turns clockwise; y along the axis.
     pub(super) fn developed_at(&self, flank: Option<FlankSide>, place: (usize, f64)) -> (Vector2<f64>, Vector2<f64>) {
@@ -55,7 +55,8 @@ impl Barrel {
     /// A point (m) seen along the roller at a cam angle.
     fn see(&self, point: Vector3<f64>, angle: f64) -> SeenPoint {
         let (piece, inside) = self.groove.motion.locate(angle);
-        let axis = self.axis(piece, inside);
+        let line = self.axis(piece, inside);
+        let axis = line.axis();
         let (sin, cos) = libm::sincos(angle);
         let (along, across) = (point.x * cos + point.y * sin, point.y * cos - point.x * sin);
         SeenPoint {
@@ -97,13 +98,13 @@ impl Barrel {
     }
 }
 
-impl SweptFlanks for Barrel {
-    fn turned(&self) -> Option<&dyn TurnedCam> {
-        Some(self)
+impl<R: BarrelRoller> SweptFlanks for Barrel<R> {
+    fn turned(&self) -> Result<&dyn TurnedCam, &'static str> {
+        self.roller.without_tool().map_or(Ok(self), Err)
     }
 
     fn miss(&self, point: Vector3<f64>) -> FlankMiss {
-        miss(self, point)
+        R::miss(self, point)
     }
 
     fn form(&self) -> RoundForm {

@@ -1,7 +1,6 @@
 //! The tables of a barrel: sections of both flanks on cylinders, and the places of a tool on a machine with four axes.
 
-use super::Barrel;
-use super::contact::AxisLine;
+use super::{Barrel, BarrelLine, BarrelRoller};
 use crate::body::swept::{FlankSide, RollerLine};
 use crate::table::{ListedColumn, Table, turned};
 use camgen_kernel::geometry::MILLIMETRES;
@@ -45,7 +44,7 @@ const FOUR_AXES: &[ListedColumn<ToolRow>] = &[
     ("missed_mm", |row| row.missed_mm),
 ];
 
-impl Barrel {
+impl<R: BarrelRoller> Barrel<R> {
     /// Both flanks on a few cylinders: the cam angle of the roller, the radius, and angle and height of each flank there.
     pub(super) fn sections_table(&self, samples: u32) -> Table {
         let mut rows = Vec::new();
@@ -81,10 +80,10 @@ impl Barrel {
                 let at = turned(index, samples, self.groove.motion.lobes());
                 let (piece, angle) = self.groove.motion.locate(at.angle);
                 let axis = self.axis(piece, angle);
-                let (sin, cos) = axis.point(axis.at_distance(middle)).slope;
+                let (sin, cos) = axis.point(axis.axis().at_distance(middle)).slope;
                 let away = self.groove.tool_offset(*side, radius);
-                let across = self.groove.sense() * (axis.across[0] - away * sin);
-                let along = axis.along[0] + away * cos;
+                let across = self.groove.sense() * (axis.axis().across[0] - away * sin);
+                let along = axis.axis().along[0] + away * cos;
                 let missed = side
                     .map_or(0.0, |side| self.missed_by_tool(&axis, self.groove.signed(side).abs() - radius, middle));
                 #[expect(clippy::cast_precision_loss, reason = "two passes")]
@@ -105,8 +104,8 @@ impl Barrel {
 
     /// What a tool leaves of a flank at the ends of its depth, m, where it stands so much (m) nearer to the flank than the roller: it touches the flank
     /// exactly at one place along its axis, and the normals elsewhere differ from that one.
-    fn missed_by_tool(&self, axis: &AxisLine, nearer: f64, exact: f64) -> f64 {
-        let slope = |from_axis: f64| axis.point(axis.at_distance(from_axis)).slope;
+    fn missed_by_tool(&self, axis: &R::Line, nearer: f64, exact: f64) -> f64 {
+        let slope = |from_axis: f64| axis.point(axis.axis().at_distance(from_axis)).slope;
         let at_exact = slope(exact);
         let missed = [self.floor(), self.outer].map(|from_axis| {
             let there = slope(from_axis);

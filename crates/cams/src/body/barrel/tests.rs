@@ -1,9 +1,11 @@
-use super::Barrel;
+use super::RollerPath;
 use crate::body::in_groove::GrooveForces;
 use crate::body::swept::{FlankSide, RollerLine, SweptFlanks, SweptGeometry, largest, pressure_angles};
 use crate::machine::Machine;
 use crate::pipeline::{Cam, Spec};
 use nalgebra::Vector3;
+
+type Barrel = super::Barrel<RollerPath>;
 
 fn barrel(overrides: &[&str]) -> (Barrel, Cam) {
     let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();

@@ -1,23 +1,22 @@
 //! The barrel under a tool of a machine with four axes.
 
-use super::Barrel;
-use super::contact::AxisLine;
+use super::{Barrel, BarrelLine, BarrelRoller};
 use crate::body::swept::{FlankSide, RollerLine, TurnedCam};
 use camgen_kernel::geometry::MILLIMETRES;
 
-impl Barrel {
+impl<R: BarrelRoller> Barrel<R> {
     /// Where the groove is half as deep, from the axis, m.
     pub(super) fn half_deep(&self) -> f64 {
         self.outer - 0.5 * self.depth
     }
 
-    fn axis_at(&self, a_deg: f64) -> AxisLine {
+    fn axis_at(&self, a_deg: f64) -> R::Line {
         let (piece, angle) = self.groove.motion.locate((self.groove.sense() * a_deg).to_radians());
         self.axis(piece, angle)
     }
 }
 
-impl TurnedCam for Barrel {
+impl<R: BarrelRoller> TurnedCam for Barrel<R> {
     fn widest_tool(&self) -> f64 {
         self.groove.widest_tool()
     }
@@ -44,17 +43,17 @@ impl TurnedCam for Barrel {
 
     fn tool_place(&self, flank: Option<FlankSide>, tool: f64, a_deg: f64) -> [f64; 2] {
         let axis = self.axis_at(a_deg);
-        let (sin, cos) = axis.point(axis.at_distance(self.half_deep())).slope;
+        let (sin, cos) = axis.point(axis.axis().at_distance(self.half_deep())).slope;
         let away = self.groove.tool_offset(flank, tool);
         // Y of a machine with X along the cam and Z outwards is against the angle of the drawing.
-        let beside = -self.groove.sense() * (axis.across[0] - away * sin);
-        [axis.along[0] + away * cos, beside].map(|length| MILLIMETRES * length)
+        let beside = -self.groove.sense() * (axis.axis().across[0] - away * sin);
+        [axis.axis().along[0] + away * cos, beside].map(|length| MILLIMETRES * length)
     }
 
     fn across(&self, a_deg: f64, [along, beside]: [f64; 2]) -> f64 {
         let axis = self.axis_at(a_deg);
         let of = |from_axis: f64| {
-            let (sin, cos) = axis.point(axis.at_distance(from_axis)).slope;
+            let (sin, cos) = axis.point(axis.axis().at_distance(from_axis)).slope;
             along * cos + self.groove.sense() * beside * sin
         };
         let [floor, outside] = [self.floor(), self.outer].map(of);

@@ -111,7 +111,7 @@ impl SweptGeometry for Globoid {
 
 impl SweptBody for Globoid {
     const KIND: &'static Kind = &GLOBOID;
-    const WORDS: &'static SweptWords = &WORDS;
+    const WORDS: SweptWords = WORDS;
 
     fn lobes(&self) -> u32 {
         1

@@ -1,7 +1,7 @@
 //! The globoid as a body with swept flanks: the rollers rolled past any point, its round faces and its volume.
 
 use super::{End, Globoid};
-use crate::body::swept::{FlankMiss, FlankSide, RoundFace, RoundForm, SweptFlanks, integrate_smooth, miss};
+use crate::body::swept::{FlankMiss, FlankSide, RoundFace, RoundForm, SweptFlanks, TurnedCam, integrate_smooth, miss};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::numeric::quadrature;
 use nalgebra::Vector3;
@@ -80,6 +80,10 @@ impl Globoid {
 }
 
 impl SweptFlanks for Globoid {
+    fn turned(&self) -> Result<&dyn TurnedCam, &'static str> {
+        Err("its flanks lie in space: -two-axes.csv has the places of the tool")
+    }
+
     fn miss(&self, point: Vector3<f64>) -> FlankMiss {
         miss(self, point)
     }

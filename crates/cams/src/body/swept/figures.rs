@@ -70,7 +70,7 @@ pub(crate) fn least_fold<B: SweptGeometry>(body: &B) -> Worst {
             let sign = body.groove().signed(flank).signum();
             let [floor, outside] = [BlankSurface::Floor, BlankSurface::Outside].map(|surface| {
                 // A flank that does not reach a surface keeps no limit.
-                body.contact_on(line, flank, surface).map_or(0.0, |point| point.folds_at(sign))
+                body.contact_on(line, flank, surface).map_or(0.0, |point| line.folds_at(&point, sign))
             });
             floor.min(outside)
         });

@@ -85,10 +85,11 @@ pub trait SweptFlanks: Sync {
     /// Outside, floor and ends.
     fn form(&self) -> RoundForm;
 
-    /// The body as a machine turns it about its axis under a tool, where one can cut it so.
-    fn turned(&self) -> Option<&dyn TurnedCam> {
-        None
-    }
+    /// The body as a machine turns it about its axis under a tool.
+    ///
+    /// # Errors
+    /// Why no tool cuts it so.
+    fn turned(&self) -> Result<&dyn TurnedCam, &'static str>;
 
     /// The layers of the developed view of the outside with the ends of the curve on each, mm; none where the outside cannot be developed.
     fn developed(&self) -> Vec<(Layer, [Vector2<f64>; 2])> {

@@ -37,18 +37,18 @@ fn contact<B: SweptBody>(body: &B, lift: &Jet, touching: &TouchingRoller<B::Line
     // The flank that lifts lies below.
     let curvatures = [FlankSide::Lower, FlankSide::Upper].map(|flank| {
         let distance = groove.signed(flank);
-        let of_flank =
-            [inner, middle, outer].map(|v| line.reduced_curvature(&line.point(v), distance) - distance.abs().recip());
-        groove.roller.recip() + of_flank.into_iter().fold(f64::NAN, f64::max)
+        let curvatures = [inner, middle, outer]
+            .map(|v| line.curvature_under(&line.point(v), distance, line.radius_at(v, groove.roller)));
+        curvatures.into_iter().fold(f64::NAN, f64::max)
     });
     let point = line.point(middle);
     GrooveContact {
         roller: *roller,
-        length: *length,
-        pressure_angle: body.pressure_angle(lift, line, middle),
+        length: *length * line.slant(),
+        pressure_angle: line.normal_angle(body.pressure_angle(lift, line, middle)),
         leverage: body.way_of_lift(),
         curvatures,
-        by_path: [point.speed, line.speed_slope(&point)].map(|speed| speed / groove.roller),
+        by_path: [point.speed, line.speed_slope(&point)].map(|speed| speed / line.radius_at(middle, groove.roller)),
         carrier_turn: body.carrier_turn(lift, line),
     }
 }

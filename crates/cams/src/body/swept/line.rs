@@ -54,6 +54,31 @@ pub(crate) trait RollerLine {
         let along = point.tip * steps.across_by_v / steps.area();
         1.0 / distance.abs() - distance.signum() * (along + point.bend_across(&steps))
     }
+
+    /// That curvature with a roller of a radius, m, in the place of one that fills the groove.
+    fn curvature_under(&self, point: &LinePoint, distance: f64, roller: f64) -> f64 {
+        roller.recip() + (self.reduced_curvature(point, distance) - distance.abs().recip())
+    }
+
+    /// The smallest distance from the centre line, m, above it (sign 1) or below it (−1), at which the flank folds over itself.
+    fn folds_at(&self, point: &LinePoint, sign: f64) -> f64 {
+        point.folds_at(sign)
+    }
+
+    /// Radius at a place along a roller, or distance of a flank, m, whose radius is given on the outside of the cam.
+    fn radius_at(&self, _v: f64, radius: f64) -> f64 {
+        radius
+    }
+
+    /// Angle between the normal of a flank and the path of the roller, rad, whose angle in the plane across the roller is given.
+    fn normal_angle(&self, in_plane: f64) -> f64 {
+        in_plane
+    }
+
+    /// Length of a line along the roller's surface over that along its axis.
+    fn slant(&self) -> f64 {
+        1.0
+    }
 }
 
 impl LinePoint {

@@ -129,7 +129,7 @@ pub(crate) trait SweptMeasures {
 }
 
 /// The words in which bodies with the same rule differ.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct SweptWords {
     pub(crate) noun: &'static str,
     /// Why a cam whose flanks fold has no drawing.
@@ -145,7 +145,7 @@ pub(crate) struct SweptWords {
 /// A cam of such rollers: what it is made of, and what is shown of it alone.
 pub(crate) trait SweptBody: SweptGeometry + SweptMeasures + SweptFlanks {
     const KIND: &'static Kind;
-    const WORDS: &'static SweptWords;
+    const WORDS: SweptWords;
 
     /// Equal lobes of a turn.
     fn lobes(&self) -> u32 {

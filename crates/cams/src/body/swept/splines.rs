@@ -21,7 +21,7 @@ pub(crate) fn fitted_flanks(
     stretches: &[FlankStretch<'_>],
     across: (f64, f64),
     tolerance: f64,
-    words: &SweptWords,
+    words: SweptWords,
 ) -> Result<(Vec<SplineSurface>, f64), Refusal> {
     let (patches, deviation) = fitted(stretches, across, SHARE * tolerance).map_err(|(missed, rings)| {
         let noun = words.noun;

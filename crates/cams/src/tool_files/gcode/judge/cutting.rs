@@ -197,7 +197,7 @@ fn feeds(evidence: &Evidence<'_>, design: &CuttingData, program: &CutterProgram)
     for cut in &program.feeds {
         refused(cut.line, cut.feed, if cut.plunges { (design.plunge_feed, "plunge_feed") } else { along })?;
     }
-    let around = evidence.body.swept().and_then(|swept| swept.turned()).map(|cam| MILLIMETRES * cam.outside());
+    let around = evidence.body.swept().and_then(|swept| swept.turned().ok()).map(|cam| MILLIMETRES * cam.outside());
     for pass in &program.turned {
         for (pair, (line, rate)) in pass.rows.windows(2).zip(&pass.rates) {
             refused(*line, rate * length(pass, pair, around), along)?;

@@ -29,7 +29,7 @@ pub(super) fn judged(
     program: &CutterProgram,
 ) -> Result<JudgedProgram, ProgramFault> {
     let axis = program.turned.first().map_or('C', |pass| pass.axis);
-    match (evidence.body.swept().and_then(|swept| swept.turned()), axis) {
+    match (evidence.body.swept().and_then(|swept| swept.turned().ok()), axis) {
         (Some(cam), 'A') => Barrel { cam, evidence, written }.judged(program),
         (Some(_), _) => Err(ProgramFault::new("a program for a barrel turns it about A")),
         (None, 'A') => Err(ProgramFault::new("the program turns the cam about A, which only a barrel is milled so")),

@@ -139,14 +139,12 @@ const MOST_BLOCKS: usize = 200_000;
 #[must_use]
 pub fn unfit(body: &dyn Body) -> Option<&'static str> {
     let leans = "its flank leans along the axis: a cutter that is moved round one section of it cuts into the next";
-    let in_space = "its flanks lie in space: -two-axes.csv has the places of the tool";
-    let fixed = body.swept().filter(|swept| swept.turned().is_none());
-    body.surface().map(|_| leans).or(fixed.map(|_| in_space))
+    body.surface().map(|_| leans).or(body.swept().and_then(|swept| swept.turned().err()))
 }
 
 /// A body that is turned under its tool.
 fn turned(body: &dyn Body) -> Option<&dyn TurnedCam> {
-    body.swept()?.turned()
+    body.swept()?.turned().ok()
 }
 
 /// The radius of a cutter as wide as the groove of a body, m.

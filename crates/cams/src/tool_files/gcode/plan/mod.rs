@@ -17,7 +17,7 @@ pub(super) fn programs(body: &dyn Body, request: &Request) -> Result<Vec<Milling
     let Some(asked) = request.milling.filter(|_| milling::unfit(body).is_none()) else {
         return milling::programs(body, request);
     };
-    match body.swept().and_then(|swept| swept.turned()) {
+    match body.swept().and_then(|swept| swept.turned().ok()) {
         _ if body.machine().cutting().form == CuttingForm::Polar => polar::program(body, request, asked),
         Some(cam) => four_axes::program(body, request, (cam, asked)),
         None => milling::programs(body, request),
