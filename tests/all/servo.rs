@@ -2,7 +2,7 @@
 
 use crate::common::program::camgen_in;
 use camgen::body::Inspection;
-use camgen::tool_files::{inspection, servo};
+use camgen::tool_files::{inspection, requested, servo};
 use camgen::{Cam, Machine, Request, Spec, Verdict, Writing};
 
 const TOLERANCE: f64 = 5e-6;
@@ -41,7 +41,7 @@ fn every_table_moves_a_drive_as_the_cam_moves_its_follower() {
         ("feeder", &["motion.segment[0].law=harmonic", "motion.segment[4].law=harmonic", "limits.continuity=1"]),
     ] {
         let cam = cam(name, sets);
-        let request = Request { formats: servo::NAMES.into_iter().collect(), ..Request::within(TOLERANCE) };
+        let request = Request { formats: requested(&servo::NAMES), ..Request::within(TOLERANCE) };
         let names = FORMATS.map(|(format, _)| format);
         let mut files = files(&cam, request, "servo", &names);
         // A cam that is not cut in a plane also has the tables of its flanks.
@@ -62,7 +62,7 @@ fn every_table_moves_a_drive_as_the_cam_moves_its_follower() {
 #[test]
 fn a_table_of_an_indexer_goes_on() {
     let cam = cam("indexer", &[]);
-    let request = Request { formats: servo::NAMES.into_iter().collect(), ..Request::within(TOLERANCE) };
+    let request = Request { formats: requested(&servo::NAMES), ..Request::within(TOLERANCE) };
     let files = files(&cam, request, "servo", &["servo-csv"]);
     let (_, bytes) = files.iter().find(|(file, _)| file.ends_with("-servo.csv")).expect("a table");
     let text = String::from_utf8(bytes.clone()).expect("text");
@@ -91,7 +91,7 @@ fn a_table_of_an_indexer_goes_on() {
 #[test]
 fn a_table_with_a_fault_is_refused() {
     let cam = cam("feeder", &[]);
-    let request = Request { formats: servo::NAMES.into_iter().collect(), ..Request::within(TOLERANCE) };
+    let request = Request { formats: requested(&servo::NAMES), ..Request::within(TOLERANCE) };
     let files = files(&cam, request, "servo", &["servo-csv"]);
     let text = String::from_utf8(files[0].1.clone()).expect("text");
     let lines: Vec<&str> = text.lines().collect();
@@ -190,7 +190,7 @@ fn places_lie_on_the_profile_and_the_ball_touches_there() {
 fn a_table_of_straight_lines_keeps_the_velocity() {
     for name in ["feeder", "lever"] {
         let cam = cam(name, &[]);
-        let request = Request { formats: servo::NAMES.into_iter().collect(), ..Request::within(TOLERANCE) };
+        let request = Request { formats: requested(&servo::NAMES), ..Request::within(TOLERANCE) };
         let files = files(&cam, request, "servo", &["servo-isg"]);
         assert!(files[0].0.ends_with("-isg.txt"), "{}", files[0].0);
         let text = String::from_utf8(files[0].1.clone()).expect("text");

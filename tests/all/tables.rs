@@ -24,7 +24,7 @@ use camgen::motion::laws::{LAWS, LINE};
 use camgen::pipeline::{Assembly, Cam, Error, Judged, Proven, Spec, Writing};
 use camgen::report::{Report, Verdict};
 use camgen::table::COLUMNS;
-use camgen::tool_files::{formats, formats_by_name};
+use camgen::tool_files::{formats, formats_by_name, requested};
 use camgen::write::FormatSelection;
 use std::fs;
 
@@ -364,7 +364,7 @@ fn only(format: &str) -> Request {
         flank: true,
         points: every.points.filter(|_| format == "points"),
         milling: every.milling.filter(|_| format == "gcode"),
-        formats: formats_by_name().map(|format| format.name).filter(|name| *name == format).collect(),
+        formats: requested(&[format]),
         inspection: every.inspection.filter(|_| format == "inspect"),
         gauge: every.gauge.filter(|_| format == "gauge"),
         ..Request::within(TOLERANCE)
@@ -377,7 +377,7 @@ fn of_every_tool() -> Request {
         cutter_radius: Some(0.01),
         points: Some(camgen::body::Points::default()),
         milling: Some(camgen::body::Milling::default()),
-        formats: formats_by_name().map(|format| format.name).collect(),
+        formats: requested(&formats_by_name().map(|format| format.name).collect::<Vec<_>>()),
         inspection: Some(camgen::body::Inspection { ball_radius: 1.5e-3 }),
         gauge: Some(camgen::body::Gauge::Flat),
         ..Request::within(TOLERANCE)

@@ -86,8 +86,9 @@ fn checks_with(domains: &[&Domain]) -> Vec<&'static Check> {
     let mut all: Vec<&'static Check> =
         CHECKS.iter().map(|check| &**check).chain([&compare::DEVIATION, &import::DEVIATION]).collect();
     for file in tool_files() {
-        let before = all.iter().position(|check| check.name == file.stands_after());
-        all.insert(before.map_or(all.len(), |before| before + 1), file.check());
+        let facts = file.facts();
+        let before = all.iter().position(|check| check.name == facts.stands_after);
+        all.insert(before.map_or(all.len(), |before| before + 1), facts.check);
     }
     for added in domains.iter().flat_map(|domain| domain.checks) {
         added.put_into(&mut all, |check| check.name);
@@ -101,7 +102,7 @@ fn file_checks() -> impl Iterator<Item = &'static Check> {
         CheckEntry::File(check) => Some(&check.check),
         CheckEntry::Figure(_) => None,
     });
-    of_outlines.chain(tool_files().map(|file| file.check()))
+    of_outlines.chain(tool_files().map(|file| file.facts().check))
 }
 
 /// Every check, in the order of reports.

@@ -53,7 +53,7 @@ pub use sizing::size_limits;
 pub use sizing::{broken_limit, no_radius, passing};
 pub use surface::Surface;
 pub use swept::{RoundFace, SweptDrawing, SweptFlanks};
-pub use wishes::{FormatNames, Gauge, Inspection, Milling, PointCurve, Points};
+pub use wishes::{FormatSet, Gauge, Inspection, Milling, PointCurve, Points};
 pub use worst_places::WorstPlaces;
 pub use worst_places::{STRAIGHT, radius_of};
 
@@ -222,8 +222,8 @@ pub struct Request {
     pub inspection: Option<Inspection>,
     /// The gauge follower whose lift table is needed.
     pub gauge: Option<Gauge>,
-    /// Formats of files that machines run and that have no options.
-    pub formats: FormatNames,
+    /// Formats of files that machines run and that have no options: [`tool_files::requested`](crate::tool_files::requested).
+    pub formats: FormatSet,
     /// Largest errors of velocity and acceleration as cut, in place of those of `fit`.
     pub rates: [Option<RateTolerance>; 2],
     /// Refuse a cam whose follower has larger errors, of velocity and of acceleration; else they are only reported.
@@ -255,7 +255,7 @@ impl Request {
             cutter_radius: None,
             points: None,
             milling: None,
-            formats: FormatNames::default(),
+            formats: FormatSet::default(),
             inspection: None,
             gauge: None,
             rates: [None; 2],
@@ -268,7 +268,7 @@ impl Request {
     /// Without the files that machines run in addition to the outline.
     #[must_use]
     pub fn without_tool_files(self) -> Self {
-        let formats = FormatNames::default();
+        let formats = FormatSet::default();
         Self { points: None, milling: None, formats, inspection: None, gauge: None, ..self }
     }
 

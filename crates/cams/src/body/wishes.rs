@@ -62,25 +62,19 @@ pub struct Milling {
     pub controller: Option<Controller>,
 }
 
-/// Names of formats, as few as a request can be copied with.
+/// Formats by their places in the list of all that machines run, of which there are at most 64.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct FormatNames([&'static str; MOST_NAMES]);
+pub struct FormatSet(u64);
 
-/// Most of them: more than there are formats for machines.
-const MOST_NAMES: usize = 32;
-
-impl FormatNames {
-    /// Whether a format is one of them.
+impl FormatSet {
+    /// With the format of a place.
     #[must_use]
-    pub fn contains(&self, name: &str) -> bool {
-        !name.is_empty() && self.0.contains(&name)
+    pub(crate) fn with(self, place: usize) -> Self {
+        Self(self.0 | 1 << place)
     }
-}
 
-impl FromIterator<&'static str> for FormatNames {
-    fn from_iter<T: IntoIterator<Item = &'static str>>(names: T) -> Self {
-        let mut all = Self::default();
-        all.0.iter_mut().zip(names).for_each(|(place, name)| *place = name);
-        all
+    /// Whether the format of a place is one of them.
+    pub(crate) fn contains(self, place: usize) -> bool {
+        self.0 & 1 << place != 0
     }
 }

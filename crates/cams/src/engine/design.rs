@@ -6,6 +6,7 @@ use crate::catalogue::{commands, usual_command};
 use crate::machine::{Machine, MachineSource, valid_rpm};
 use crate::pipeline::{AssemblyDrawing, Error, ProvenAssembly, Spec, Writing};
 use crate::report::Finding;
+use crate::tool_files::Format;
 use crate::verify::WrittenOutline;
 use crate::write::{Rendering, html, svg};
 use camgen_kernel::geometry::MILLIMETRES;
@@ -55,7 +56,7 @@ pub(super) fn proven(
     let drawing = assembly.draw(Request {
         rates: [None, Accuracy::Standard.acceleration()],
         strict: [false; 2],
-        flank: formats.iter().any(|format| format.shows_flank()),
+        flank: formats.iter().any(Format::shows_flank),
         ..Request::within(Fit::from(tolerance(request)?))
     });
     Ok((drawing.and_then(AssemblyDrawing::prove)?, writing))

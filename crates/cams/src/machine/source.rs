@@ -179,7 +179,7 @@ impl Catalogue {
     /// Whether a check of this name reads what was written.
     #[must_use]
     pub fn reads_files(&self, check: &str) -> bool {
-        self.file_checks.iter().any(|name| *name == check)
+        self.file_checks.contains(&check)
     }
 
     /// The text of an embedded machine by its name, or of a file; `files` reads it and the files that it names.

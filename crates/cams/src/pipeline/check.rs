@@ -6,8 +6,9 @@ use crate::body::{Body, Cut, Layer, Request};
 use crate::reading::step::{FaceLoop, FlankShape, SolidForm, StepFile};
 use crate::reading::{self, Chain, Reading, step};
 use crate::report::{Finding, Inputs, Report, Rolled, Section, Verdict};
-use crate::tool_files::ExpectedFile;
+use crate::tool_files::dxf::{judge_path, judge_swept};
 use crate::tool_files::section::{CutSection, section};
+use crate::tool_files::{ExpectedFile, JudgedFile, SolvedCam};
 use crate::verify::{self, Evidence, WrittenOutline, WrittenSolid, join_reach, rolling, shell_reach};
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::profile::outline::MotionTolerance;
@@ -77,16 +78,37 @@ impl Cam {
         kind.of_body(self.body()).map_err(Error::Read)?;
         let swept = self.body().swept().is_some();
         match kind {
-            FileKind::Step | FileKind::Dxf if swept => return self.check_swept(bytes, &request),
+            FileKind::Step | FileKind::Dxf if swept => {
+                let (what, judged) = judge_swept(&self.solved(&request), bytes)?;
+                return Ok(self.report_on(what, &request, judged));
+            }
             FileKind::Step if expected.section.is_some() => {
                 let refusal = Refusal::new("a STEP file holds the solid of all sections");
                 return Err(Error::Section(refusal.remedy("give no section")));
             }
             FileKind::Step => return self.check_solid(bytes, &request),
-            FileKind::Tool(file) => return self.check_tool_file(file, bytes, expected, &request),
+            FileKind::Tool(file) => {
+                let judged = file.judge(&self.solved(&request), expected, bytes)?;
+                return Ok(self.report_on(file.facts().noun, &request, judged));
+            }
             FileKind::Dxf | FileKind::Shown(_) => {}
         }
         self.check_drawing(bytes, expected, request)
+    }
+
+    /// The cam as files are compared with it.
+    fn solved<'a>(&'a self, request: &'a Request) -> SolvedCam<'a> {
+        SolvedCam { body: self.body(), request }
+    }
+
+    /// The report on a file that is not the outline itself.
+    fn report_on(&self, what: &str, request: &Request, judged: JudgedFile) -> Report {
+        let JudgedFile { findings, outline, .. } = judged;
+        let mut sections = vec![Section::new("cam", &self.body().kind().noun)];
+        sections.extend(diagnosis::of(self, (0, None), outline.as_ref(), (&findings, request.fit.tolerance)));
+        let whole = report(self.body(), Inputs::of(&self.inputs_for(request)), sections, findings);
+        let noun = format!("{what} of a {}", whole.noun).into();
+        Report { command: "check".into(), noun, not_modelled: Vec::new(), ..whole }
     }
 
     /// The report on a DXF file.
@@ -97,7 +119,8 @@ impl Cam {
         let reach = join_reach(request.fit.tolerance_mm());
         let reading = reading::read_with_outline(bytes, reach, expected.layer).map_err(Error::Read)?;
         if expected.layer.is_none() && is_cutter_path(&reading) {
-            return self.check_cutter_path(bytes, expected, &request);
+            let judged = judge_path(&self.solved(&request), expected, bytes)?;
+            return Ok(self.report_on("path of a cutter", &request, judged));
         }
         let section = section(self.body(), expected.section)?;
         if section.is_none() && self.is_one_file() {

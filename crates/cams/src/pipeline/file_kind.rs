@@ -57,7 +57,7 @@ impl FileKind {
         let (what, unfit) = match self {
             Self::Dxf | Self::Step => return Ok(()),
             Self::Shown(what) => return Err(not_cut(what)),
-            Self::Tool(file) => (file.described(), file.unfit(body)),
+            Self::Tool(file) => (file.facts().described, file.unfit(body)),
         };
         unfit.map_or(Ok(()), |why| Err(Refusal::new(format!("{what}, and a {} has none: {why}", body.kind().noun))))
     }
@@ -112,7 +112,7 @@ mod tests {
         match FileKind::of(bytes) {
             FileKind::Dxf => "dxf",
             FileKind::Step => "step",
-            FileKind::Tool(file) => file.check().name,
+            FileKind::Tool(file) => file.facts().check.name,
             FileKind::Shown(what) => what,
         }
     }

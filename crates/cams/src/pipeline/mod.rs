@@ -9,7 +9,6 @@ mod assembly;
 mod builder;
 mod cam_files;
 mod check;
-mod check_tool_files;
 mod diagnosis;
 mod error;
 mod file_kind;

@@ -116,7 +116,7 @@ impl Drawing {
             ..Evidence::without_files(body, tolerance_mm, self.request.fit.motion)
         };
         let tool_files = prove(self.tool_files.clone(), &self.drawn_cam(), &evidence, &hashed.to_string());
-        let of_tool_files: Vec<Finding> = tool_files.iter().filter_map(ProvedToolFile::finding).cloned().collect();
+        let of_tool_files: Vec<Finding> = tool_files.iter().flat_map(ProvedToolFile::findings).cloned().collect();
         let findings = verify::run(&Evidence { of_tool_files: &of_tool_files, ..evidence });
         let Drawing { cam, request, inputs, drawn, .. } = self;
         Proven(Arc::new(ProvenData { cam, request, inputs, hashed, drawn, cuts, tool_files, rolled, findings }))
@@ -213,7 +213,7 @@ impl Proven {
 
     /// The files of this kind, where they were requested with the drawing.
     fn tool_file(&self, file: &dyn ToolFile) -> Option<&ProvedToolFile> {
-        self.0.tool_files.iter().find(|proved| proved.file().check().name == file.check().name)
+        self.0.tool_files.iter().find(|proved| proved.file().facts().check.name == file.facts().check.name)
     }
 
     /// The cam as its files are written of it.
@@ -256,14 +256,14 @@ impl Proven {
             Listed::Cut(cut) => return Ok(bytes_of(&(cut.files)(&self.0.cuts, rendering)?)),
             Listed::Tool(file) => file,
         };
-        let proved = self.tool_file(file).ok_or_else(|| file.not_planned())?;
+        let proved = self.tool_file(file).ok_or_else(|| Refusal::new(file.facts().not_planned))?;
         let files = if warning(&self.0.findings).is_some() {
             proved.files_under(&rendering.report.mark(), format.name, &self.drawn_cam(), &self.evidence())?
         } else {
             proved.files(format.name)?
         };
         if files.is_empty() {
-            return Err(file.not_planned());
+            return Err(Refusal::new(file.facts().not_planned));
         }
         let mut all = bytes_of(&files);
         all.extend(proved.sheets(rendering)?);

@@ -7,6 +7,7 @@ use crate::body::{DrawingEvidence, Request};
 use crate::check::{AsWritten, Check, Measures, Walls};
 use crate::machine::{Machine, MachineError, valid_rpm};
 use crate::pipeline::{Assembly, AssemblyDrawing, Writing};
+use crate::tool_files::Format;
 use crate::verify;
 use crate::write::number::shortest;
 use camgen_kernel::geometry::MILLIMETRES;
@@ -109,7 +110,7 @@ impl Study {
     /// The figures of a proved cam, and why it has no outline, where it has none.
     fn proven(&self, assembly: &Assembly, plan: &Plan) -> Result<(Value, Option<String>), String> {
         let formats = Writing::to("", "").chosen(assembly.first().body());
-        let flank = formats.is_ok_and(|(formats, _)| formats.iter().any(|format| format.shows_flank()));
+        let flank = formats.is_ok_and(|(formats, _)| formats.iter().any(Format::shows_flank));
         let request = Request { flank, ..Request::usual(self.tolerance) };
         let proven = assembly.draw(request).and_then(AssemblyDrawing::prove).map_err(|why| why.to_string())?;
         let no_outline = proven.no_outline().map(|why| format!("there is no outline: {why}"));

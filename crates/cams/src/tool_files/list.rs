@@ -8,7 +8,7 @@ use super::points::PointFile;
 use super::servo::ServoFile;
 use super::table::TableFile;
 use super::tool_file::ToolFile;
-use crate::body::{Body, FormatNames};
+use crate::body::{Body, FormatSet};
 use crate::write::{self, AnalysisFormat, FormatSelection, View};
 
 /// An entry of the list.
@@ -108,18 +108,33 @@ pub fn formats() -> impl Iterator<Item = Format> {
             Shown(view) => all.push(Format { name: view.name, when: view.when, source }),
             Cut(cut) => all.push(Format { name: cut.name, when: cut.when, source }),
             Tool(file) => {
-                all.extend(file.formats().iter().map(|&name| Format { name, when: FormatSelection::Asked, source }))
+                all.extend(file.facts().formats.iter().map(|&name| Format {
+                    name,
+                    when: FormatSelection::Asked,
+                    source,
+                }));
             }
         }
     }
     all.into_iter()
 }
 
+/// The names of the formats that machines run.
+fn tool_formats() -> impl Iterator<Item = &'static str> {
+    tool_files().flat_map(|file| file.facts().formats).copied()
+}
+
 /// Those of the named formats that a machine runs, for a request.
 #[must_use]
-pub fn requested(names: &[String]) -> FormatNames {
-    let run = tool_files().flat_map(ToolFile::formats).copied();
-    run.filter(|name| names.iter().any(|asked| asked == name)).collect()
+pub fn requested(names: &[impl AsRef<str>]) -> FormatSet {
+    let named = |format: &str| names.iter().any(|name| name.as_ref() == format);
+    let places = tool_formats().enumerate().filter(|(_, format)| named(format));
+    places.fold(FormatSet::default(), |all, (place, _)| all.with(place))
+}
+
+/// Whether a format of a file is one of a set.
+pub(super) fn is_named(file: &dyn ToolFile, formats: FormatSet) -> bool {
+    tool_formats().enumerate().any(|(place, format)| formats.contains(place) && file.facts().formats.contains(&format))
 }
 
 /// The formats that can be requested.

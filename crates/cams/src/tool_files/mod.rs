@@ -21,4 +21,6 @@ mod tool_file;
 
 pub use list::{Format, LISTED, Listed, formats, formats_by_name, recognised, requested, tool_files};
 pub use proof::{PlannedFile, ProvedFile, ProvedToolFile, plan, prove};
-pub use tool_file::{DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, WrittenFile};
+pub use tool_file::{
+    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, ToolFileFacts, WrittenFile,
+};

@@ -1,8 +1,8 @@
 //! The way of a file that a machine runs: planned with the drawing, written to memory, read back and judged. Only then is it a [`ProvedFile`].
 
-use super::list::tool_files;
+use super::list::{is_named, tool_files};
 use super::tool_file::{DrawnCam, JudgedFile, Plan, ToolFile, WrittenFile};
-use crate::report::{Finding, Section};
+use crate::report::{Finding, Section, passed};
 use crate::verify::Evidence;
 use crate::write::Rendering;
 use camgen_kernel::refusal::Refusal;
@@ -56,9 +56,10 @@ pub struct ProvedToolFile {
 pub fn plan(cam: &DrawnCam<'_>) -> Result<Vec<PlannedFile>, Refusal> {
     let order = &cam.body.machine().catalogue().checks;
     let mut files: Vec<&'static dyn ToolFile> = tool_files().collect();
-    files.sort_by_key(|file| order.iter().position(|name| *name == file.check().name).unwrap_or(order.len()));
-    let planned =
-        |file: &'static dyn ToolFile| Ok(file.plan(cam)?.map(|plan| PlannedFile { file, plan: Arc::from(plan) }));
+    files.sort_by_key(|file| order.iter().position(|name| *name == file.facts().check.name).unwrap_or(order.len()));
+    let planned = |file: &'static dyn ToolFile| {
+        Ok(file.plan(cam, is_named(file, cam.request.formats))?.map(|plan| PlannedFile { file, plan: Arc::from(plan) }))
+    };
     files.into_iter().filter_map(|file| planned(file).transpose()).collect()
 }
 
@@ -87,8 +88,8 @@ fn proved(written: &[WrittenFile], format: &str) -> Result<Vec<ProvedFile>, Refu
 impl ProvedToolFile {
     /// What its check found.
     #[must_use]
-    pub fn finding(&self) -> Option<&Finding> {
-        self.judged.finding.as_ref()
+    pub fn findings(&self) -> &[Finding] {
+        &self.judged.findings
     }
 
     /// Its figures for the report.
@@ -136,9 +137,8 @@ impl ProvedToolFile {
             return self.files(format);
         }
         let written = plan.write(cam, mark);
-        let again = plan.judge(evidence, cam.request, &written).finding;
-        let verdict = |finding: Option<&Finding>| finding.map(|finding| finding.verdict);
-        if verdict(again.as_ref()) != verdict(self.finding()) {
+        let again = plan.judge(evidence, cam.request, &written);
+        if passed(&again.findings) != passed(self.findings()) {
             return Err(
                 Refusal::new("the file under its warning is another than was proved").remedy("please report this")
             );

@@ -2,7 +2,7 @@
 
 use crate::body::{Body, Drawn, Request};
 use crate::check::Check;
-use crate::report::{Finding, Section, Verdict};
+use crate::report::{Finding, Section, passed};
 use crate::verify::Evidence;
 use crate::write::Rendering;
 use camgen_kernel::geometry::MILLIMETRES;
@@ -10,23 +10,28 @@ use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::refusal::Refusal;
 use std::fmt::Debug;
 
-/// A kind of file that a machine runs.
-pub trait ToolFile: Debug + Sync {
-    /// Its check.
-    fn check(&self) -> &'static Check;
-
-    /// The name of the check behind which its own stands in reports.
-    fn stands_after(&self) -> &'static str;
-
+/// What a kind of file is called, and where it stands in lists.
+#[derive(Debug)]
+pub struct ToolFileFacts {
     /// What a report on one calls it: "table for a servo drive".
-    fn noun(&self) -> &'static str;
-
+    pub noun: &'static str,
     /// What a refusal calls one: "a table for a servo drive".
-    fn described(&self) -> &'static str;
-
+    pub described: &'static str,
     /// The names of the formats that it is written in when they are requested; none of a file that is only read. They have no writer: their files
     /// are those that were proved.
-    fn formats(&self) -> &'static [&'static str];
+    pub formats: &'static [&'static str],
+    /// Why a file of them cannot be written that was not planned.
+    pub not_planned: &'static str,
+    /// Its check.
+    pub check: &'static Check,
+    /// The name of the check behind which its own stands in reports.
+    pub stands_after: &'static str,
+}
+
+/// A kind of file that a machine runs.
+pub trait ToolFile: Debug + Sync {
+    /// What it is called and where it stands.
+    fn facts(&self) -> &'static ToolFileFacts;
 
     /// Why a cam has none, if it has none.
     fn unfit(&self, _body: &dyn Body) -> Option<&'static str> {
@@ -47,17 +52,13 @@ pub trait ToolFile: Debug + Sync {
     /// [`Refusal`] when it cannot be read.
     fn read(&self, bytes: &[u8]) -> Result<(), Refusal>;
 
-    /// What is to be written of a cam; `None` where it was not requested.
+    /// What is to be written of a cam; `None` where it was not requested. A file without options is requested by the name of a format; one with
+    /// options has them in the request.
     ///
     /// # Errors
     /// [`Refusal`] when it was requested and the cam has no such file.
-    fn plan(&self, _cam: &DrawnCam<'_>) -> Result<Option<Box<dyn Plan>>, Refusal> {
+    fn plan(&self, _cam: &DrawnCam<'_>, _named: bool) -> Result<Option<Box<dyn Plan>>, Refusal> {
         Ok(None)
-    }
-
-    /// Why a file cannot be written that was not planned.
-    fn not_planned(&self) -> Refusal {
-        Refusal::new(format!("no {} was requested with the drawing", self.noun()))
     }
 
     /// Judges a file that somebody else may have written.
@@ -159,8 +160,8 @@ pub struct ExpectedFile<'a> {
 /// What was found of a file, or of the files that were planned together.
 #[derive(Debug, Clone, Default)]
 pub struct JudgedFile {
-    /// What its check found.
-    pub finding: Option<Finding>,
+    /// What its checks found.
+    pub findings: Vec<Finding>,
     /// The figures of the file for the report.
     pub section: Option<Section>,
     /// The outline that it cuts, where a diagnosis may explain what is wrong with it.
@@ -169,7 +170,7 @@ pub struct JudgedFile {
 
 impl From<Option<Finding>> for JudgedFile {
     fn from(finding: Option<Finding>) -> Self {
-        Self { finding, ..Self::default() }
+        Self { findings: finding.into_iter().collect(), ..Self::default() }
     }
 }
 
@@ -199,22 +200,17 @@ pub enum FileError {
 pub(super) fn best_of_cuts(
     cam: &SolvedCam<'_>,
     file: &ExpectedFile<'_>,
-    judge: impl Fn(usize) -> Result<Option<Finding>, FileError>,
+    judge: impl Fn(usize) -> Result<JudgedFile, FileError>,
 ) -> Result<JudgedFile, FileError> {
     let cuts = cam.body.cuts();
     let named = file.cut.and_then(|name| cuts.iter().position(|cut| cut.name == name));
     let wanted = named.map_or(0..cuts.len(), |named| named..named + 1);
     let first = judge(wanted.start)?;
-    for cut in wanted.skip(1).filter(|_| has_failed(first.as_ref())) {
+    for cut in wanted.skip(1).filter(|_| !passed(&first.findings)) {
         let next = judge(cut)?;
-        if !has_failed(next.as_ref()) {
-            return Ok(next.into());
+        if passed(&next.findings) {
+            return Ok(next);
         }
     }
-    Ok(first.into())
-}
-
-/// Whether a finding is a failure.
-fn has_failed(finding: Option<&Finding>) -> bool {
-    finding.is_some_and(|finding| finding.verdict == Verdict::Fail)
+    Ok(first)
 }

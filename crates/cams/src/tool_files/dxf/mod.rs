@@ -4,12 +4,14 @@
 //! other files are judged, too.
 
 mod cuts;
+mod judge;
 pub mod proof;
 #[cfg(feature = "second-reader")]
 mod second_reader;
 mod write;
 
 pub use cuts::ProvedCuts;
+pub use judge::{judge_path, judge_swept};
 pub use write::{DxfForm, Version, cutter_path, marked, write};
 
 use super::proof::ProvedFile;

@@ -8,9 +8,10 @@ mod write;
 pub use plan::{GaugeTable, table};
 pub use read::{GaugeRows, read};
 
-use super::tool_file::{DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, WrittenFile};
+use super::tool_file::{
+    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, ToolFileFacts, WrittenFile,
+};
 use crate::body::{Body, Request};
-use crate::check::Check;
 use crate::verify::Evidence;
 use camgen_kernel::refusal::Refusal;
 
@@ -21,25 +22,19 @@ pub const FORMAT: &str = "gauge";
 #[derive(Debug)]
 pub struct GaugeFile;
 
+/// What it is called and where it stands.
+const FACTS: ToolFileFacts = ToolFileFacts {
+    noun: "lift table of a gauge follower",
+    described: "the lift table of a gauge follower",
+    formats: &[FORMAT],
+    not_planned: "no table for a gauge follower was requested with the drawing",
+    check: &judge::CHECK,
+    stands_after: "inspection",
+};
+
 impl ToolFile for GaugeFile {
-    fn check(&self) -> &'static Check {
-        &judge::CHECK
-    }
-
-    fn stands_after(&self) -> &'static str {
-        "inspection"
-    }
-
-    fn noun(&self) -> &'static str {
-        "lift table of a gauge follower"
-    }
-
-    fn described(&self) -> &'static str {
-        "the lift table of a gauge follower"
-    }
-
-    fn formats(&self) -> &'static [&'static str] {
-        &[FORMAT]
+    fn facts(&self) -> &'static ToolFileFacts {
+        &FACTS
     }
 
     fn unfit(&self, body: &dyn Body) -> Option<&'static str> {
@@ -54,12 +49,8 @@ impl ToolFile for GaugeFile {
         read(bytes).map(drop).map_err(Refusal::new)
     }
 
-    fn plan(&self, cam: &DrawnCam<'_>) -> Result<Option<Box<dyn Plan>>, Refusal> {
+    fn plan(&self, cam: &DrawnCam<'_>, _named: bool) -> Result<Option<Box<dyn Plan>>, Refusal> {
         Ok(table(cam.body, cam.request).map(|table| Box::new(table) as Box<dyn Plan>))
-    }
-
-    fn not_planned(&self) -> Refusal {
-        Refusal::new("no table for a gauge follower was requested with the drawing")
     }
 
     fn judge(&self, cam: &SolvedCam<'_>, _file: &ExpectedFile<'_>, bytes: &[u8]) -> Result<JudgedFile, FileError> {

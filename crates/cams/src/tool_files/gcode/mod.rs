@@ -9,9 +9,10 @@ pub use plan::four_axes;
 pub use plan::milling::{self, MillingProgram};
 pub use read::{CutterMove, CutterProgram, CutterSide, MoveKind, TurnedPass, read};
 
-use super::tool_file::{DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, WrittenFile};
+use super::tool_file::{
+    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, ToolFileFacts, WrittenFile,
+};
 use crate::body::{Body, Cut, Request};
-use crate::check::Check;
 use crate::machine::Controller;
 use crate::report::ProgramMeasures;
 use crate::verify::Evidence;
@@ -29,25 +30,19 @@ pub const FORMAT: &str = "gcode";
 #[derive(Debug)]
 pub struct ProgramFile;
 
+/// What it is called and where it stands.
+const FACTS: ToolFileFacts = ToolFileFacts {
+    noun: "program",
+    described: "a program for a milling machine",
+    formats: &[FORMAT],
+    not_planned: "no program for a milling machine was requested with the drawing",
+    check: &judge::CHECK,
+    stands_after: "cutter_path",
+};
+
 impl ToolFile for ProgramFile {
-    fn check(&self) -> &'static Check {
-        &judge::CHECK
-    }
-
-    fn stands_after(&self) -> &'static str {
-        "cutter_path"
-    }
-
-    fn noun(&self) -> &'static str {
-        "program"
-    }
-
-    fn described(&self) -> &'static str {
-        "a program for a milling machine"
-    }
-
-    fn formats(&self) -> &'static [&'static str] {
-        &[FORMAT]
+    fn facts(&self) -> &'static ToolFileFacts {
+        &FACTS
     }
 
     fn unfit(&self, body: &dyn Body) -> Option<&'static str> {
@@ -67,7 +62,7 @@ impl ToolFile for ProgramFile {
         read(bytes).map(drop)
     }
 
-    fn plan(&self, cam: &DrawnCam<'_>) -> Result<Option<Box<dyn Plan>>, Refusal> {
+    fn plan(&self, cam: &DrawnCam<'_>, _named: bool) -> Result<Option<Box<dyn Plan>>, Refusal> {
         if cam.drawn.is_none() {
             return Ok(None);
         }
@@ -79,10 +74,6 @@ impl ToolFile for ProgramFile {
             Ok(programs) => Ok(programs),
         };
         Ok(Some(Box::new(PlannedPrograms(programs))))
-    }
-
-    fn not_planned(&self) -> Refusal {
-        Refusal::new("no program for a milling machine was requested with the drawing")
     }
 
     fn judge(&self, cam: &SolvedCam<'_>, file: &ExpectedFile<'_>, bytes: &[u8]) -> Result<JudgedFile, FileError> {
@@ -111,7 +102,7 @@ impl ToolFile for ProgramFile {
         let alone = cuts.len() == 1 && cuts.iter().all(|cut| cut.curves.is_some() && !Cut::is_hollow(cut));
         let finding = judge::judge(&cam.evidence()?, std::slice::from_ref(&written));
         let outline = if alone { judge::left_by(&written) } else { None };
-        Ok(JudgedFile { finding, outline, section: None })
+        Ok(JudgedFile { outline, ..finding.into() })
     }
 }
 
@@ -163,7 +154,7 @@ impl Plan for PlannedPrograms {
             });
         }
         let section = ProgramMeasures::section(&measures);
-        JudgedFile { finding: judge::judge(evidence, &written), section, outline: None }
+        JudgedFile { section, ..judge::judge(evidence, &written).into() }
     }
 
     fn warns(&self) -> bool {

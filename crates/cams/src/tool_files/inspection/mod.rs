@@ -10,10 +10,9 @@ pub(super) use judge::angle_of_place;
 pub use read::{ReadPlace, read};
 
 use super::tool_file::{
-    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, WrittenFile, best_of_cuts,
+    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, ToolFileFacts, WrittenFile, best_of_cuts,
 };
 use crate::body::{Body, Request};
-use crate::check::Check;
 use crate::verify::Evidence;
 use crate::write::{Rendering, endings_of_outlines};
 use camgen_kernel::refusal::Refusal;
@@ -27,25 +26,19 @@ pub const FORMAT: &str = "inspect";
 #[derive(Debug)]
 pub struct InspectionFile;
 
+/// What it is called and where it stands.
+const FACTS: ToolFileFacts = ToolFileFacts {
+    noun: "list of places",
+    described: "a list of places for a measuring machine",
+    formats: &[FORMAT],
+    not_planned: "no list of places was requested with the drawing",
+    check: &judge::CHECK,
+    stands_after: "servo",
+};
+
 impl ToolFile for InspectionFile {
-    fn check(&self) -> &'static Check {
-        &judge::CHECK
-    }
-
-    fn stands_after(&self) -> &'static str {
-        "servo"
-    }
-
-    fn noun(&self) -> &'static str {
-        "list of places"
-    }
-
-    fn described(&self) -> &'static str {
-        "a list of places for a measuring machine"
-    }
-
-    fn formats(&self) -> &'static [&'static str] {
-        &[FORMAT]
+    fn facts(&self) -> &'static ToolFileFacts {
+        &FACTS
     }
 
     fn unfit(&self, body: &dyn Body) -> Option<&'static str> {
@@ -60,7 +53,7 @@ impl ToolFile for InspectionFile {
         read(bytes).map(drop).map_err(Refusal::new)
     }
 
-    fn plan(&self, cam: &DrawnCam<'_>) -> Result<Option<Box<dyn Plan>>, Refusal> {
+    fn plan(&self, cam: &DrawnCam<'_>, _named: bool) -> Result<Option<Box<dyn Plan>>, Refusal> {
         let lists = plan::lists(cam.body, cam.request);
         Ok((!lists.is_empty()).then(|| Box::new(PlannedLists(lists)) as Box<dyn Plan>))
     }
@@ -71,7 +64,7 @@ impl ToolFile for InspectionFile {
             let list = WrittenInspection::read(cut, bytes);
             let contradicted = |places| judge::contradiction(cam.body, &text, list.ball_radius).map_or(Ok(places), Err);
             let list = WrittenInspection { places: list.places.and_then(contradicted), ..list };
-            Ok(judge::judge(&cam.evidence()?, &[list]))
+            Ok(judge::judge(&cam.evidence()?, &[list]).into())
         })
     }
 }

@@ -14,10 +14,9 @@ pub use write::write;
 
 use super::section::section;
 use super::tool_file::{
-    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, WrittenFile, best_of_cuts,
+    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, ToolFileFacts, WrittenFile, best_of_cuts,
 };
 use crate::body::Request;
-use crate::check::Check;
 use crate::report::PointMeasures;
 use crate::verify::Evidence;
 use crate::write::endings_of_outlines;
@@ -32,25 +31,19 @@ pub const FORMAT: &str = "points";
 #[derive(Debug)]
 pub struct PointFile;
 
+/// What it is called and where it stands.
+const FACTS: ToolFileFacts = ToolFileFacts {
+    noun: "table of points",
+    described: "a table of points",
+    formats: &[FORMAT],
+    not_planned: "no table of points was requested with the drawing, or the cutter has no path",
+    check: &judge::CHECK,
+    stands_after: "cutter_path",
+};
+
 impl ToolFile for PointFile {
-    fn check(&self) -> &'static Check {
-        &judge::CHECK
-    }
-
-    fn stands_after(&self) -> &'static str {
-        "cutter_path"
-    }
-
-    fn noun(&self) -> &'static str {
-        "table of points"
-    }
-
-    fn described(&self) -> &'static str {
-        "a table of points"
-    }
-
-    fn formats(&self) -> &'static [&'static str] {
-        &[FORMAT]
+    fn facts(&self) -> &'static ToolFileFacts {
+        &FACTS
     }
 
     fn recognises(&self, bytes: &[u8]) -> bool {
@@ -61,7 +54,7 @@ impl ToolFile for PointFile {
         read(bytes).map(drop).map_err(Refusal::new)
     }
 
-    fn plan(&self, cam: &DrawnCam<'_>) -> Result<Option<Box<dyn Plan>>, Refusal> {
+    fn plan(&self, cam: &DrawnCam<'_>, _named: bool) -> Result<Option<Box<dyn Plan>>, Refusal> {
         let Some(drawn) = cam.drawn else { return Ok(None) };
         let tables = match tables(cam.body, cam.request, drawn) {
             // The check of the cutter's radius says so, too, and what would pass.
@@ -73,15 +66,11 @@ impl ToolFile for PointFile {
         Ok(Some(Box::new(PlannedTables(tables))))
     }
 
-    fn not_planned(&self) -> Refusal {
-        Refusal::new("no table of points was requested with the drawing, or the cutter has no path")
-    }
-
     fn judge(&self, cam: &SolvedCam<'_>, file: &ExpectedFile<'_>, bytes: &[u8]) -> Result<JudgedFile, FileError> {
         let table = ForeignTable::read(bytes, file.cutter.or(cam.request.cutter_radius))?;
         match section(cam.body, file.section)? {
             Some(section) => Ok(table.judge(cam, section.cut, Some(section.rpm))?.into()),
-            None => best_of_cuts(cam, file, |cut| table.judge(cam, cut, None)),
+            None => best_of_cuts(cam, file, |cut| Ok(table.judge(cam, cut, None)?.into())),
         }
     }
 }
@@ -113,6 +102,6 @@ impl Plan for PlannedTables {
         }
         let measures: Vec<PointMeasures> = tables.iter().map(|table| plan::measures(evidence.body, table)).collect();
         let section = PointMeasures::section(&measures);
-        JudgedFile { finding: judge::judge(evidence, &written), section, outline: None }
+        JudgedFile { section, ..judge::judge(evidence, &written).into() }
     }
 }

@@ -7,9 +7,10 @@ mod write;
 
 pub use read::{ServoRows, read};
 
-use super::tool_file::{DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, WrittenFile};
+use super::tool_file::{
+    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, ToolFileFacts, WrittenFile,
+};
 use crate::body::{Body, Request};
-use crate::check::Check;
 use crate::verify::Evidence;
 use camgen_kernel::refusal::Refusal;
 use judge::WrittenServo;
@@ -23,25 +24,19 @@ pub const NAMES: [&str; 4] = [CSV, XYVA, TWINCAT, ISG];
 #[derive(Debug)]
 pub struct ServoFile;
 
+/// What it is called and where it stands.
+const FACTS: ToolFileFacts = ToolFileFacts {
+    noun: "table for a servo drive",
+    described: "a table for a servo drive",
+    formats: &FORMATS,
+    not_planned: "no table for a servo drive was requested with the drawing",
+    check: &judge::CHECK,
+    stands_after: "points",
+};
+
 impl ToolFile for ServoFile {
-    fn check(&self) -> &'static Check {
-        &judge::CHECK
-    }
-
-    fn stands_after(&self) -> &'static str {
-        "points"
-    }
-
-    fn noun(&self) -> &'static str {
-        "table for a servo drive"
-    }
-
-    fn described(&self) -> &'static str {
-        "a table for a servo drive"
-    }
-
-    fn formats(&self) -> &'static [&'static str] {
-        &FORMATS
+    fn facts(&self) -> &'static ToolFileFacts {
+        &FACTS
     }
 
     fn unfit(&self, body: &dyn Body) -> Option<&'static str> {
@@ -56,8 +51,8 @@ impl ToolFile for ServoFile {
         read(bytes).map(drop).map_err(Refusal::new)
     }
 
-    fn plan(&self, cam: &DrawnCam<'_>) -> Result<Option<Box<dyn Plan>>, Refusal> {
-        if !FORMATS.iter().any(|format| cam.request.formats.contains(format)) {
+    fn plan(&self, cam: &DrawnCam<'_>, named: bool) -> Result<Option<Box<dyn Plan>>, Refusal> {
+        if !named {
             return Ok(None);
         }
         let table = plan::table(cam.body, cam.request).map_err(|why| why.context("no table for a servo drive"))?;

@@ -5,33 +5,26 @@ mod read;
 
 pub use read::{NumberTable, read};
 
-use super::tool_file::{ExpectedFile, FileError, JudgedFile, SolvedCam, ToolFile};
-use crate::check::Check;
+use super::tool_file::{ExpectedFile, FileError, JudgedFile, SolvedCam, ToolFile, ToolFileFacts};
 use camgen_kernel::refusal::Refusal;
 
 /// A table of numbers.
 #[derive(Debug)]
 pub struct TableFile;
 
+/// What it is called and where it stands.
+const FACTS: ToolFileFacts = ToolFileFacts {
+    noun: "table",
+    described: "a table",
+    formats: &[],
+    not_planned: "",
+    check: &judge::CHECK,
+    stands_after: "gauge",
+};
+
 impl ToolFile for TableFile {
-    fn check(&self) -> &'static Check {
-        &judge::CHECK
-    }
-
-    fn stands_after(&self) -> &'static str {
-        "gauge"
-    }
-
-    fn noun(&self) -> &'static str {
-        "table"
-    }
-
-    fn described(&self) -> &'static str {
-        "a table"
-    }
-
-    fn formats(&self) -> &'static [&'static str] {
-        &[]
+    fn facts(&self) -> &'static ToolFileFacts {
+        &FACTS
     }
 
     fn recognises(&self, bytes: &[u8]) -> bool {

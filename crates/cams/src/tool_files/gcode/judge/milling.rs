@@ -46,7 +46,7 @@ pub(in super::super) fn no_program(evidence: &Evidence<'_>, why: String) -> Find
 
 fn failure(evidence: &Evidence<'_>, fault: ProgramFault) -> Finding {
     let found = CHECK.found(fault.value, Some(evidence.tolerance_mm), Verdict::Fail);
-    let place = fault.at.map_or(found.place.clone(), |at| place(evidence.body, at));
+    let place = fault.at.map_or(found.place, |at| place(evidence.body, at));
     Finding { place, note: Some(fault.why.into()), ..found }
 }
 
