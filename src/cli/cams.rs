@@ -23,7 +23,7 @@ use camgen::machine::Machine;
 use camgen::pipeline::{Cam, FileSet, Judged, ProvenAssembly, Spec, Writing};
 use camgen::profile::outline::Fit;
 use camgen::report::LazyReport;
-use camgen::tool_files::{gauge, gcode, inspection, points, requested, servo};
+use camgen::tool_files::{Format, gauge, gcode, inspection, points, requested, servo};
 use camgen::units::{self, Dimension};
 use camgen::write::json;
 use camgen::write::step::LATEST;
@@ -334,7 +334,7 @@ fn cut(
     };
     let (formats, left_out) = writing.chosen(cam.body()).map_err(Failure::new)?;
     // The flank of a three-dimensional cam is drawn, and proved, only for a format that shows it.
-    let request = Request { flank: formats.iter().any(|format| format.shows_flank()), ..request };
+    let request = Request { flank: formats.iter().any(Format::shows_flank), ..request };
     progress.stage("drawing");
     let drawing = cams.draw(request).map_err(Failure::new)?;
     progress.stage("proving");

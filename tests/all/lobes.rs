@@ -25,9 +25,9 @@ fn column(table: &Table, name: &str) -> Vec<f64> {
 #[test]
 fn the_rows_are_those_of_one_lobe_at_n_times_the_angle() {
     for overrides in [&[][..], &["buffer.column=return", "transition.kind=none"], &["buffer.lead=5mm"]] {
-        let one = Table::of(&cam("1", overrides).body().rows(SAMPLES));
+        let one = Table::from_rows(&cam("1", overrides).body().rows(SAMPLES));
         for (turns, lobes) in [("0.5", 2_usize), ("0.3333", 3), ("0.25", 4)] {
-            let many = Table::of(&cam(turns, overrides).body().rows(SAMPLES));
+            let many = Table::from_rows(&cam(turns, overrides).body().rows(SAMPLES));
             for name in ["crank_deg", "x_mm", "dx_mm", "lift_mm"] {
                 let (found, known) = (column(&many, name), column(&one, name));
                 for (index, value) in found.iter().enumerate() {
@@ -84,7 +84,7 @@ fn n_lobes_are_a_cam() {
     let proven = solved.draw(5e-6).expect("drawn").prove().expect("proved");
     let fails = proven.findings().iter().filter(|finding| finding.verdict == Verdict::Fail).count();
     assert_eq!(fails, 0, "{:?}", proven.findings());
-    let lift = |turns: &str| column(&Table::of(&conoid(turns).body().rows(SAMPLES)), "lift_mm");
+    let lift = |turns: &str| column(&Table::from_rows(&conoid(turns).body().rows(SAMPLES)), "lift_mm");
     let (one, two) = (lift("1"), lift("0.5"));
     for (index, value) in two.iter().enumerate() {
         let section = index / SAMPLES as usize * SAMPLES as usize;

@@ -51,11 +51,7 @@ pub const BODIES: &[ProgramBody] = &[
         has_base_circle: true,
         solve: |machine, motion, rpm| Ok(ProgramCams::alone(yoke::Yoke::of(machine, motion, rpm)?)),
     },
-    ProgramBody {
-        kind: &barrel::BARREL,
-        has_base_circle: false,
-        solve: barrel::solve,
-    },
+    ProgramBody { kind: &barrel::BARREL, has_base_circle: false, solve: barrel::solve },
     ProgramBody {
         kind: &globoid::GLOBOID,
         has_base_circle: false,
