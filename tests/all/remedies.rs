@@ -5,15 +5,14 @@ use camgen::domains::press::SpecOfPress;
 use camgen::machine::Machine;
 use camgen::pipeline::Spec;
 use camgen::report::{Finding, Verdict};
+use camgen::text::{Remedy, Text};
 use camgen::{ExactOn, Solver};
 
 /// What comes of a try: the findings on a cam, or why there is none.
-type Tried = Result<Vec<Finding>, String>;
+type Tried = Result<Vec<Finding>, camgen::Error>;
 
 fn proven(spec: Spec) -> Tried {
-    let words = |error: camgen::Error| error.to_string();
-    let cam = spec.solve().map_err(words)?;
-    Ok(cam.draw(5e-5).map_err(words)?.prove().map_err(words)?.findings().to_vec())
+    Ok(spec.solve()?.draw(5e-5)?.prove()?.findings().to_vec())
 }
 
 /// A rotary cam of the press with overrides; `None` where they are out of range.
@@ -48,21 +47,60 @@ fn owned(overrides: &[&str]) -> Vec<String> {
     overrides.iter().map(|&text| text.to_owned()).collect()
 }
 
-/// The keys with their values in a text: `key = "value"`.
-fn equations(text: &str) -> Vec<String> {
-    let parts: Vec<&str> = text.split(" = \"").collect();
-    let pairs = parts.iter().zip(parts.iter().skip(1));
-    let key = |before: &str| before.rsplit([' ', '(']).next().unwrap_or_default().to_owned();
-    pairs.map(|(before, after)| format!("{}={}", key(before), after.split('"').next().unwrap_or_default())).collect()
+/// A cam of an embedded machine with grooves in space.
+fn embedded(name: &str, overrides: &[String]) -> Option<Tried> {
+    let machine = Machine::load(name, overrides).ok()?.0;
+    Some(proven(Spec::of_program(machine, None)?))
 }
 
-/// The overrides that a note promises to pass with, each list by itself: those of a clause in which something "would" pass.
-fn remedies(note: &str) -> Vec<Vec<String>> {
-    let base = note.split("a base radius of ").nth(1).and_then(|rest| rest.split(" mm would pass").next());
-    let promises = note.split("; ").filter(|clause| clause.contains(" would ") && !clause.contains("no base radius"));
-    let keys = promises.flat_map(|clause| clause.split(" or ")).map(equations).filter(|keys| !keys.is_empty());
-    let base = base.map(|base| vec![format!("cam.base_radius={base} mm")]);
-    base.into_iter().chain(keys).collect()
+fn barrel(overrides: &[String]) -> Option<Tried> {
+    embedded("barrel", overrides)
+}
+
+fn indexer(overrides: &[String]) -> Option<Tried> {
+    embedded("indexer", overrides)
+}
+
+/// A refusal, or a check that fails, with the remedies that it has as data.
+struct Broken {
+    /// The check; empty where there is no cam.
+    check: String,
+    words: String,
+    remedies: Vec<Remedy>,
+}
+
+fn broken(tried: &Tried) -> Vec<Broken> {
+    match tried {
+        Err(why) => vec![Broken {
+            check: String::new(),
+            words: why.to_string(),
+            remedies: why.remedies().into_iter().cloned().collect(),
+        }],
+        Ok(found) => found
+            .iter()
+            .filter(|finding| finding.verdict == Verdict::Fail)
+            .map(|finding| Broken {
+                check: finding.check.to_string(),
+                words: finding.note_words(),
+                remedies: finding.note.iter().flat_map(Text::remedies).cloned().collect(),
+            })
+            .collect(),
+    }
+}
+
+fn barrel_refusal(random: &mut Random) -> Vec<String> {
+    vec![
+        format!("cam.outer_radius={}mm", random.between(20.0, 60.0)),
+        format!("limits.pressure_angle={}deg", random.between(15.0, 45.0)),
+        format!("limits.wall={}mm", random.between(0.0, 8.0)),
+    ]
+}
+
+fn indexer_refusal(random: &mut Random) -> Vec<String> {
+    vec![
+        format!("cam.turret_distance={}mm", random.between(70.0, 110.0)),
+        format!("limits.pressure_angle={}deg", random.between(25.0, 50.0)),
+    ]
 }
 
 fn refusal(random: &mut Random) -> Vec<String> {
@@ -169,28 +207,22 @@ impl Applied {
     fn try_one(&mut self, overrides: &[String], attempt: fn(&[String]) -> Option<Tried>) {
         let Some(tried) = attempt(overrides) else { return };
         self.tried += 1;
-        let notes: Vec<(&str, String)> = match &tried {
-            Err(why) => vec![("", why.clone())],
-            Ok(found) => found
-                .iter()
-                .filter(|finding| finding.verdict == Verdict::Fail)
-                .map(|finding| (finding.check.as_ref(), finding.note_words()))
-                .collect(),
-        };
-        self.refusals += usize::from(!notes.is_empty());
-        for (check, note) in notes {
-            for remedy in remedies(&note) {
-                let all: Vec<String> = overrides.iter().chain(&remedy).cloned().collect();
+        let broken = broken(&tried);
+        self.refusals += usize::from(!broken.is_empty());
+        for Broken { check, words, remedies } in broken {
+            for remedy in remedies {
+                let changes = remedy.changes.iter().map(|change| format!("{}={}", change.key, change.value));
+                let all: Vec<String> = overrides.iter().cloned().chain(changes).collect();
                 let wrong = match attempt(&all) {
                     None => Some("is out of range".to_owned()),
-                    Some(Err(why)) => Some(why),
+                    Some(Err(why)) => Some(why.to_string()),
                     Some(Ok(after)) => after
                         .iter()
                         .find(|other| other.check == check && other.verdict == Verdict::Fail)
                         .map(|same| format!("{same:?}")),
                 };
                 self.remedies += 1;
-                self.wrong.extend(wrong.map(|why| format!("{check} {remedy:?} of {note}: {why}: {overrides:?}")));
+                self.wrong.extend(wrong.map(|why| format!("{check} {remedy:?} of {words}: {why}: {overrides:?}")));
             }
         }
     }
@@ -237,6 +269,16 @@ fn what_a_refusal_of_a_plate_says_passes() {
 #[test]
 fn what_a_refusal_of_a_conoid_says_passes() {
     run("conoid", 6, conoid_refusal, conoid);
+}
+
+#[test]
+fn what_a_refusal_of_a_barrel_says_passes() {
+    run("barrel", 4, barrel_refusal, barrel);
+}
+
+#[test]
+fn what_a_refusal_of_an_indexer_says_passes() {
+    run("indexer", 1, indexer_refusal, indexer);
 }
 
 /// A corner of the motion stays a corner on any cam.

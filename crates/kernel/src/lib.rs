@@ -5,11 +5,11 @@
 //! before it: [`units`], [`text`], [`refusal`], [`numeric`], [`document`], [`geometry`], [`motion`], [`follower`], [`profile`].
 #![forbid(unsafe_code)]
 
-pub mod refusal;
-
 pub mod units;
 
 pub mod text;
+
+pub mod refusal;
 
 pub mod numeric;
 

@@ -188,6 +188,13 @@ impl MachineValues {
     }
 }
 
+/// That a key has no effect on what is called by a noun.
+#[must_use]
+pub fn idle_key_note(key: &str, noun: &str) -> String {
+    let article = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    format!("`{key}` has no effect on {article} {noun}")
+}
+
 impl Machine {
     /// Reads a machine from a text that was read before, with overrides, each `key=value`.
     ///
@@ -497,8 +504,7 @@ impl Machine {
     /// A sentence for each key that was given and has no effect on what a command makes, which messages call by its noun.
     #[must_use]
     pub fn idle_key_notes(&self, command: &str, noun: &str) -> Vec<String> {
-        let article = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
-        self.without_effect(command).iter().map(|key| format!("`{key}` has no effect on {article} {noun}")).collect()
+        self.without_effect(command).iter().map(|key| idle_key_note(key, noun)).collect()
     }
 
     /// The path of the table of its follower.

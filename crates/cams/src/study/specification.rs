@@ -210,7 +210,7 @@ impl Study {
                 break;
             }
             if let Some(fault) = self.misfit(number) {
-                let key = if fault.message.starts_with("unknown key") { &keys::KEY } else { self.place_of(number) };
+                let key = if self.is_known(number) { self.place_of(number) } else { &keys::KEY };
                 table.fail(key, fault.message, fault.help);
             }
         }
@@ -279,6 +279,12 @@ impl Study {
             );
         }
         found
+    }
+
+    /// Whether the base has the key of a parameter.
+    fn is_known(&self, number: usize) -> bool {
+        let key = self.parameters.get(number).map(|parameter| parameter.key.as_str());
+        key.is_some_and(|key| key == SPEED || self.base.catalogue.keys.has_key(key))
     }
 
     /// The key that has the values of a parameter.

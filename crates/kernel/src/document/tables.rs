@@ -16,6 +16,12 @@ pub struct Tables {
 }
 
 impl Tables {
+    /// Whether a file may contain a key, by its dotted path.
+    #[must_use]
+    pub fn has_key(&self, path: &str) -> bool {
+        key_at(&self.sections, &pattern(path).0).is_some()
+    }
+
     /// Of the keys given, those that have no effect on a kind of cam, in the order given.
     #[must_use]
     pub fn without_effect(&self, given: &[String], cam: &str) -> Vec<String> {

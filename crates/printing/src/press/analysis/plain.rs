@@ -15,7 +15,7 @@ use crate::press::report::CylinderMeasures;
 use crate::press::scatter::fault::FrozenBuffer;
 use crate::press::scatter::settings::extremes_of_fixed;
 use camgen_cams::analysis::{Analysis, Listing, Picture, places};
-use camgen_cams::machine::Machine;
+use camgen_cams::machine::{Machine, idle_key_note};
 use camgen_cams::report::ReportLine;
 use camgen_cams::report::plot::{Plot, PlotCurve, PlotPanel};
 use camgen_cams::report::{Section, Speeds, shown};
@@ -223,8 +223,8 @@ fn notes(machine: &Machine) -> Vec<String> {
     let of_cam = of_cam.filter(|key| machine.given().iter().any(|given| given == key));
     let of_cam = of_cam.map(|key| format!("`{key}` has no effect on fixed bottoms: the column is that of the reset, and the port shuts as the reversal starts"));
     // The plate of figure 9.
-    let idle = machine.idle_key_notes(KIND.keys, KIND.noun).into_iter().filter(|note| !note.contains("`translating."));
-    idle.chain(of_cam).collect()
+    let idle = machine.without_effect(KIND.keys).into_iter().filter(|key| !key.starts_with("translating."));
+    idle.map(|key| idle_key_note(&key, KIND.noun)).chain(of_cam).collect()
 }
 
 /// The buffer at a speed, without its column.

@@ -19,7 +19,7 @@ use crate::press::report::CylinderMeasures;
 use crate::press::scatter::fault::FrozenBuffer;
 use camgen_cams::analysis::{Analysis, Picture, places};
 use camgen_cams::body::Kind;
-use camgen_cams::machine::Machine;
+use camgen_cams::machine::{Machine, idle_key_note};
 use camgen_cams::report::ReportLine;
 use camgen_cams::report::plot::Plot;
 use camgen_cams::report::{Section, Speeds, shown};
@@ -186,8 +186,9 @@ fn notes(machine: &Machine) -> Vec<String> {
     ];
     let of_press = regimes.into_iter().filter(|(holds, _)| *holds).map(|(_, words)| words.to_owned());
     // A key that is reported here is not reported as without effect.
-    let idle = machine.idle_key_notes(KIND.keys, KIND.noun).into_iter();
-    idle.filter(|note| !note.contains("`transition.") && !note.contains("`follower.")).chain(of_press).collect()
+    let idle = machine.without_effect(KIND.keys).into_iter();
+    let idle = idle.filter(|key| !key.starts_with("transition.") && !key.starts_with("follower."));
+    idle.map(|key| idle_key_note(&key, KIND.noun)).chain(of_press).collect()
 }
 
 const NOT_MODELLED: &[&str] = &[
