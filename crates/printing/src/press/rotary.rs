@@ -2,7 +2,8 @@
 
 use super::balance::{allowed_error, fitting_speed, reversal_of_bed};
 use super::buffer::crank_law::CrankLaw;
-use super::checks::{contact_life, fixed_bottom, of_balance};
+use super::checks::balanced::of_balance;
+use super::checks::{contact_life, fixed_bottom};
 use super::load::{AirBuffer, AsCut, Balance, ColumnAtSpeed, ForceBalanced, RunUp};
 use super::machine::{Press, PressCams};
 use super::motion::{RaiseSeries, Reversal, ReversalLaw, Transition};

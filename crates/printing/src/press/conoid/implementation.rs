@@ -1,10 +1,8 @@
 //! The conoid as a [`Body`], for checks, drawings, tables and reports.
 
-use super::{
-    AllStrips, Conoid, KIND, SectionCut, between_sections, cylinder_contact, flank, mechanism, report, sheet, shift,
-};
+use super::{AllStrips, Conoid, KIND, SectionCut, checks, flank, mechanism, report, sheet};
+use crate::press::checks::balanced::of_balance;
 use crate::press::checks::contact_life;
-use crate::press::checks::of_balance;
 use crate::press::columns::{self, BalanceRow};
 use crate::press::motion::{Reversal, ReversalState};
 use crate::press::picture::not_modelled_of;
@@ -254,10 +252,10 @@ impl Body for Conoid {
     fn measures(&self, of: &mut Measures<'_>) {
         with_subject(self, |subject| {
             self.measured(of, subject);
-            of.add(&shift::AXIAL_FORCE, |_| shift::axial_force(self, subject));
-            of.add(&shift::AXIAL_REACH, |_| shift::axial_reach(self, subject));
-            of.add(&cylinder_contact::CHECK, |written| cylinder_contact::measure(self, written.tolerance_mm, subject));
-            of.add(&between_sections::CHECK, |_| between_sections::measure(self));
+            of.add(&checks::AXIAL_FORCE, |_| checks::axial_force(self, subject));
+            of.add(&checks::AXIAL_REACH, |_| checks::axial_reach(self, subject));
+            of.add(&checks::CYLINDER_CONTACT, |written| checks::cylinder_contact(self, written.tolerance_mm, subject));
+            of.add(&checks::BETWEEN_SECTIONS, |_| checks::between_sections(self));
             of_balance(self, of, subject);
             of.add(&contact_life::CHECK, |_| contact_life::measure(self.contact_stress(), self.touching(), subject));
         });

@@ -15,8 +15,7 @@
 mod as_surface;
 mod balance;
 pub mod between;
-pub mod between_sections;
-pub mod cylinder_contact;
+pub mod checks;
 mod figures;
 pub mod flank;
 mod implementation;
@@ -27,7 +26,6 @@ mod missed;
 mod report;
 mod search;
 mod sheet;
-pub mod shift;
 mod strips;
 mod surface;
 mod wheel;

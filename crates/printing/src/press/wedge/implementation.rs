@@ -3,7 +3,7 @@
 use super::{KIND, Wedge, mechanism, mirrored_about_axis, roller_clearance, sheet};
 use crate::press::MachineOfPress;
 use crate::press::balance::reversal_of_bed;
-use crate::press::checks::of_balance;
+use crate::press::checks::balanced::of_balance;
 use crate::press::columns::{self, BalanceRow, WedgeRow};
 use crate::press::load::{air_law, balance_of, closed_at};
 use crate::press::motion::equation_18::{BedDirection, BottomMotion, EfficiencyModel, ExactOn, Solver, Trend};
