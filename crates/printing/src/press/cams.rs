@@ -39,7 +39,7 @@ pub const OF_A_PRESS: &[&str] = &[ROTARY, TRANSLATING, CONOID];
 /// Kinds on which the bed and its air have an effect.
 pub const OF_A_BED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, SCATTER, DRIVE, BED_MOTION];
 /// Kinds with air buffers.
-pub const OF_AIR: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, SCATTER, DRIVE, BED_MOTION];
+pub const OF_AIR: &[&str] = OF_A_BED;
 /// Kinds that depend on the speed of the main shaft.
 pub const OF_A_SPEED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, SCATTER, BED_MOTION];
 /// Kinds with an air column.

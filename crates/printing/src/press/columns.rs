@@ -1,6 +1,7 @@
 //! The columns that the cams of a press add to the table.
 
 use camgen_cams::table::AddedColumn;
+use camgen_kernel::geometry::MILLIMETRES;
 
 const CRANK: AddedColumn = AddedColumn { name: "crank_deg", after: "cam_deg" };
 const OVERRUN: AddedColumn = AddedColumn { name: "x_mm", after: "cam_deg" };
@@ -20,6 +21,9 @@ const LIFT: AddedColumn = AddedColumn { name: "lift_mm", after: "torque_left_nm"
 const VELOCITY: AddedColumn = AddedColumn { name: "velocity_mm_per_rad", after: "torque_left_nm" };
 const ACCELERATION: AddedColumn = AddedColumn { name: "acceleration_mm_per_rad2", after: "torque_left_nm" };
 const JERK: AddedColumn = AddedColumn { name: "jerk_mm_per_rad3", after: "torque_left_nm" };
+
+/// Cubic millimetres in a cubic metre.
+pub(super) const CUBIC: f64 = MILLIMETRES * MILLIMETRES * MILLIMETRES;
 
 /// Columns of a row, with their values.
 pub type ColumnValues = Vec<(&'static AddedColumn, f64)>;

@@ -4,6 +4,7 @@ use crate::press::buffer::bottom_law::column_for;
 use crate::press::buffer::crank_law::CrankLaw;
 use crate::press::buffer::regime::Reset;
 use crate::press::checks::air::ADDED_VOLUME;
+use crate::press::load::ColumnAtSpeed;
 use crate::press::scatter::fault::FrozenBuffer;
 use crate::press::scatter::reset::ScrewRule;
 use crate::press::scatter::settings::FixedBottom;
@@ -13,8 +14,11 @@ use camgen_cams::report::plot::{PlotCurve, PlotPanel};
 use camgen_cams::report::shown;
 use camgen_cams::table::ListedColumn;
 use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::refusal::WorkBound;
 use camgen_kernel::text::{Length, Text, text};
 
+/// Speeds of one call.
+pub(super) const SPEEDS: WorkBound = WorkBound { what: "speeds", most: 1000 };
 /// A volume of less than this share of the cylinders' is rounding.
 const NO_VOLUME: f64 = 1e-12;
 
@@ -106,6 +110,11 @@ pub(super) struct ColumnReset {
     pub(super) rpm: f64,
     pub(super) column_mm: f64,
     pub(super) added_mm3: f64,
+}
+
+/// The columns of resets.
+pub(super) fn columns_of(resets: &[ColumnReset]) -> Vec<ColumnAtSpeed> {
+    resets.iter().map(|reset| ColumnAtSpeed { length: reset.column_mm / MILLIMETRES, rpm: reset.rpm }).collect()
 }
 
 /// The least volume to add, mm³, to the own one of the cylinders: air cannot be taken away from a cylinder at ambient pressure.

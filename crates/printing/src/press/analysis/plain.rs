@@ -1,7 +1,9 @@
 //! Buffers without a cam, sized alone: a fixed bottom at the design speed and at others, and what the end pressure chooses. Equations (3) to (9), figures
 //! 4 and 9.
 
-use super::at_speeds::{CURVES, ColumnReset, CurveAxis, ForcePlace, column_by, force_panels, unsigned_zero, volume};
+use super::at_speeds::{
+    CURVES, ColumnReset, CurveAxis, ForcePlace, SPEEDS, column_by, columns_of, force_panels, unsigned_zero, volume,
+};
 use super::regimes::KIND;
 use super::trial_bottoms::{self, TrialRow};
 use crate::press::MachineOfPress;
@@ -9,7 +11,7 @@ use crate::press::buffer::bottom_law::{BottomLaw, ColumnRule};
 use crate::press::buffer::regime::Reset;
 use crate::press::buffer::{Cylinder, PlainBuffer};
 use crate::press::checks::column;
-use crate::press::load::ColumnAtSpeed;
+use crate::press::columns::CUBIC;
 use crate::press::machine::{Press, only_under_a_yoke};
 use crate::press::report::CylinderMeasures;
 use crate::press::scatter::fault::FrozenBuffer;
@@ -22,14 +24,10 @@ use camgen_cams::report::{Section, Speeds, shown};
 use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::{Input, NamedChoice};
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::refusal::{Refusal, WorkBound};
+use camgen_kernel::refusal::Refusal;
 use camgen_kernel::units::TECHNICAL_ATMOSPHERE;
 use serde::Serialize;
 
-/// Speeds of one call.
-const SPEEDS: WorkBound = WorkBound { what: "speeds", most: 1000 };
-/// Cubic millimetres in a cubic metre.
-const CUBIC: f64 = MILLIMETRES * MILLIMETRES * MILLIMETRES;
 /// End pressures of the family / ambient pressure; the pressure of the file is among them.
 const FAMILY: [f64; 6] = [1.5, 2.0, 2.5, 3.0, 4.0, 5.0];
 /// Two end pressures are one within this share.
@@ -166,8 +164,6 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
     };
     let own = column_by(&frozen_at(press, &cylinder, press.design_rpm), reset);
     let resets: Vec<ColumnReset> = rows.iter().map(PlainRow::reset).collect();
-    let columns: Vec<ColumnAtSpeed> =
-        rows.iter().map(|row| ColumnAtSpeed { length: row.column_length_mm / MILLIMETRES, rpm: row.rpm }).collect();
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs(KIND.keys));
     inputs.extend([
@@ -183,7 +179,7 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
         inputs,
         sections: vec![Section::new("plain_buffers", &section).with_words(words)],
         measures: std::iter::once(volume(&resets, CUBIC * cylinder.volume(own)))
-            .chain(column::measure(&columns, machine, |press, rpm| {
+            .chain(column::measure(&columns_of(&resets), machine, |press, rpm| {
                 Some(column_by(&frozen_at(press, &cylinder, rpm), reset))
             }))
             .collect(),

@@ -1,7 +1,8 @@
 //! One cam at other speeds: the column is reset, or air is added, and a residual force is left. Equations (14) and (15), figure 5.
 
 use super::at_speeds::{
-    ColumnReset, CurveAxis, FixedSetting, ForcePlace, force_panels, left_by_reset, unsigned_zero, volume,
+    ColumnReset, CurveAxis, FixedSetting, ForcePlace, SPEEDS, columns_of, force_panels, left_by_reset, unsigned_zero,
+    volume,
 };
 use crate::press::MachineOfPress;
 use crate::press::balance::reversal_of_bed;
@@ -11,7 +12,7 @@ use crate::press::buffer::regime::{self, Regime, Reset};
 use crate::press::cams;
 use crate::press::checks::column;
 use crate::press::checks::fixed_bottom::{Rivals, over_speeds};
-use crate::press::load::ColumnAtSpeed;
+use crate::press::columns::CUBIC;
 use crate::press::machine::Press;
 use crate::press::machine::PressCams;
 use crate::press::motion::Transition;
@@ -26,18 +27,13 @@ use camgen_cams::report::{Section, Speeds, shown};
 use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::{Input, NamedChoice};
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::refusal::{Refusal, WorkBound};
+use camgen_kernel::refusal::Refusal;
 use camgen_kernel::text::{Length, text};
 use camgen_kernel::units::TECHNICAL_ATMOSPHERE;
 use serde::Serialize;
 
 /// Resets for other speeds.
 pub const KIND: Kind = Kind { command: "regimes", noun: "reset of the column", keys: cams::REGIMES };
-
-/// Speeds of one call.
-const SPEEDS: WorkBound = WorkBound { what: "speeds", most: 1000 };
-/// Cubic millimetres in a cubic metre.
-const CUBIC: f64 = MILLIMETRES * MILLIMETRES * MILLIMETRES;
 
 /// The figures of a speed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -131,8 +127,6 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
         .collect();
     let curves: Vec<ForcePlace> = all.iter().flat_map(|(rpm, regime)| curve(&design, *rpm, regime)).collect();
     let along = CurveAxis::for_bed(&design);
-    let columns: Vec<ColumnAtSpeed> =
-        rows.iter().map(|row| ColumnAtSpeed { length: row.column_length_mm / MILLIMETRES, rpm: row.rpm }).collect();
     let resets: Vec<ColumnReset> = rows.iter().map(SpeedRow::reset).collect();
     let rivals: Vec<Rivals> = rows.iter().map(SpeedRow::rivals).collect();
     let regimes = Regimes {
@@ -159,7 +153,7 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
             .collect(),
         measures: std::iter::once(volume(&resets, CUBIC * cylinder.volume(design.column())))
             .chain([over_speeds(&rivals)])
-            .chain(column::measure(&columns, machine, |press, rpm| Some(press.bottom_law(rpm).column())))
+            .chain(column::measure(&columns_of(&resets), machine, |press, rpm| Some(press.bottom_law(rpm).column())))
             .collect(),
         notes: notes(machine),
         picture: Picture::Curves(plot(machine.name(), cam_rpm, &curves, &along)),

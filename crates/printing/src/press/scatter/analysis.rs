@@ -15,6 +15,7 @@ use crate::press::MachineOfPress;
 use crate::press::buffer::Cylinder;
 use crate::press::cams;
 use crate::press::checks::{column, fixed_bottom};
+use crate::press::columns::CUBIC;
 use crate::press::load::ColumnAtSpeed;
 use crate::press::machine::PressCams;
 use crate::press::report::CylinderMeasures;
@@ -61,9 +62,6 @@ pub(super) fn bands_of(cam: &FrozenBuffer, sampling: &Sampling, levelled: bool) 
         sigma_n: libm::sqrt(propagation::variance(cam, half_widths, *distribution)),
     })
 }
-
-/// Cubic millimetres in a cubic metre.
-const CUBIC: f64 = MILLIMETRES * MILLIMETRES * MILLIMETRES;
 
 /// What one machine leaves.
 fn fault_of(cam: &FrozenBuffer, typed: &TypedFault, cylinder: &Cylinder) -> Result<FaultReport, Refusal> {

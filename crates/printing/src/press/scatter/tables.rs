@@ -10,6 +10,7 @@ use super::propagation::{Corners, ParameterBand};
 use super::reset::ScrewRule;
 use super::settings::{FixedBottom, Setting};
 use crate::press::buffer::Cylinder;
+use crate::press::columns::CUBIC;
 use camgen_cams::analysis::Listing;
 use camgen_cams::report::shown;
 use camgen_cams::table::{ListedColumn, Table, WordColumn};
@@ -17,9 +18,6 @@ use camgen_kernel::document::NamedChoice;
 use camgen_kernel::geometry::MILLIMETRES;
 use serde::Serialize;
 use std::f64::consts::PI;
-
-/// Cubic millimetres in a cubic metre.
-const CUBIC: f64 = MILLIMETRES * MILLIMETRES * MILLIMETRES;
 
 /// What a parameter leaves.
 #[derive(Debug, Clone, PartialEq, Serialize)]
