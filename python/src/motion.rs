@@ -392,7 +392,7 @@ impl Motion {
         let curve =
             SampleCurve { shape: shape_of(shape)?, degree, smooth: smooth.map(|by| smooth_of(by, of)).transpose()? };
         let program =
-            Program::through(of, (&theta, &lift), curve).map_err(|why| option("lift", why.what, why.remedy))?;
+            Program::through(of, &theta, &lift, curve).map_err(|why| option("lift", why.what, why.remedy))?;
         Ok(Self(Arc::new(program)))
     }
 

@@ -65,7 +65,7 @@ fn in_code(case: &Value) -> Result<Program, Refusal> {
             degree: u8::try_from(case["degree"].as_u64().unwrap_or(5)).expect("a degree"),
             smooth: case["smooth"].as_str().map(|by| Smooth::By(um(by))),
         };
-        return Program::through(Quantity::Length, (&angles, &lifts), curve);
+        return Program::through(Quantity::Length, &angles, &lifts, curve);
     }
     let mut segments: Vec<(Option<&'static Law>, f64, f64)> = Vec::new();
     for segment in case["segments"].as_array().expect("segments") {

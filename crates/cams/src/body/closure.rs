@@ -84,7 +84,8 @@ impl Closure {
                 extremum::largest_of_hills(
                     |at| sign * sum(index, at),
                     (piece.start, piece.end),
-                    (PLACES, HILLS),
+                    PLACES,
+                    HILLS,
                     SECTIONS,
                 )
             };

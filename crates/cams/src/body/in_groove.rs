@@ -136,12 +136,7 @@ impl<'a> GrooveForces<'a> {
     /// The largest of a value over the turn.
     fn largest(&self, value: impl Fn((usize, f64)) -> f64) -> Worst {
         let of = |(index, piece): (usize, &camgen_kernel::motion::Piece)| {
-            extremum::largest_of_hills(
-                |angle| value((index, angle)),
-                (piece.start, piece.end),
-                (CELLS, HILLS),
-                SECTIONS,
-            )
+            extremum::largest_of_hills(|angle| value((index, angle)), (piece.start, piece.end), CELLS, HILLS, SECTIONS)
         };
         let pieces = self.body.motion().pieces().iter().enumerate();
         let found = pieces.map(of).reduce(|a, b| if b.value > a.value { b } else { a });

@@ -263,7 +263,7 @@ impl Part {
         let contours = |walls: Vec<(Contour, _)>| walls.into_iter().map(|(contour, _)| contour).collect::<Vec<_>>();
         let (through, pocket) = (contours(through), contours(pocket));
         match self.track.as_ref().and_then(|track| track.depth) {
-            Some(depth) => pocketed(&through, &pocket, (thickness, depth)),
+            Some(depth) => pocketed(&through, &pocket, thickness, depth),
             None => prism(&through, self.area_and_moment().0, thickness),
         }
     }

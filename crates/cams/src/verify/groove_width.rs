@@ -109,7 +109,7 @@ fn least(curves: Curves<'_>, flanks: [&Contour; 2]) -> Worst {
     };
     let pieces = curves.motion.pieces().iter().enumerate();
     let of_piece = |(index, piece): (usize, &camgen_kernel::motion::Piece)| {
-        extremum::largest_of_hills(|at| -width(index, at), (piece.start, piece.end), (PLACES, NARROW), SECTIONS)
+        extremum::largest_of_hills(|at| -width(index, at), (piece.start, piece.end), PLACES, NARROW, SECTIONS)
     };
     let nothing = Worst { value: f64::INFINITY, at: 0.0, z: 0.0 };
     pieces.map(of_piece).fold(nothing, |least, next| {

@@ -204,14 +204,15 @@ pub const TO_ROUNDING: u32 = 38;
 /// The largest value of `value` on `[low, high]` when its derivative is not known: the best of `cells` + 1 points, then
 /// `sections` golden sections between its neighbours (Kiefer 1953).
 pub fn largest_without_slope(value: impl FnMut(f64) -> f64, range: (f64, f64), cells: u32, sections: u32) -> Extremum {
-    largest_of_hills(value, range, (cells, 1), sections)
+    largest_of_hills(value, range, cells, 1, sections)
 }
 
 /// The largest value, refined near each of the `hills` best of these points that are not lower than their neighbours.
 pub fn largest_of_hills(
     mut value: impl FnMut(f64) -> f64,
     range: (f64, f64),
-    (cells, hills): (u32, usize),
+    cells: u32,
+    hills: usize,
     sections: u32,
 ) -> Extremum {
     let points: Vec<Extremum> =
@@ -227,7 +228,8 @@ pub fn largest_of_hills(
 pub fn largest_of_hills_in_parallel(
     value: impl Fn(f64) -> f64 + Sync,
     range: (f64, f64),
-    (cells, hills): (u32, usize),
+    cells: u32,
+    hills: usize,
     sections: u32,
 ) -> Extremum {
     let points = parallel::map(&cell_ends(range.0, range.1, cells), |at| Extremum { at: *at, value: value(*at) });

@@ -320,7 +320,7 @@ impl Disc {
             let (least, most) = place.choices(width);
             let range = ((ideal - width).max(least), (ideal + width).min(most));
             let found =
-                extremum::largest_of_hills_in_parallel(|choice| -prime(choice), range, (PLACES, VALLEYS), TO_ROUNDING);
+                extremum::largest_of_hills_in_parallel(|choice| -prime(choice), range, PLACES, VALLEYS, TO_ROUNDING);
             if -found.value < best.1 {
                 best = (found.at, -found.value);
             }

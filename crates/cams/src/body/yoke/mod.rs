@@ -122,7 +122,7 @@ fn upside_down(motion: &dyn Motion, top: f64) -> Result<(), Refusal> {
         (lift(at) + lift(at + PI) - top).abs()
     };
     let of_piece = |piece: &camgen_kernel::motion::Piece| {
-        extremum::largest_of_hills(off, (piece.start, piece.end), (PLACES, HILLS), SECTIONS)
+        extremum::largest_of_hills(off, (piece.start, piece.end), PLACES, HILLS, SECTIONS)
     };
     let worst = motion.pieces().iter().map(of_piece).reduce(|a, b| if b.value > a.value { b } else { a });
     match worst.filter(|worst| !(worst.value <= SAME_LIFT)) {

@@ -85,7 +85,8 @@ struct SplineComparison {
 pub(super) fn certify(
     curve: &impl Fn(f64) -> CurvePoint,
     nodes: &[SplineNode],
-    (polynomials, all_seen): (&[SplineSpan], &[f64]),
+    polynomials: &[SplineSpan],
+    all_seen: &[f64],
     tolerance: f64,
     allowed: &dyn Fn(f64, &CurvePoint) -> ChainTolerance,
 ) -> Option<LargestDifferences> {

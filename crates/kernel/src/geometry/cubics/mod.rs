@@ -94,8 +94,8 @@ pub fn fit(
     while spans <= most {
         let found = best(&samples, spans, tolerance);
         if let Some(trial) = found.as_ref().filter(|trial| trial.worst <= seen) {
-            let seen_from = (trial.polynomials.as_slice(), trial.seen.as_slice());
-            let certified = measure::certify(&curve, &samples.nodes, seen_from, tolerance, allowed);
+            let certified =
+                measure::certify(&curve, &samples.nodes, &trial.polynomials, &trial.seen, tolerance, allowed);
             if let Some(worst) = certified {
                 if worst.share <= 1.0 {
                     return Ok(FittedSpline {

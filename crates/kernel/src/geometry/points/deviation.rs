@@ -53,7 +53,8 @@ pub fn deviations(
     path: &ExactPath<'_>,
     curve: &Interpolant,
     places: &[f64],
-    (negligible, limit): (f64, f64),
+    negligible: f64,
+    limit: f64,
 ) -> Result<Vec<f64>, Refusal> {
     let walk = DeviationWalk { path, curve, negligible };
     let mut bounds = Vec::with_capacity(places.len());

@@ -106,7 +106,7 @@ fn closer(path: &ExactPath<'_>, wish: &PointTableSpec, rows: PointRows) -> Resul
         return Ok(rows);
     }
     let curve = Interpolant::new(&rows.rows, wish.form, wish.between, path.is_closed());
-    let errors = deviations(path, &curve, &rows.places, (0.0, f64::INFINITY))?;
+    let errors = deviations(path, &curve, &rows.places, 0.0, f64::INFINITY)?;
     Ok(PointRows { error: errors.into_iter().fold(0.0, f64::max), ..rows })
 }
 
@@ -192,7 +192,7 @@ impl TableTrial {
             *last = if wish.form == PointCoordinates::Polar { [last[0], first[1]] } else { first };
         }
         let curve = Interpolant::new(&rows, wish.form, wish.between, path.is_closed());
-        let errors = deviations(path, &curve, &places, (NEGLIGIBLE * wish.tolerance, limit))?;
+        let errors = deviations(path, &curve, &places, NEGLIGIBLE * wish.tolerance, limit)?;
         // After an interval that is too far off the rest is unknown, and its motion need not be examined.
         let whole = errors.len() == curve.count() && errors.iter().all(|error| *error <= limit);
         let motion = goal.motion.filter(|_| whole).map(|motion| motion.errors(&curve, limit.is_finite()));

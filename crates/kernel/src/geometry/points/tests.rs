@@ -100,7 +100,7 @@ fn errors_are_equal_by_chord_error() {
             let path = eccentric();
             let table = place(&path, &wish, None).expect("a table");
             let curve = Interpolant::new(&table.rows, form, between, true);
-            let errors = deviations(&path, &curve, &table.places, (0.0, f64::INFINITY)).expect("followed");
+            let errors = deviations(&path, &curve, &table.places, 0.0, f64::INFINITY).expect("followed");
             let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
             // A polar table has inflections, where the error of an interval changes its sign.
             let share = if form == PointCoordinates::Polar { 0.1 } else { 0.7 };
@@ -120,7 +120,7 @@ fn a_wrong_row_is_found() {
                 let mut rows = table.rows.clone();
                 rows[table.rows.len() / 3][column] += change;
                 let curve = Interpolant::new(&rows, wish.form, wish.between, true);
-                let found = deviations(&path, &curve, &table.places, (0.0, f64::INFINITY));
+                let found = deviations(&path, &curve, &table.places, 0.0, f64::INFINITY);
                 let worst = found.map(|errors| errors.into_iter().fold(0.0, f64::max));
                 assert!(worst.is_err() || worst.is_ok_and(|worst| worst > 1e-3), "{wish:?} {column} {change}");
             }

@@ -155,11 +155,7 @@ fn as_drawn(boundary: TruckBoundary, expected: f64) -> Result<CheckedSolid, Refu
 ///
 /// # Errors
 /// [`Refusal`] when a check fails; both would be faults of camgen.
-pub fn pocketed(
-    through: &[Contour],
-    flanks: &[Contour],
-    (thickness, depth): (f64, f64),
-) -> Result<CheckedSolid, Refusal> {
+pub fn pocketed(through: &[Contour], flanks: &[Contour], thickness: f64, depth: f64) -> Result<CheckedSolid, Refusal> {
     let [outer, grooves] =
         [through, flanks].map(|contours| contours.iter().map(|contour| contour.area_and_centroid().0).sum::<f64>());
     let boundary = ShellBuilder::grooved(through, flanks, thickness, depth);

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// A formula in a unit whose variable runs from 0 to a width, less a number; cut into stretches by what a scan of it found.
 #[must_use]
-pub fn from_formula(formula: Formula, width: f64, (unit, less): (f64, f64), scan: &Scan) -> LawCurve {
+pub fn from_formula(formula: Formula, width: f64, unit: f64, less: f64, scan: &Scan) -> LawCurve {
     let stretches = scan.turns.div_ceil(TURNS_EACH).clamp(1, MOST_STRETCHES);
     LawCurve::cut(&CurvePart::Formula(Arc::new(FormulaShape { formula, width, less, unit })), stretches)
 }

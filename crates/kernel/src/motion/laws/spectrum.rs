@@ -81,7 +81,7 @@ const LOBES: usize = 3;
 pub(in crate::motion) fn residual_peak(residual: impl Fn(f64) -> f64, range: (f64, f64), periods: f64) -> Extremum {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a few thousand")]
     let cells = (CELLS.0 + CELLS.1 * periods.abs()).min(MOST_CELLS) as u32;
-    extremum::largest_of_hills(residual, range, (cells, LOBES), extremum::TO_ROUNDING)
+    extremum::largest_of_hills(residual, range, cells, LOBES, extremum::TO_ROUNDING)
 }
 
 impl LawCurve {

@@ -99,7 +99,7 @@ impl<'r> MotionForm<'r> {
                     Self::Points => points(table, whole)?,
                     _ => rows::file::read(table, whole)?,
                 };
-                let program = rows::program(table, whole, (start, lobes), rows)?;
+                let program = rows::program(table, whole, start, lobes, rows)?;
                 return within_reach(table, &unit, whole.quantity, program);
             }
         };
@@ -196,7 +196,7 @@ fn formula(table: &TableReader<'_>, unit: &StartUnit, whole: ProgramContext) -> 
         table.fail(&FORMULA, message, Some(help.into()));
         return None;
     }
-    Some((laws::from_formula(formula, fill, (unit.size, first), &scan), first * unit.size))
+    Some((laws::from_formula(formula, fill, unit.size, first, &scan), first * unit.size))
 }
 
 /// The formula of a key by a variable that runs from 0 to an end, which must have values and derivatives everywhere.
@@ -350,7 +350,7 @@ pub(super) fn formula_curve(segment: &TableReader<'_>) -> Option<LawCurve> {
             return None;
         }
     }
-    Some(laws::from_formula(formula, 1.0, (1.0, 0.0), &scan))
+    Some(laws::from_formula(formula, 1.0, 1.0, 0.0, &scan))
 }
 
 /// The curve of a table of shares, for a segment of a travel where that is known, and its figures in shares.

@@ -39,7 +39,7 @@ fn given(state: &EndState) -> NodeConstraint {
 
 impl SegmentNodes {
     /// The nodes of a segment, between a state at its start and one at its end.
-    fn new(step: &SegmentSpec, (joined, first, from): (bool, usize, f64), ends: [NodeConstraint; 2]) -> Self {
+    fn new(step: &SegmentSpec, joined: bool, first: usize, from: f64, ends: [NodeConstraint; 2]) -> Self {
         let rows = if let Mover::Spline(rows) = &step.mover { Some(rows) } else { None };
         let inner: &[RingNode] = rows.map_or(&[], |rows| &rows.points);
         let nodes: Vec<RingNode> =
@@ -90,7 +90,8 @@ impl SegmentNodes {
         });
         let states: Vec<[f64; 2]> = states.collect();
         if let Mover::Spline(rows) = &step.mover {
-            let (curve, figures) = rows.curve(&knots, &self.typed(step), self.passed.clone(), states)?;
+            let (values, dwells) = self.passed.clone();
+            let (curve, figures) = rows.curve(&knots, &self.typed(step), values, dwells, states)?;
             return Ok((curve, Some(figures)));
         }
         let jets: Vec<[f64; 3]> = self.passed.0.iter().zip(states).map(|(value, [v, a])| [*value, v, a]).collect();
@@ -112,7 +113,7 @@ pub(super) fn solve(start: f64, steps: &[SegmentSpec]) -> Result<JoinedSegments,
     for (index, step) in steps.iter().enumerate() {
         let (begin, joined) = (before(steps, index), is_joined(steps, index));
         let begin = given(&if step.free_start { begin.without_acceleration() } else { begin });
-        let segment = SegmentNodes::new(step, (joined, first, from), [begin, given(&step.end)]);
+        let segment = SegmentNodes::new(step, joined, first, from, [begin, given(&step.end)]);
         intervals.extend(segment.intervals(step));
         all_given.push(begin);
         all_given.extend(segment.inner_given());

@@ -112,18 +112,33 @@ impl TapeNumber<'_> {
     }
 }
 
-macro_rules! operator {
-    ($($trait:ident $name:ident $operation:ident),*) => {$(
-        impl $trait for TapeNumber<'_> {
-            type Output = Self;
-            fn $name(self, other: Self) -> Self {
-                self.push(TapeOperation::$operation(self.term, other.term))
-            }
-        }
-    )*};
+impl Add for TapeNumber<'_> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        self.push(TapeOperation::Sum(self.term, other.term))
+    }
 }
 
-operator!(Add add Sum, Sub sub Difference, Mul mul Product, Div div Quotient);
+impl Sub for TapeNumber<'_> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self.push(TapeOperation::Difference(self.term, other.term))
+    }
+}
+
+impl Mul for TapeNumber<'_> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        self.push(TapeOperation::Product(self.term, other.term))
+    }
+}
+
+impl Div for TapeNumber<'_> {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        self.push(TapeOperation::Quotient(self.term, other.term))
+    }
+}
 
 impl Add<f64> for TapeNumber<'_> {
     type Output = Self;

@@ -194,7 +194,7 @@ impl From<OutlineError> for Refusal {
 
 impl OutlineError {
     /// With the range of cam angles that it concerns, if there is one.
-    fn between(self, (from, to): (f64, f64), period: Option<f64>) -> Self {
+    fn between(self, from: f64, to: f64, period: Option<f64>) -> Self {
         match self {
             Self::Fit(error) if period.is_some() => {
                 Self::Part { from_deg: from.to_degrees(), to_deg: to.to_degrees(), error }
@@ -442,7 +442,7 @@ fn parallel(
             } else {
                 let stretch = ParallelStretch { curves, piece: index, range, distance, stands_for };
                 let fitted = outline.add_repeatable_piece(&mut strips, stretch, fit);
-                fitted.map_err(|error| error.between(range, period))?;
+                fitted.map_err(|error| error.between(range.0, range.1, period))?;
                 if outline.contour.vertices.len() > MOST_EDGES as usize {
                     let by_distance = fit.by_distance().ok_or_else(too_many_edges)?;
                     return parallel(curves, distance, stands_for, &by_distance, gaps);

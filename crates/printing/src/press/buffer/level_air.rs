@@ -63,7 +63,8 @@ impl LevelAir {
                 (share * end_load - (back - 1.0)).abs()
             },
             (0.0, 1.0),
-            (CELLS, HILLS),
+            CELLS,
+            HILLS,
             extremum::TO_ROUNDING,
         );
         worst.value

@@ -97,7 +97,7 @@ impl Rows {
     fn turn(&mut self, table: &TableReader<'_>, fill: f64) -> Option<turn::Turn> {
         let mirrored = table.has(&MIRROR) && table.get(&MIRROR)?;
         let rest = if table.has(&REST) { Some(table.get(&REST)?) } else { None };
-        turn::Turn::new(fill, self, (mirrored, rest)).map_err(|fault| self.report(table, fault)).ok()
+        turn::Turn::new(fill, self, mirrored, rest).map_err(|fault| self.report(table, fault)).ok()
     }
 
     /// The first and the last row.
@@ -307,7 +307,7 @@ impl RowWishes {
     /// The curve of least jerk through the rows.
     pub const NATURAL: Self = Self { shape: RowShape::Natural, cubic: false, smooth: None };
 
-    fn read(table: &TableReader<'_>, rows: &Rows, (quantity, arc): (Quantity, f64)) -> Option<Self> {
+    fn read(table: &TableReader<'_>, rows: &Rows, quantity: Quantity, arc: f64) -> Option<Self> {
         let shape = if table.has(&BETWEEN) { table.get(&BETWEEN)? } else { RowShape::Natural };
         let degree = table.get(&DEGREE)?;
         if degree != 3.0 && degree != 5.0 {
@@ -365,10 +365,12 @@ fn smoothing(
 pub(super) fn program(
     table: &TableReader<'_>,
     whole: ProgramContext,
-    (start, lobes): (f64, u32),
+    start: f64,
+    lobes: u32,
     mut rows: Rows,
 ) -> Option<Program> {
-    let wishes = RowWishes::read(table, &rows, whole.typed(table))?;
+    let (quantity, arc) = whole.typed(table);
+    let wishes = RowWishes::read(table, &rows, quantity, arc)?;
     let turn = rows.turn(table, whole.fill)?.moved(whole.at);
     Some(curve::program(&turn, start, lobes, whole, &rows, wishes))
 }

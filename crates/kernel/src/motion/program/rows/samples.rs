@@ -72,25 +72,21 @@ impl Program {
     ///
     /// let angles: Vec<f64> = (0..90).map(|row| f64::from(row).to_radians() * 4.0).collect();
     /// let lifts: Vec<f64> = angles.iter().map(|angle| 0.010 * (1.0 - angle.cos())).collect();
-    /// let program = Program::through(Quantity::Length, (&angles, &lifts), SampleCurve::default())?;
+    /// let program = Program::through(Quantity::Length, &angles, &lifts, SampleCurve::default())?;
     /// let piece = program.pieces().iter().position(|piece| piece.start <= 1.0 && 1.0 <= piece.end).expect("the rows cover the turn");
     /// assert!((program.jet(piece, 1.0).s - 0.010 * (1.0 - 1.0_f64.cos())).abs() < 1e-9);
     /// // The same samples without the last third are a part of a turn.
-    /// assert!(Program::through(Quantity::Length, (&angles[..60], &lifts[..60]), SampleCurve::default()).is_err());
+    /// assert!(Program::through(Quantity::Length, &angles[..60], &lifts[..60], SampleCurve::default()).is_err());
     /// # Ok::<(), camgen::Refusal>(())
     /// ```
     ///
     /// # Errors
     /// [`Refusal`] if samples are not finite, not in order or do not cover a turn, or if there is no such curve.
-    pub fn through(
-        quantity: Quantity,
-        (angles, positions): (&[f64], &[f64]),
-        curve: SampleCurve,
-    ) -> Result<Self, Refusal> {
+    pub fn through(quantity: Quantity, angles: &[f64], positions: &[f64], curve: SampleCurve) -> Result<Self, Refusal> {
         let mut rows = rows_of(angles, positions)?;
         let wishes = curve.wishes(rows.rounding)?;
         possible(quantity, positions)?;
-        let turn = Turn::new(TAU, &mut rows, (false, None))?;
+        let turn = Turn::new(TAU, &mut rows, false, None)?;
         let whole = ProgramContext {
             quantity,
             arc: None,

@@ -94,7 +94,8 @@ impl SplineRows {
         &self,
         knots: &[f64],
         typed: &[f64],
-        (values, dwells): (Vec<f64>, Vec<bool>),
+        values: Vec<f64>,
+        dwells: Vec<bool>,
         states: Vec<[f64; 2]>,
     ) -> Result<(LawCurve, RowFigures), LawError> {
         let mut found = Nodes { values, states, dwells };

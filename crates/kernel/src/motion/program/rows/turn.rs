@@ -41,11 +41,7 @@ impl Turn {
     ///
     /// # Errors
     /// The fault of a row.
-    pub(super) fn new(
-        fill: f64,
-        rows: &mut Rows,
-        (mirrored, rest): (bool, Option<RestOfTurn>),
-    ) -> Result<Self, RowsFault> {
+    pub(super) fn new(fill: f64, rows: &mut Rows, mirrored: bool, rest: Option<RestOfTurn>) -> Result<Self, RowsFault> {
         ordered(rows, fill)?;
         let fewest = if mirrored { 2 } else { FEWEST };
         if rows.points.len() < fewest {
