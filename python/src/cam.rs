@@ -206,7 +206,7 @@ impl Cam {
                 let (piece, parameter) = motion.locate(*place);
                 self.body().row_on(piece, parameter)
             };
-            Some(camgen::Table::of(&places.iter().map(row).collect::<Option<Vec<_>>>()?))
+            Some(camgen::Table::from_rows(&places.iter().map(row).collect::<Option<Vec<_>>>()?))
         };
         let made = py.detach(made).ok_or_else(|| {
             let why = format!("a {} has no curves in one plane", self.body().kind().noun);

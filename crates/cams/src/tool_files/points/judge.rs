@@ -136,8 +136,7 @@ fn found<'w>(evidence: &Evidence<'_>, written: &'w WrittenPoints) -> Result<Tabl
     if curve.count() + 1 != table.rows.places.len() {
         return Err(format!("{} rows are read of {} written", curve.count() + 1, table.rows.places.len()));
     }
-    let errors =
-        deviations(&path, curve, &table.rows.places, (0.0, f64::INFINITY)).map_err(|error| error.to_string())?;
+    let errors = deviations(&path, curve, &table.rows.places, 0.0, f64::INFINITY).map_err(|error| error.to_string())?;
     let larger = |best: (usize, f64), (index, error): (usize, f64)| if error > best.1 { (index, error) } else { best };
     let (interval, worst) = errors.into_iter().enumerate().fold((0, 0.0), larger);
     let (from, to) = curve.range(interval).unwrap_or((0.0, 0.0));

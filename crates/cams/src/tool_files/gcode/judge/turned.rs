@@ -160,8 +160,7 @@ fn ground(
         let curve = Interpolant::new(&rows, PointCoordinates::Polar, PointInterpolation::Linear, true);
         let refused = |why: String| ProgramFault::new(format!("the pass from line {} on: {why}", pass.line));
         let places = path.places_of(&curve).map_err(|why| refused(why.to_string()))?;
-        let errors =
-            deviations(&path, &curve, &places, (0.0, f64::INFINITY)).map_err(|why| refused(why.to_string()))?;
+        let errors = deviations(&path, &curve, &places, 0.0, f64::INFINITY).map_err(|why| refused(why.to_string()))?;
         for (index, error) in errors.into_iter().enumerate() {
             if !(error <= worst.0) {
                 let (from, to) = curve.range(index).unwrap_or((0.0, 0.0));
