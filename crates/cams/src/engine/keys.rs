@@ -47,16 +47,15 @@ type Range = (Option<Dimension>, Bounds);
 
 /// The ranges of a single number of this form; none where it is a text or a list.
 fn ranges(form: KeyForm) -> Vec<Range> {
-    let angle = |bounds| (Some(Dimension::Angle), bounds);
-    let length = |bounds| (Some(Dimension::Length), bounds);
+    let (angle, length) = (Some(Dimension::Angle), Some(Dimension::Length));
     match form {
         KeyForm::Number(bounds) | KeyForm::Share(bounds) => vec![(None, bounds)],
         KeyForm::Quantity(dimension, bounds) | KeyForm::WordsOrQuantity(_, dimension, bounds) => {
             vec![(Some(dimension), bounds)]
         }
-        KeyForm::LengthOrAngle(first, second) => vec![length(first), angle(second)],
-        KeyForm::AngleOrLength(first, second) => vec![angle(first), length(second)],
-        KeyForm::LengthAngleOrShare(first, second, share) => vec![length(first), angle(second), (None, share)],
+        KeyForm::LengthOrAngle(first, second) => vec![(length, first), (angle, second)],
+        KeyForm::AngleOrLength(first, second) => vec![(angle, first), (length, second)],
+        KeyForm::LengthAngleOrShare(first, second, share) => vec![(length, first), (angle, second), (None, share)],
         KeyForm::Either((first, of_first), (second, of_second)) => {
             vec![(Some(first), of_first), (Some(second), of_second)]
         }
@@ -76,9 +75,11 @@ fn range_of((dimension, bounds): Range, units: &mut Map<String, Value>) -> Value
 /// The units of a dimension, in all their spellings, with their sizes in SI.
 fn units_of(dimension: Dimension) -> Value {
     let symbols = dimension.unit_list();
-    let size = |symbol: &str| units::parse(&format!("1 {symbol}"), dimension).ok().map(|quantity| quantity.si);
     let all = symbols.split(", ").map(str::to_owned).chain(dimension.spellings().map(str::to_owned));
-    let sizes = all.filter_map(|symbol| Some((symbol.clone(), json!(size(&symbol)?))));
+    let sizes = all.filter_map(|symbol| {
+        let quantity = units::parse(&format!("1 {symbol}"), dimension).ok()?;
+        Some((symbol, json!(quantity.si)))
+    });
     Value::Object(sizes.collect())
 }
 

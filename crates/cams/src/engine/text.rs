@@ -28,20 +28,17 @@ type PathPart<'p> = (&'p str, Option<usize>);
 
 /// The parts of a path; `None` where it is not one.
 fn parts(path: &str) -> Option<Vec<PathPart<'_>>> {
-    let part = |text: &'_ str| -> Option<(usize, Option<usize>)> {
-        match text.split_once('[') {
-            None => Some((text.len(), None)),
-            Some((name, rest)) => Some((name.len(), Some(rest.strip_suffix(']')?.parse().ok()?))),
-        }
-    };
     let mut parts: Vec<PathPart<'_>> = Vec::new();
     for text in path.split('.') {
         // `motion.segment.2.law` is `motion.segment[1].law`, as with --set.
         match (text.parse::<usize>(), parts.last_mut()) {
             (Ok(number), Some((_, index @ None))) if number > 0 => *index = Some(number - 1),
             _ => {
-                let (length, index) = part(text)?;
-                parts.push((text.get(..length).filter(|name| !name.is_empty())?, index));
+                let (name, index) = match text.split_once('[') {
+                    None => (text, None),
+                    Some((name, rest)) => (name, Some(rest.strip_suffix(']')?.parse().ok()?)),
+                };
+                parts.push((Some(name).filter(|name| !name.is_empty())?, index));
             }
         }
     }

@@ -93,8 +93,8 @@ pub fn template_of_program(catalogue: &Catalogue, follower: &str) -> Option<Stri
     let program = PROGRAM.replace("{start}", start).replace("{to}", to);
     let segment = written("", &[&program::keys::SEGMENT], &[]);
     // The tables after those of the followers.
-    let is_follower = |section: &&KeySection| FOLLOWERS.iter().any(|kind| kind.section.path == section.path);
-    let after = catalogue.keys.sections.iter().rev().copied().take_while(|section| !is_follower(section));
+    let sections = catalogue.keys.sections.iter().rev().copied();
+    let after = sections.take_while(|section| FOLLOWERS.iter().all(|kind| kind.section.path != section.path));
     let of_another = |section: &KeySection| {
         let others = FOLLOWERS.iter().filter(|other| other.section.path != kind.section.path);
         others.into_iter().any(|other| section.path.starts_with(&format!("{}.", other.section.path)))

@@ -65,19 +65,19 @@ fn add(
     cells: &[String],
 ) -> io::Result<()> {
     let levels: Vec<i16> = cells.iter().map(|cell| i16::from(!cell.is_empty())).collect();
-    let there = || cells.iter().filter(|cell| !cell.is_empty());
+    let there = cells.iter().filter(|cell| !cell.is_empty());
     let mut column = group.next_column().map_err(failed)?.ok_or_else(|| io::Error::other("a column too many"))?;
     let written = match kind {
         CellKind::Number => {
-            let values: Vec<f64> = there().filter_map(|cell| cell.parse().ok()).collect();
+            let values: Vec<f64> = there.filter_map(|cell| cell.parse().ok()).collect();
             column.typed::<DoubleType>().write_batch(&values, Some(&levels), None)
         }
         CellKind::Truth => {
-            let values: Vec<bool> = there().map(|cell| cell == "true").collect();
+            let values: Vec<bool> = there.map(|cell| cell == "true").collect();
             column.typed::<BoolType>().write_batch(&values, Some(&levels), None)
         }
         CellKind::Empty | CellKind::Text => {
-            let values: Vec<ByteArray> = there().map(|cell| cell.as_str().into()).collect();
+            let values: Vec<ByteArray> = there.map(|cell| cell.as_str().into()).collect();
             column.typed::<ByteArrayType>().write_batch(&values, Some(&levels), None)
         }
     };

@@ -369,8 +369,10 @@ impl Study {
     #[must_use]
     pub fn values(&self, row: u64) -> Vec<super::ParameterValue> {
         if let Some(sampling) = self.sampling {
-            let share = |number: usize| sampling::share(sampling, self.seed, (row, self.rows), number as u64);
-            return self.parameters.iter().enumerate().map(|(number, of)| of.value_at(share(number))).collect();
+            let values = self.parameters.iter().enumerate().map(|(number, parameter)| {
+                parameter.value_at(sampling::share(sampling, self.seed, (row, self.rows), number as u64))
+            });
+            return values.collect();
         }
         // The last parameter changes from row to row.
         let mut rest = row;

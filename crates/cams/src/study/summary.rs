@@ -142,9 +142,6 @@ impl Study {
         let header = self.header();
         let names = super::table::cells(header.trim_end());
         let mut all: Vec<Distribution> = names.iter().map(|name| Distribution::new(name)).collect();
-        let numbers = |row: &[String]| -> Vec<Option<f64>> {
-            row.iter().map(|cell| cell.parse().ok().filter(|number: &f64| number.is_finite())).collect()
-        };
         let (last, first) = (names.len() - 1, 1);
         let (mut faults, mut feasible) = (0, 0);
         let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
@@ -204,7 +201,6 @@ impl Study {
             Some(if objective.goal == Goal::Least { value } else { -value })
         });
         let Some(own) = own.collect::<Option<Vec<f64>>>() else { return };
-        let beats = |a: &[f64], b: &[f64]| a != b && a.iter().zip(b).all(|(a, b)| a <= b);
         if front.iter().any(|(other, _)| beats(other, &own)) {
             return;
         }
@@ -226,4 +222,14 @@ impl Study {
             "columns": columns, "reasons": reasons, "csv_sha256": csv,
         })
     }
+}
+
+/// The finite numbers of a row.
+fn numbers(row: &[String]) -> Vec<Option<f64>> {
+    row.iter().map(|cell| cell.parse().ok().filter(|number: &f64| number.is_finite())).collect()
+}
+
+/// Whether a row is at least as good in every objective as another one that differs from it.
+fn beats(a: &[f64], b: &[f64]) -> bool {
+    a != b && a.iter().zip(b).all(|(a, b)| a <= b)
 }

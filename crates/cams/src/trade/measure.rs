@@ -293,8 +293,8 @@ pub(super) fn measure(
 fn ranking(rows: &[TradeRow], limits: TradeLimits) -> Vec<usize> {
     let mut keep: Vec<(usize, &TradeRow)> = rows.iter().enumerate().filter(|(_, row)| limits.keeps(row)).collect();
     keep.sort_by(|(_, a), (_, b)| {
-        let cost = |row: &TradeRow| (row.entity, row.pieces, row.bytes);
-        cost(a).cmp(&cost(b)).then(limits.left(a).total_cmp(&limits.left(b)))
+        let [first, second] = [a, b].map(|row| (row.entity, row.pieces, row.bytes));
+        first.cmp(&second).then(limits.left(a).total_cmp(&limits.left(b)))
     });
     keep.into_iter().map(|(index, _)| index).collect()
 }
@@ -395,8 +395,10 @@ fn outline(
 ) -> Result<(TradeRow, RoundTimes), Refusal> {
     let (outline, drawing) = timed(clock, || law.cam.draw(request).map_err(Refusal::of))?;
     let parts = drawing.drawn().map(|drawn| drawn.parts.as_slice()).unwrap_or_default();
-    let write = |part| proof::write(part, dxf::Version::R2000).map_err(Refusal::of);
-    let (dxf, _) = timed(clock, || parts.iter().map(write).collect::<Result<Vec<_>, _>>())?;
+    let (dxf, _) = timed(clock, || {
+        let files = parts.iter().map(|part| proof::write(part, dxf::Version::R2000).map_err(Refusal::of));
+        files.collect::<Result<Vec<_>, _>>()
+    })?;
     let deviation = parts.iter().map(|part| part.outline.deviation).fold(0.0, f64::max);
     let (proof, proven) = timed(clock, || drawing.prove().map_err(Refusal::of))?;
     let report = Box::new(proven.report());

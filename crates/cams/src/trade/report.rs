@@ -117,8 +117,7 @@ pub(super) fn words(measured: &TradeMeasurement) -> Vec<ReportLine> {
         let cells = cells.iter().zip(head).map(|(cell, (_, width))| format!(" {cell:>width$}"));
         ReportLine::row(format!("{name:<NAME$}{}", cells.collect::<String>()))
     };
-    let row = |row: &TradeRow| {
-        let or_dash = |value: Option<f64>| value.map_or("–".to_owned(), shown);
+    let rows = measured.rows.iter().map(|row| {
         line(
             &row.setting,
             [
@@ -136,13 +135,17 @@ pub(super) fn words(measured: &TradeMeasurement) -> Vec<ReportLine> {
                 format!("{:.1}", 1e-3 * row.total_us),
             ],
         )
-    };
+    });
     let first = format!(
         "rank: what costs the shop least among the settings that keep the limits; time of this computer, the least of {} rounds",
         measured.rounds
     );
     let names = line("setting", head.map(|(name, _)| name.to_owned()));
-    [first.into(), names].into_iter().chain(measured.rows.iter().map(row)).collect()
+    [first.into(), names].into_iter().chain(rows).collect()
+}
+
+fn or_dash(value: Option<f64>) -> String {
+    value.map_or("–".to_owned(), shown)
 }
 
 /// Pieces against residual force, or the gap where there is no force to balance, and against the acceleration error, each with its Pareto
