@@ -36,7 +36,7 @@ fn stages(criterion: &mut Criterion) {
         let solid = flank_solid(&drawn.patches, &[], (0.0, 120.0), drawn.volume).expect("a solid");
         criterion.bench_function(&name("step"), |b| b.iter(|| step::write(black_box(&solid), "conoid", None)));
         criterion.bench_function(&name("stl"), |b| b.iter(|| stl::write(black_box(&drawn), Some(25.0), "cam")));
-        criterion.bench_function(&name("table"), |b| b.iter(|| Table::of(&black_box(&conoid).rows(720))));
+        criterion.bench_function(&name("table"), |b| b.iter(|| Table::from_rows(&black_box(&conoid).rows(720))));
     }
     criterion.bench_function("conoid/fewest sections for 2 N", |b| {
         b.iter(|| between::fewest(black_box(&machine), (20.0, 35.0), 2.0));

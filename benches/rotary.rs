@@ -75,7 +75,7 @@ fn stages(criterion: &mut Criterion) {
     criterion.bench_function("output/dxf", |b| b.iter(|| dxf::write(black_box(&entities), Version::R2000)));
     criterion.bench_function("drawing/sheet", |b| b.iter(|| svg::sheet(black_box(&rendering))));
     criterion.bench_function("output/svg", |b| b.iter(|| svg::write(black_box(&sheet), svg::TEMPLATE)));
-    criterion.bench_function("drawing/table", |b| b.iter(|| Table::of(&black_box(&cam).rows(720))));
+    criterion.bench_function("drawing/table", |b| b.iter(|| Table::from_rows(&black_box(&cam).rows(720))));
     let points = cam.rows(10_000);
     let chords = points.iter().map(|row| Vertex::new(row.profile.expect("a profile"), 0.0)).collect();
     let chords = [(Layer::CamProfile, Entity::Polyline(Contour { vertices: chords }))];

@@ -41,7 +41,7 @@ fn stages(criterion: &mut Criterion) {
     criterion.bench_function("plate/rolling", |b| {
         b.iter(|| rolling::roll(black_box(&plate), (plate.curves(), &[false, true]), contour, 0.005));
     });
-    criterion.bench_function("plate/table", |b| b.iter(|| Table::of(&black_box(&plate).rows(720))));
+    criterion.bench_function("plate/table", |b| b.iter(|| Table::from_rows(&black_box(&plate).rows(720))));
 }
 
 criterion_group!(benches, equation, stages);

@@ -128,7 +128,7 @@ fn resting(outline: &Contour, gauge: Gauge, direction: Vector2<f64>) -> Option<(
             }
             Edge::Segment(segment) => on_arc(&segment, gauge, direction).into_iter().for_each(&mut rest),
             Edge::Cubic(cubic) => {
-                (1..PLACES).for_each(|step| rest(cubic.point_and_tangent(f64::from(step) / f64::from(PLACES)).0))
+                (1..PLACES).for_each(|step| rest(cubic.point_and_tangent(f64::from(step) / f64::from(PLACES)).0));
             }
         }
     }
