@@ -153,8 +153,9 @@ impl RollerPath {
         }
     }
 
-    /// Pressure angle at a point of the centre line with this slope, rad, signed: positive where the lift grows.
-    pub(crate) fn pressure_angle(&self, lift: &Jet, (sin, cos): (f64, f64)) -> f64 {
+    /// Pressure angle at a point of the centre line, rad, signed: positive where the lift grows.
+    pub(crate) fn pressure_angle(&self, lift: &Jet, point: &LinePoint) -> f64 {
+        let (sin, cos) = point.slope;
         let (across, along) = self.drive(lift);
         let (normal, tangent) = (-sin * across + cos * along, cos * across + sin * along);
         libm::atan2(tangent, normal)

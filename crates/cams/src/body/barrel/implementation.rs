@@ -100,7 +100,7 @@ impl<R: BarrelRoller> SweptGeometry for Barrel<R> {
     }
 
     fn pressure_angle(&self, lift: &Jet, axis: &R::Line, v: f64) -> f64 {
-        self.roller.path().pressure_angle(lift, axis.point(v).slope)
+        self.roller.path().pressure_angle(lift, &axis.point(v))
     }
 
     fn way_of_lift(&self) -> f64 {
@@ -163,7 +163,7 @@ impl<R: BarrelRoller> SweptBody for Barrel<R> {
     }
 
     fn moving(&self, drawn: &Drawn, samples: u32) -> MovingMechanism {
-        mechanism::of(self, drawn, samples)
+        mechanism::moving(self, drawn, samples)
     }
 
     fn fill_sheet(&self, drawn: Option<&SweptDrawing>, view: &mut SheetView) {

@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 const SHOWN: f64 = 0.5;
 
 /// The mechanism: the developed view runs past the roller, which moves along the axis.
-pub(super) fn of<R: BarrelRoller>(barrel: &Barrel<R>, drawn: &Drawn, samples: u32) -> MovingMechanism {
+pub(super) fn moving<R: BarrelRoller>(barrel: &Barrel<R>, drawn: &Drawn, samples: u32) -> MovingMechanism {
     let Some(swept) = drawn.swept.as_deref() else { return MovingMechanism::default() };
     let samples = samples.max(1);
     let around = MILLIMETRES * barrel.outer * TAU;

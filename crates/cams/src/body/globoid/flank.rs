@@ -2,7 +2,7 @@
 //! lies exactly at its distance from the turret's axis, so that the rims lie on their tori within what the splines miss; the first and the last patch end on the
 //! cones, each place at its own cam angle.
 
-use super::{End, Globoid};
+use super::{End, FlankCurve, Globoid};
 use crate::body::swept::{FlankSide, LONGEST_PATCH, SweptBody, fitted_flanks};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::Contour;
@@ -151,7 +151,7 @@ impl Globoid {
         let mut range = (f64::INFINITY, f64::NEG_INFINITY);
         for i in 0..=PLACES {
             let from_turret = self.outside + (self.floor - self.outside) * f64::from(i) / f64::from(PLACES);
-            let at = self.passes(flank, end, (from_turret, roller)).ok_or_else(|| {
+            let at = self.passes(FlankCurve { flank, roller, from_turret }, end).ok_or_else(|| {
                 Refusal::new("a roller does not pass the end of the cam in one movement")
                     .remedy("give another cam.end_angle")
             })?;
@@ -219,38 +219,33 @@ impl Globoid {
         let floor = MILLIMETRES * self.floor;
         let angle_of = move |bound: Bound, from_turret: f64| match bound {
             Bound::At(angle) => angle,
-            Bound::End(end) => self.passes(flank, end, (from_turret, roller)).unwrap_or(f64::NAN),
+            Bound::End(end) => self.passes(FlankCurve { flank, roller, from_turret }, end).unwrap_or(f64::NAN),
         };
         let place = move |share: f64, v: f64| {
             let from_turret = (floor - v) / MILLIMETRES;
             let [from, to] = stretch.bounds.map(|bound| angle_of(bound, from_turret));
             let angle = if share == 1.0 { to } else { from + (to - from) * share };
-            self.flank_at((flank, roller), from_turret, (stretch.piece, angle), to - from)
+            let [point, by_angle] = self.flank_at(FlankCurve { flank, roller, from_turret }, stretch.piece, angle);
+            [point * MILLIMETRES, by_angle * (MILLIMETRES * (to - from))]
         };
         FlankStretch { along: (0.0, 1.0), place: Box::new(place) }
     }
 
-    /// Point (mm) of a flank, and its derivative by the cam angle times a width.
-    fn flank_at(
-        &self,
-        (flank, roller): (FlankSide, f64),
-        from_turret: f64,
-        (piece, angle): (Option<(usize, f64)>, f64),
-        width: f64,
-    ) -> [Vector3<f64>; 2] {
+    /// Point of a flank and its derivative by the cam angle, m, of any turn or within a piece and the turns beyond it.
+    fn flank_at(&self, curve: FlankCurve, piece: Option<(usize, f64)>, angle: f64) -> [Vector3<f64>; 2] {
         let line = match piece {
             Some((piece, turns)) => {
                 let own = self.groove.motion.pieces().get(piece).copied();
                 let inside = own.map_or(f64::NAN, |own| (angle - turns * TAU).clamp(own.start, own.end));
-                self.line_of((piece, inside, turns), roller)
+                self.line_in(piece, inside, turns, curve.roller)
             }
-            None => self.line_at(angle, roller),
+            None => self.line_at(angle, curve.roller),
         };
-        let Some(found) = line.at_distance(self.groove.signed(flank), from_turret) else {
+        let Some(found) = line.at_distance(self.groove.signed(curve.flank), curve.from_turret) else {
             return [Vector3::repeat(f64::NAN); 2];
         };
         let (sin, cos) = libm::sincos(angle);
         let turned = |v: Vector3<f64>| Vector3::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos, v.z);
-        [turned(found.place) * MILLIMETRES, turned(found.by_angle) * (MILLIMETRES * width)]
+        [turned(found.place), turned(found.by_angle)]
     }
 }

@@ -151,7 +151,7 @@ impl SweptBody for Globoid {
     }
 
     fn moving(&self, _drawn: &Drawn, samples: u32) -> MovingMechanism {
-        mechanism::of(self, samples)
+        mechanism::moving(self, samples)
     }
 
     fn fill_sheet(&self, _drawn: Option<&SweptDrawing>, view: &mut SheetView) {

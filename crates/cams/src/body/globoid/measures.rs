@@ -43,9 +43,8 @@ impl Globoid {
             for i in 0..=PLACES {
                 let angle = piece.start + (piece.end - piece.start) * f64::from(i) / f64::from(PLACES);
                 for flank in FlankSide::BOTH {
-                    let inside = |roller: &i32| {
-                        self.touches_wholly(&self.line_of((index, angle, 0.0), f64::from(*roller)), flank)
-                    };
+                    let inside =
+                        |roller: &i32| self.touches_wholly(&self.line_in(index, angle, 0.0, f64::from(*roller)), flank);
                     #[expect(clippy::cast_precision_loss, reason = "a few rollers")]
                     let count = self.passing_rollers().filter(inside).count() as f64;
                     if count < least.0 {

@@ -29,7 +29,7 @@ pub(super) fn outline(globoid: &Globoid, side: f64) -> Vec<Vector2<f64>> {
 }
 
 /// The mechanism: the cam stands still in its outline, and the rollers move through it.
-pub(super) fn of(globoid: &Globoid, samples: u32) -> MovingMechanism {
+pub(super) fn moving(globoid: &Globoid, samples: u32) -> MovingMechanism {
     let samples = samples.max(1);
     let [distance, outside, reached, radius] =
         [globoid.turret.distance, globoid.outside, globoid.reached, globoid.groove.roller]

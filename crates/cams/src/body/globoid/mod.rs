@@ -62,6 +62,15 @@ enum End {
     Top,
 }
 
+/// A curve of a groove: a flank of it at a distance from the turret's axis, m.
+#[derive(Debug, Clone, Copy)]
+struct FlankCurve {
+    flank: FlankSide,
+    /// The number of the roller that runs there.
+    roller: f64,
+    from_turret: f64,
+}
+
 impl End {
     fn sign(self) -> f64 {
         if self == Self::Top { 1.0 } else { -1.0 }
@@ -220,7 +229,7 @@ impl Globoid {
     fn refuse_what_leaves(&self) -> Result<(), Refusal> {
         for (piece, angle) in self.groove.places() {
             for roller in self.passing_rollers() {
-                let line = self.line_of((piece, angle, 0.0), f64::from(roller));
+                let line = self.line_in(piece, angle, 0.0, f64::from(roller));
                 if line.angle[0].abs() > self.end_angle {
                     continue;
                 }
@@ -248,7 +257,7 @@ impl Globoid {
     }
 
     /// The centre line of a roller at a place: piece, cam angle in it, and turns beyond it.
-    fn line_of(&self, (piece, angle, turns): (usize, f64, f64), roller: f64) -> TurretLine {
+    fn line_in(&self, piece: usize, angle: f64, turns: f64, roller: f64) -> TurretLine {
         self.line_at_lift(
             &self.groove.motion.jet(piece, angle),
             turns * self.turret.index() - roller * self.turret.pitch(),
@@ -263,19 +272,20 @@ impl Globoid {
     /// The centre line of a roller at a cam angle of any turn.
     fn line_at(&self, angle: f64, roller: f64) -> TurretLine {
         let (piece, inside) = self.groove.motion.locate(angle);
-        self.line_of((piece, inside, ((angle - inside) / TAU).round()), roller)
+        self.line_in(piece, inside, ((angle - inside) / TAU).round(), roller)
     }
 
     /// A flank of a roller's groove at a distance from the turret's axis and a cam angle of any turn.
-    fn edge(&self, flank: FlankSide, from_turret: f64, (angle, roller): (f64, f64)) -> Option<FlankPoint> {
-        self.line_at(angle, roller).at_distance(self.groove.signed(flank), from_turret)
+    fn edge(&self, curve: FlankCurve, angle: f64) -> Option<FlankPoint> {
+        self.line_at(angle, curve.roller).at_distance(self.groove.signed(curve.flank), curve.from_turret)
     }
 
     /// The cam angle at which the flank of a roller passes an end of the cam at a distance from the turret's axis; `None` where it does not.
-    fn passes(&self, flank: FlankSide, end: End, (from_turret, roller): (f64, f64)) -> Option<f64> {
+    fn passes(&self, curve: FlankCurve, end: End) -> Option<f64> {
+        let FlankCurve { flank, roller, from_turret } = curve;
         let due = end.sign() * self.end_angle;
         let off = |angle: f64| {
-            let found = self.edge(flank, from_turret, (angle, roller));
+            let found = self.edge(curve, angle);
             found.map_or(f64::NAN, |found| found.about_turret(self.turret.distance) - due)
         };
         // Which turn of the cam brings the roller there, and between which joints of the motion.

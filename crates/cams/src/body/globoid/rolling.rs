@@ -82,11 +82,11 @@ impl Globoid {
     pub(super) fn thinnest_rib(&self) -> (f64, f64) {
         let mut least = (f64::INFINITY, 0.0);
         for (piece, angle) in self.groove.places() {
-            let line = self.line_of((piece, angle, 0.0), 0.0);
+            let line = self.line_in(piece, angle, 0.0, 0.0);
             // Of the roller that then is nearest to the middle.
             let roller = (line.angle[0] / self.turret.pitch()).round();
             let Some(found) =
-                self.line_of((piece, angle, 0.0), roller).at_distance(self.groove.distances[0], self.outside)
+                self.line_in(piece, angle, 0.0, roller).at_distance(self.groove.distances[0], self.outside)
             else {
                 continue;
             };

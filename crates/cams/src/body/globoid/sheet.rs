@@ -1,7 +1,7 @@
 //! What the review sheet of a globoid shows: the section of its blank with the turret, and a table of places of both flanks.
 
 use super::mechanism::outline;
-use super::{End, Globoid};
+use super::{End, FlankCurve, Globoid};
 use crate::body::swept::FlankSide;
 use crate::body::swept::sheet::{bore_mark, dimension};
 use crate::report::sheet::{Dimensions, Mark, PlaceTable, ShapeGroup, SheetShape, SheetView, rounded};
@@ -130,7 +130,7 @@ fn marks(globoid: &Globoid, view: &mut SheetView) {
 /// Angle, radius and height of both flanks on the outside and at the floor, from where the first groove enters to where it leaves.
 fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
     let [Some(from), Some(to)] = [(FlankSide::Upper, End::Bottom), (FlankSide::Lower, End::Top)]
-        .map(|(flank, end)| globoid.passes(flank, end, (globoid.outside, 0.0)))
+        .map(|(flank, end)| globoid.passes(FlankCurve { flank, roller: 0.0, from_turret: globoid.outside }, end))
     else {
         return Vec::new();
     };
@@ -145,7 +145,7 @@ fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
         let mut cells = vec![rounded(angle.to_degrees())];
         for from_turret in [globoid.outside, globoid.floor] {
             for flank in FlankSide::BOTH {
-                let found = globoid.edge(flank, from_turret, (angle, 0.0));
+                let found = globoid.edge(FlankCurve { flank, roller: 0.0, from_turret }, angle);
                 let inside =
                     found.filter(|found| found.about_turret(globoid.turret.distance).abs() <= globoid.end_angle);
                 cells.extend(match inside {

@@ -1,6 +1,6 @@
 //! The globoid as a body with swept flanks: the rollers rolled past any point, its round faces and its volume.
 
-use super::{End, Globoid};
+use super::{End, FlankCurve, Globoid};
 use crate::body::swept::{FlankMiss, FlankSide, RoundFace, RoundForm, SweptFlanks, TurnedCam, integrate_smooth, miss};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::numeric::quadrature;
@@ -32,20 +32,18 @@ impl Globoid {
     fn groove_area(&self, from_turret: f64, roller: f64) -> f64 {
         let height = |about: f64| from_turret * (self.turret.distance * about - from_turret * libm::sin(about));
         let of = |flank: FlankSide| {
-            let ends =
-                [End::Bottom, End::Top].map(|end| self.passes(flank, end, (from_turret, roller)).unwrap_or(f64::NAN));
+            let curve = FlankCurve { flank, roller, from_turret };
+            let ends = [End::Bottom, End::Top].map(|end| self.passes(curve, end).unwrap_or(f64::NAN));
             let mut area = 0.0;
             for (from, to) in self.smooth_parts(ends) {
                 let value = |angle: f64| {
-                    let found = self.edge(flank, from_turret, (angle, roller));
+                    let found = self.edge(curve, angle);
                     found
                         .map_or(f64::NAN, |found| height(found.about_turret(self.turret.distance)) * found.polar_rate())
                 };
                 area += integrate_smooth(value, (from, to));
             }
-            let polar = |angle: f64| {
-                self.edge(flank, from_turret, (angle, roller)).map_or(f64::NAN, |found| angle + found.ahead())
-            };
+            let polar = |angle: f64| self.edge(curve, angle).map_or(f64::NAN, |found| angle + found.ahead());
             (area, ends.map(polar))
         };
         let ((upper, [enters, leaves]), (lower, [later, last])) = (of(FlankSide::Upper), of(FlankSide::Lower));

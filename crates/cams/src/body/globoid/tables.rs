@@ -1,6 +1,6 @@
 //! The tables of a globoid: places of both flanks of each groove, and those of a tool on two rotary axes.
 
-use super::{End, Globoid};
+use super::{End, FlankCurve, Globoid};
 use crate::body::swept::{FlankSide, RollerLine};
 use crate::table::{ListedColumn, Table};
 use camgen_kernel::geometry::MILLIMETRES;
@@ -55,8 +55,8 @@ const TWO_AXES: &[ListedColumn<ToolRow>] = &[
 
 impl Globoid {
     /// Cam angles, a step apart, at which a flank of a groove lies between the ends.
-    fn angles(&self, flank: FlankSide, (from_turret, roller): (f64, f64), samples: u32) -> Vec<f64> {
-        let ends = [End::Bottom, End::Top].map(|end| self.passes(flank, end, (from_turret, roller)));
+    fn angles(&self, curve: FlankCurve, samples: u32) -> Vec<f64> {
+        let ends = [End::Bottom, End::Top].map(|end| self.passes(curve, end));
         let [Some(from), Some(to)] = ends else { return Vec::new() };
         let step = TAU / f64::from(samples.max(1));
         let mut angles = vec![from];
@@ -78,8 +78,9 @@ impl Globoid {
                 let share = f64::from(ring) / f64::from(TUBES);
                 let from_turret = self.floor + (self.outside - self.floor) * share;
                 for (flank, sign) in [(FlankSide::Upper, 1.0), (FlankSide::Lower, -1.0)] {
-                    for angle in self.angles(flank, (from_turret, roller), samples) {
-                        let Some(found) = self.edge(flank, from_turret, (angle, roller)) else { continue };
+                    let curve = FlankCurve { flank, roller, from_turret };
+                    for angle in self.angles(curve, samples) {
+                        let Some(found) = self.edge(curve, angle) else { continue };
                         rows.push(SectionRow {
                             groove: roller + 1.0,
                             flank: sign,
@@ -105,13 +106,15 @@ impl Globoid {
         let mut rows = Vec::new();
         for groove in 0..self.turret.advance {
             let roller = f64::from(groove);
-            let enters = self.passes(FlankSide::Upper, End::Bottom, (self.floor, roller)).unwrap_or(f64::NAN);
-            let leaves = self.passes(FlankSide::Lower, End::Top, (self.floor, roller)).unwrap_or(f64::NAN);
+            let [enters, leaves] =
+                [(FlankSide::Upper, End::Bottom), (FlankSide::Lower, End::Top)].map(|(flank, end)| {
+                    self.passes(FlankCurve { flank, roller, from_turret: self.floor }, end).unwrap_or(f64::NAN)
+                });
             for flank in passes.flanks {
                 let away = self.groove.tool_offset(*flank, passes.radius);
                 let mut i = (enters / step).floor();
                 while (i - 1.0) * step < leaves {
-                    rows.push(self.tool_row((i * step, roller), (passes.radius, away)));
+                    rows.push(self.tool_row(i * step, roller, away, passes.radius));
                     i += 1.0;
                 }
             }
@@ -120,7 +123,7 @@ impl Globoid {
     }
 
     /// A tool of a radius at a distance from the centre line of a roller, along the normal of the flank in the middle of the groove's depth.
-    fn tool_row(&self, (angle, roller): (f64, f64), (radius, away): (f64, f64)) -> ToolRow {
+    fn tool_row(&self, angle: f64, roller: f64, away: f64, radius: f64) -> ToolRow {
         let line = self.line_at(angle, roller);
         let slope = |from: f64| line.point(from).slope;
         let (sin, cos) = slope(0.5 * (self.outside + self.floor));

@@ -1,4 +1,4 @@
-use super::{End, Globoid};
+use super::{End, FlankCurve, Globoid};
 use crate::body::in_groove::{GrooveForces, InGroove};
 use crate::body::swept::{FlankSide, RollerLine, SweptFlanks};
 use crate::machine::Machine;
@@ -22,10 +22,11 @@ fn a_point_is_as_far_from_the_flank_as_it_was_moved() {
         for i in 0..40 {
             for flank in FlankSide::BOTH {
                 let from = globoid.outside + (globoid.floor - globoid.outside) * f64::from(i % 5) / 4.0;
+                let curve = FlankCurve { flank, roller: 0.0, from_turret: from };
                 let [enters, leaves] =
-                    [End::Bottom, End::Top].map(|end| globoid.passes(flank, end, (from, 0.0)).expect("it passes"));
+                    [End::Bottom, End::Top].map(|end| globoid.passes(curve, end).expect("it passes"));
                 let angle = enters + (leaves - enters) * (f64::from(i) + 0.5) / 40.0;
-                let found = globoid.edge(flank, from, (angle, 0.0)).expect("a point");
+                let found = globoid.edge(curve, angle).expect("a point");
                 let line = globoid.line_at(angle, 0.0);
                 // The normal by which the place was found, into the metal: from the centre line outwards.
                 let (s, c) = libm::sincos(line.angle[0]);
@@ -78,7 +79,7 @@ fn the_normal_force_turns_the_cam_by_the_torque() {
         let contacts = globoid.contacts((piece, angle), row.path >= 0.0);
         assert!(!contacts.is_empty(), "{i}");
         for contact in contacts {
-            let axis = globoid.line_of((piece, angle, 0.0), f64::from(contact.roller));
+            let axis = globoid.line_in(piece, angle, 0.0, f64::from(contact.roller));
             let line = axis.point(globoid.turret.arm);
             let force = row.path.abs() / libm::cos(contact.pressure_angle);
             assert!(force <= row.contact.expect("in touch") * (1.0 + 1e-12));
