@@ -13,7 +13,7 @@ use camgen::motion::Quantity;
 use camgen::pipeline::{Assembly, AssemblyDrawing, ExpectedFile, FileSet, ProvenAssembly, Writing};
 use camgen::profile::outline::Fit;
 use camgen::report::{Finding, Report, Speeds};
-use camgen::tool_files::{dxf, gcode, inspection, points, requested};
+use camgen::tool_files::{Format, dxf, gcode, inspection, points, requested};
 use camgen::verify;
 use camgen::write::{csv, json};
 use camgen::{Accuracy, Request, Side};
@@ -321,7 +321,7 @@ impl Cam {
         let writing = Writing { formats, samples, ..Writing::to("output", &self.stem) };
         let (chosen, _) = ok(writing.chosen(self.body()))?;
         // The flank of a three-dimensional cam is drawn, and proved, only for a format that shows it.
-        let request = Request { flank: chosen.iter().any(|format| format.flank), ..request };
+        let request = Request { flank: chosen.iter().any(Format::shows_flank), ..request };
         let drawing = ok(py.detach(|| self.assembly.draw(request)))?;
         Ok(Drawing { drawing, writing, version })
     }

@@ -68,6 +68,7 @@ fn cam_of(kind: &Kind, overrides: &[&str]) -> Cam {
                 "rib" => &["cam.body=rib", "cam.roller_distance=30mm"],
                 "yoke" => &["cam.body=yoke"],
                 "barrel" => &["cam.body=barrel", "cam.groove_depth=8mm", "cam.outer_radius=auto"],
+                "tapered-barrel" => &["cam.body=tapered-barrel", "cam.groove_depth=8mm", "cam.outer_radius=auto"],
                 "wedge" => &["cam.body=wedge", "follower.roller.preload=100N"],
                 _ => &[],
             };

@@ -3,7 +3,7 @@
 use crate::analysis::{compare, import, laws, size};
 use crate::body::{self, Kind};
 use crate::check::Check;
-use crate::domain::{DesignCommand, Domain, Makes, registered};
+use crate::domain::{Added, DesignCommand, Domain, Makes, registered};
 use crate::machine::{self, Catalogue, Machine, MachineError, MachineSource};
 use crate::pipeline::Spec;
 use crate::tool_files::tool_files;
@@ -65,7 +65,11 @@ impl CatalogueBuilder {
         Catalogue {
             keys: Tables { sections: sections(domains), kinds },
             embedded: embedded.copied().collect(),
-            parts: domains.iter().filter_map(|domain| domain.read).collect(),
+            parts: body::BODIES
+                .iter()
+                .filter_map(|body| body.keys.map(|keys| keys.read))
+                .chain(domains.iter().filter_map(|domain| domain.read))
+                .collect(),
             checks: checks_with(domains).into_iter().map(|check| check.name).collect(),
             file_checks: file_checks().map(|check| check.name).collect(),
         }
@@ -75,6 +79,10 @@ impl CatalogueBuilder {
 /// Every table of a machine file.
 fn sections(domains: &[&Domain]) -> Vec<&'static KeySection> {
     let mut all = machine::sections();
+    for keys in body::BODIES.iter().filter_map(|body| body.keys) {
+        let added = Added { after: keys.section.path, entries: std::slice::from_ref(&keys.section) };
+        added.put_into(&mut all, |section| section.path);
+    }
     for added in domains.iter().flat_map(|domain| domain.sections) {
         added.put_into(&mut all, |section| section.path);
     }

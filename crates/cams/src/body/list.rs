@@ -2,7 +2,7 @@
 
 use super::disc::{self, Disc};
 use super::groove::{self, Groove};
-use super::{Kind, ProgramCams, barrel, conjugate, globoid, rib, wedge, yoke};
+use super::{BodyKeys, Kind, ProgramCams, barrel, conjugate, globoid, rib, tapered, wedge, yoke};
 use crate::machine::Machine;
 use camgen_kernel::document::cams;
 use camgen_kernel::motion::{Motion, given};
@@ -21,47 +21,50 @@ pub struct ProgramBody {
     pub has_base_circle: bool,
     /// How it is solved.
     pub solve: SolveProgram,
+    /// The keys that only it has and that its folder reads.
+    pub keys: Option<&'static BodyKeys>,
+}
+
+impl ProgramBody {
+    /// A body about a base circle.
+    const fn based(kind: &'static Kind, solve: SolveProgram) -> Self {
+        Self { kind, has_base_circle: true, solve, keys: None }
+    }
+
+    /// A body without a base circle.
+    const fn without_base(kind: &'static Kind, solve: SolveProgram) -> Self {
+        Self { kind, has_base_circle: false, solve, keys: None }
+    }
+
+    const fn with_keys(self, keys: &'static BodyKeys) -> Self {
+        Self { keys: Some(keys), ..self }
+    }
 }
 
 /// Every body of a motion program: a new one is a folder, and a line here and in [`cams`](camgen_kernel::document::cams).
 pub const BODIES: &[ProgramBody] = &[
-    ProgramBody {
-        kind: &disc::GENERAL,
-        has_base_circle: true,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(Disc::of_motion(machine, Arc::clone(motion), rpm)?)),
-    },
-    ProgramBody {
-        kind: &groove::RING,
-        has_base_circle: true,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(Groove::ring(machine, motion, rpm)?)),
-    },
-    ProgramBody {
-        kind: &groove::GROOVE,
-        has_base_circle: true,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(Groove::between_flanks(machine, motion, rpm)?)),
-    },
-    ProgramBody { kind: &conjugate::MAIN, has_base_circle: true, solve: conjugate::pair },
-    ProgramBody {
-        kind: &rib::RIB,
-        has_base_circle: true,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(rib::Rib::of(machine, motion, rpm)?)),
-    },
-    ProgramBody {
-        kind: &yoke::YOKE,
-        has_base_circle: true,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(yoke::Yoke::of(machine, motion, rpm)?)),
-    },
-    ProgramBody { kind: &barrel::BARREL, has_base_circle: false, solve: barrel::solve },
-    ProgramBody {
-        kind: &globoid::GLOBOID,
-        has_base_circle: false,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(globoid::Globoid::of(machine, motion, rpm)?)),
-    },
-    ProgramBody {
-        kind: &wedge::WEDGE,
-        has_base_circle: false,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(wedge::Wedge::at_speed(machine, motion, rpm)?)),
-    },
+    ProgramBody::based(&disc::GENERAL, |machine, motion, rpm| {
+        Ok(ProgramCams::alone(Disc::of_motion(machine, Arc::clone(motion), rpm)?))
+    }),
+    ProgramBody::based(&groove::RING, |machine, motion, rpm| {
+        Ok(ProgramCams::alone(Groove::ring(machine, motion, rpm)?))
+    }),
+    ProgramBody::based(&groove::GROOVE, |machine, motion, rpm| {
+        Ok(ProgramCams::alone(Groove::between_flanks(machine, motion, rpm)?))
+    }),
+    ProgramBody::based(&conjugate::MAIN, conjugate::pair),
+    ProgramBody::based(&rib::RIB, |machine, motion, rpm| Ok(ProgramCams::alone(rib::Rib::of(machine, motion, rpm)?))),
+    ProgramBody::based(&yoke::YOKE, |machine, motion, rpm| {
+        Ok(ProgramCams::alone(yoke::Yoke::of(machine, motion, rpm)?))
+    }),
+    ProgramBody::without_base(&barrel::BARREL, barrel::solve),
+    ProgramBody::without_base(&tapered::TAPERED, tapered::solve).with_keys(&tapered::KEYS),
+    ProgramBody::without_base(&globoid::GLOBOID, |machine, motion, rpm| {
+        Ok(ProgramCams::alone(globoid::Globoid::of(machine, motion, rpm)?))
+    }),
+    ProgramBody::without_base(&wedge::WEDGE, |machine, motion, rpm| {
+        Ok(ProgramCams::alone(wedge::Wedge::at_speed(machine, motion, rpm)?))
+    }),
 ];
 
 /// Refuses figures of a disc for a machine whose body is not a disc.

@@ -33,6 +33,7 @@ pub(crate) mod start;
 pub mod stress;
 pub mod surface;
 pub mod swept;
+mod tapered;
 pub mod torque;
 pub mod wedge;
 mod wishes;
@@ -58,12 +59,12 @@ pub use worst_places::WorstPlaces;
 pub use worst_places::{STRAIGHT, radius_of};
 
 use crate::check::Measures;
-use crate::machine::Machine;
+use crate::machine::{Machine, ReadParts};
 use crate::report::mechanism::MovingMechanism;
 use crate::report::sheet::SheetView;
 use crate::report::{Place, Rolled, Section, Shaft, Speeds, shown};
 use crate::table::{Row, Table};
-use camgen_kernel::document::{NamedChoice, cams};
+use camgen_kernel::document::{KeySection, NamedChoice, cams};
 use camgen_kernel::geometry::boundary::{Boundary, BoundaryStretch};
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::geometry::lead_in::LeadIn;
@@ -90,6 +91,15 @@ pub struct Kind {
     pub noun: &'static str,
     /// The kind of cam, as keys name it, whose keys have an effect on it.
     pub keys: &'static str,
+}
+
+/// Keys that a body adds to a table of a machine file.
+#[derive(Debug)]
+pub struct BodyKeys {
+    /// The keys, in the table that has them.
+    pub section: &'static KeySection,
+    /// Reads them into a part of the machine.
+    pub read: ReadParts,
 }
 
 /// The body of a motion, with those that are made for it.

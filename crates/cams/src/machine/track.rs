@@ -58,7 +58,7 @@ pub struct CounterData {
 
 const BODY: Field<&'static str> = Field::words(
     "body",
-    "what is cut: \"disc\", the roller outside of it; \"ring\", the roller inside of it; \"groove\", the roller between two flanks; \"conjugate\", two discs for two rollers of one follower; \"rib\", a wall between two rollers; \"yoke\", a disc between two faces or rollers; \"barrel\", a cylinder with a groove round its outside; \"globoid\", a hollow round body that moves a turret with rollers on, an indexer; \"wedge\", a plate that travels under its follower",
+    "what is cut: \"disc\", the roller outside of it; \"ring\", the roller inside of it; \"groove\", the roller between two flanks; \"conjugate\", two discs for two rollers of one follower; \"rib\", a wall between two rollers; \"yoke\", a disc between two faces or rollers; \"barrel\", a cylinder with a groove round its outside; \"tapered-barrel\", the same for a conical roller; \"globoid\", a hollow round body that moves a turret with rollers on, an indexer; \"wedge\", a plate that travels under its follower",
     Default(DISC_BODY),
     BODIES,
     BODY_KINDS,

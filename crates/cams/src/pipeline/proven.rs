@@ -262,9 +262,6 @@ impl Proven {
         } else {
             proved.files(format.name)?
         };
-        if files.is_empty() {
-            return Err(Refusal::new(file.facts().not_planned));
-        }
         let mut all = bytes_of(&files);
         all.extend(proved.sheets(rendering)?);
         Ok(all)

@@ -1,4 +1,5 @@
-//! The head of a file: statements on the cam, each in a line of its own after a comment mark, and their comparison with those of the cam: a statement that contradicts the cam is refused with its line.
+//! The head of a file: statements on the cam, each in a line of its own after a comment mark. One that contradicts the cam is refused with its
+//! line.
 //!
 //! A statement has a key before its colon. Other lines are remarks, unless the mark names this version of camgen: then every statement of this
 //! version must be present.

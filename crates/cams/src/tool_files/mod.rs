@@ -1,5 +1,5 @@
-//! Files that a machine runs: a table for a servo drive, a list of places for a measuring machine. Each has a folder with all that belongs to
-//! it: its formats, what is planned of a cam, the writer, the reader and the judge.
+//! Files that a machine runs: to cut from, to move a drive by, to measure with. Each has a folder with all that belongs to it: its formats, what
+//! is planned of a cam, the writer, the reader and the judge.
 //!
 //! A [`ToolFile`] has no function that writes a file to the disk: what is planned is written to memory, and only [`prove`] makes a
 //! [`ProvedFile`] of it, once its judge has read the bytes. What is only looked at (a sheet, a page, a table) is a [`View`](crate::write::View).
@@ -20,7 +20,7 @@ pub mod table;
 mod tool_file;
 
 pub use list::{Format, LISTED, Listed, formats, formats_by_name, recognised, requested, tool_files};
-pub use proof::{PlannedFile, ProvedFile, ProvedToolFile, plan, prove};
+pub use proof::{PlannedFile, ProvedToolFile, plan, prove};
 pub use tool_file::{
-    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, SolvedCam, ToolFile, ToolFileFacts, WrittenFile,
+    DrawnCam, ExpectedFile, FileError, JudgedFile, Plan, ProvedFile, SolvedCam, ToolFile, ToolFileFacts, WrittenFile,
 };

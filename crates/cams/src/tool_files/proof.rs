@@ -1,7 +1,7 @@
 //! The way of a file that a machine runs: planned with the drawing, written to memory, read back and judged. Only then is it a [`ProvedFile`].
 
 use super::list::{is_named, tool_files};
-use super::tool_file::{DrawnCam, JudgedFile, Plan, ToolFile, WrittenFile};
+use super::tool_file::{DrawnCam, JudgedFile, Plan, ProvedFile, ToolFile, WrittenFile};
 use crate::report::{Finding, Section, passed};
 use crate::verify::Evidence;
 use crate::write::Rendering;
@@ -13,32 +13,6 @@ use std::sync::Arc;
 pub struct PlannedFile {
     file: &'static dyn ToolFile,
     plan: Arc<dyn Plan>,
-}
-
-/// A file as its judge has read it: only what is proved here and in `dxf` becomes one.
-#[derive(Debug, Clone)]
-pub struct ProvedFile {
-    ending: String,
-    bytes: Vec<u8>,
-}
-
-impl ProvedFile {
-    /// A file whose bytes were read back by the caller.
-    pub(super) fn read_back(ending: String, bytes: Vec<u8>) -> Self {
-        Self { ending, bytes }
-    }
-
-    /// What is added to the stem of its name.
-    #[must_use]
-    pub fn ending(&self) -> &str {
-        &self.ending
-    }
-
-    /// Its bytes.
-    #[must_use]
-    pub fn bytes(&self) -> &[u8] {
-        &self.bytes
-    }
 }
 
 /// The files of a plan, written to memory and judged.
@@ -57,10 +31,13 @@ pub fn plan(cam: &DrawnCam<'_>) -> Result<Vec<PlannedFile>, Refusal> {
     let order = &cam.body.machine().catalogue().checks;
     let mut files: Vec<&'static dyn ToolFile> = tool_files().collect();
     files.sort_by_key(|file| order.iter().position(|name| *name == file.facts().check.name).unwrap_or(order.len()));
-    let planned = |file: &'static dyn ToolFile| {
-        Ok(file.plan(cam, is_named(file, cam.request.formats))?.map(|plan| PlannedFile { file, plan: Arc::from(plan) }))
-    };
-    files.into_iter().filter_map(|file| planned(file).transpose()).collect()
+    let mut planned = Vec::new();
+    for file in files {
+        if let Some(plan) = file.plan(cam, is_named(file, cam.request.formats))? {
+            planned.push(PlannedFile { file, plan: Arc::from(plan) });
+        }
+    }
+    Ok(planned)
 }
 
 /// Writes what was planned under a mark, and judges the bytes.
@@ -71,12 +48,13 @@ pub fn prove(
     evidence: &Evidence<'_>,
     mark: &str,
 ) -> Vec<ProvedToolFile> {
-    let prove = |planned: PlannedFile| {
+    let mut proved = Vec::with_capacity(planned.len());
+    for planned in planned {
         let written = planned.plan.write(cam, mark);
         let judged = planned.plan.judge(evidence, cam.request, &written);
-        ProvedToolFile { planned, written, judged }
-    };
-    planned.into_iter().map(prove).collect()
+        proved.push(ProvedToolFile { planned, written, judged });
+    }
+    proved
 }
 
 /// The files of a format that were judged.

@@ -106,6 +106,32 @@ pub struct WrittenFile {
     pub bytes: Result<Vec<u8>, Refusal>,
 }
 
+/// A file as its judge has read it: only what is proved in `proof.rs` and in `dxf` becomes one.
+#[derive(Debug, Clone)]
+pub struct ProvedFile {
+    ending: String,
+    bytes: Vec<u8>,
+}
+
+impl ProvedFile {
+    /// A file whose bytes were read back by the caller.
+    pub(super) fn read_back(ending: String, bytes: Vec<u8>) -> Self {
+        Self { ending, bytes }
+    }
+
+    /// What is added to the stem of its name.
+    #[must_use]
+    pub fn ending(&self) -> &str {
+        &self.ending
+    }
+
+    /// Its bytes.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+}
+
 /// A cam with its drawing, of which files are planned and written.
 #[derive(Clone, Copy)]
 pub struct DrawnCam<'a> {

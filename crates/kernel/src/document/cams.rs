@@ -107,7 +107,7 @@ const OF_A_PLATE: &[&str] = &[MAKE, ONE_THICKNESS];
 
 /// The bodies of a motion program, which all belong to the class [`MAKE`]: what a file calls each, and its kind of cam. The first is
 /// the usual one.
-const PROGRAM_BODIES: [(&str, CamKind); 9] = [
+const PROGRAM_BODIES: &[(&str, CamKind)] = &[
     (DISC_BODY, CamKind::cam(MAKE, OF_A_PROGRAM)),
     (RING, CamKind::cam(RING, OF_A_TRACK)),
     (GROOVE, CamKind::cam(GROOVE, OF_A_GROOVE)),
@@ -115,6 +115,7 @@ const PROGRAM_BODIES: [(&str, CamKind); 9] = [
     (RIB, CamKind::cam(RIB, OF_A_TRACK)),
     (YOKE, CamKind::cam(YOKE, OF_A_PROGRAM)),
     (BARREL, CamKind::cam(BARREL, OF_A_CYLINDER)),
+    ("tapered-barrel", CamKind::cam("tapered-barrel", OF_A_CYLINDER)),
     (GLOBOID, CamKind::cam(GLOBOID, OF_A_ROUND_BLANK)),
     (WEDGE, CamKind::cam(WEDGE, OF_A_PLATE)),
 ];

@@ -175,6 +175,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("cam.groove_depth", "8 mm"),
     ("cam.roller_height", "7 mm"),
     ("cam.blank_length", "90 mm"),
+    ("cam.roller_half_angle", "12 deg"),
     ("cam.turret_distance", "125 mm"),
     ("cam.arm", "69 mm"),
     ("cam.rollers", "9"),
@@ -560,7 +561,9 @@ fn every_word_of_a_key_reads() {
                     "pivot" => file_for(&path)
                         .replace("to = \"20 mm\"", "to = \"20 deg\"")
                         .replace("\"0 mm\"\n", "\"0 deg\"\n"),
-                    "groove" | "barrel" => file_for(&path).replace("\n[cam]\n", "\n[cam]\ngroove_depth = \"5 mm\"\n"),
+                    "groove" | "barrel" | "tapered-barrel" => {
+                        file_for(&path).replace("\n[cam]\n", "\n[cam]\ngroove_depth = \"5 mm\"\n")
+                    }
                     "wedge" => file_for("motion.stroke"),
                     // Its roller runs where a bore would be.
                     "ring" | "rib" => {

@@ -30,7 +30,7 @@ use camgen_kernel::profile::size::{first_that_keeps, rounded_up};
 use camgen_kernel::profile::{Worst, lifts};
 use camgen_kernel::refusal::Refusal;
 use contact::FlankPoint;
-pub(super) use contact::{AxisLine, BarrelLine, RollerPath};
+pub(super) use contact::{AxisLine, BarrelLine, OffsetPoint, RollerPath};
 use nalgebra::Vector3;
 use std::fmt::Debug;
 use std::sync::Arc;

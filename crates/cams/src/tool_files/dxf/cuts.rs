@@ -3,8 +3,7 @@
 use super::proof::{self, JOIN};
 use super::write::{DxfForm, cutter_path, marked};
 use crate::body::Drawn;
-use crate::tool_files::proof::ProvedFile;
-use crate::tool_files::tool_file::DrawnCam;
+use crate::tool_files::tool_file::{DrawnCam, ProvedFile};
 use crate::verify::{WrittenOutline, WrittenPath, WrittenSwept};
 use crate::write::step;
 use camgen_kernel::geometry::MILLIMETRES;

@@ -14,7 +14,7 @@ pub use cuts::ProvedCuts;
 pub use judge::{judge_path, judge_swept};
 pub use write::{DxfForm, Version, cutter_path, marked, write};
 
-use super::proof::ProvedFile;
+use super::tool_file::ProvedFile;
 use crate::body::{Body, Drawn};
 use crate::report::{shown, warning};
 use crate::write::{FormatSelection, Rendering, endings_of_outlines, endings_of_parts};

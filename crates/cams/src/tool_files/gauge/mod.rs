@@ -55,8 +55,7 @@ impl ToolFile for GaugeFile {
 
     fn judge(&self, cam: &SolvedCam<'_>, _file: &ExpectedFile<'_>, bytes: &[u8]) -> Result<JudgedFile, FileError> {
         let text = String::from_utf8_lossy(bytes);
-        let contradicted = |rows: GaugeRows| judge::contradiction(cam.body, &text, &rows).map_or(Ok(rows), Err);
-        let rows = read(bytes).and_then(contradicted);
+        let rows = read(bytes).and_then(|rows| judge::contradiction(cam.body, &text, &rows).map_or(Ok(rows), Err));
         Ok(Some(judge::judge(&cam.evidence()?, &rows)).into())
     }
 }

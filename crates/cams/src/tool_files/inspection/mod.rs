@@ -61,9 +61,10 @@ impl ToolFile for InspectionFile {
     fn judge(&self, cam: &SolvedCam<'_>, file: &ExpectedFile<'_>, bytes: &[u8]) -> Result<JudgedFile, FileError> {
         let text = String::from_utf8_lossy(bytes);
         best_of_cuts(cam, file, |cut| {
-            let list = WrittenInspection::read(cut, bytes);
-            let contradicted = |places| judge::contradiction(cam.body, &text, list.ball_radius).map_or(Ok(places), Err);
-            let list = WrittenInspection { places: list.places.and_then(contradicted), ..list };
+            let mut list = WrittenInspection::read(cut, bytes);
+            if let (Ok(_), Some(why)) = (&list.places, judge::contradiction(cam.body, &text, list.ball_radius)) {
+                list.places = Err(why);
+            }
             Ok(judge::judge(&cam.evidence()?, &[list]).into())
         })
     }

@@ -55,12 +55,11 @@ impl ToolFile for PointFile {
     }
 
     fn plan(&self, cam: &DrawnCam<'_>, _named: bool) -> Result<Option<Box<dyn Plan>>, Refusal> {
-        let Some(drawn) = cam.drawn else { return Ok(None) };
+        let Some(drawn) = cam.drawn.filter(|_| cam.request.points.is_some()) else { return Ok(None) };
         let tables = match tables(cam.body, cam.request, drawn) {
             // The check of the cutter's radius says so, too, and what would pass.
             Err(TableError::Cutter(why)) => Err(why.to_string()),
             Err(TableError::Refused(why)) => return Err(why.context("no table of points")),
-            Ok(tables) if tables.is_empty() => return Ok(None),
             Ok(tables) => Ok(tables),
         };
         Ok(Some(Box::new(PlannedTables(tables))))
@@ -82,7 +81,11 @@ struct PlannedTables(Result<Vec<PointTable>, String>);
 impl Plan for PlannedTables {
     fn write(&self, cam: &DrawnCam<'_>, _mark: &str) -> Vec<WrittenFile> {
         let endings = cam.drawn.map_or_else(Vec::new, |drawn| endings_of_outlines(drawn, "-points.csv"));
-        let named = self.0.iter().flatten().zip(endings);
+        let Ok(tables) = &self.0 else {
+            let bytes = Err(Refusal::new(FACTS.not_planned));
+            return vec![WrittenFile { format: FORMAT, ending: String::new(), bytes }];
+        };
+        let named = tables.iter().zip(endings);
         named.map(|(table, ending)| WrittenFile { format: FORMAT, ending, bytes: Ok(write(cam.body, table)) }).collect()
     }
 

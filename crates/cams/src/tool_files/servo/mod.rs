@@ -61,8 +61,8 @@ impl ToolFile for ServoFile {
 
     fn judge(&self, cam: &SolvedCam<'_>, _file: &ExpectedFile<'_>, bytes: &[u8]) -> Result<JudgedFile, FileError> {
         let text = String::from_utf8_lossy(bytes);
-        let contradicted = |rows: ServoRows| judge::contradiction(cam.body, &text, &rows).map_or(Ok(rows), Err);
-        let written = WrittenServo { format: "the table", table: read(bytes).and_then(contradicted) };
+        let table = read(bytes).and_then(|rows| judge::contradiction(cam.body, &text, &rows).map_or(Ok(rows), Err));
+        let written = WrittenServo { format: "the table", table };
         Ok(judge::judge(&cam.evidence()?, &[written]).into())
     }
 }
@@ -73,11 +73,10 @@ impl Plan for ServoTable {
     }
 
     fn judge(&self, evidence: &Evidence<'_>, _request: &Request, files: &[WrittenFile]) -> JudgedFile {
-        let read = |file: &WrittenFile| {
-            let bytes = file.bytes.as_ref().ok()?;
-            Some(WrittenServo { format: file.format, table: read(bytes) })
-        };
-        let written: Vec<WrittenServo> = files.iter().filter_map(read).collect();
+        let mut written = Vec::with_capacity(files.len());
+        for file in files {
+            written.extend(file.bytes.iter().map(|bytes| WrittenServo { format: file.format, table: read(bytes) }));
+        }
         judge::judge(evidence, &written).into()
     }
 }

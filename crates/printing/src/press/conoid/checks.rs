@@ -1,12 +1,12 @@
 //! The checks of a conoid: force and reach along its axis, the contact of a cylindrical roller, and the speeds between its sections.
 
-use camgen_kernel::text::{KeyChange, Length, Remedy, text};
 use super::{Conoid, ROUNDING, between};
 use crate::press::MachineOfPress;
 use crate::press::motion::Transition;
 use camgen_cams::check::{Check, CheckExplanation, CheckScope, Measure, Subject};
 use camgen_cams::machine::Crown;
 use camgen_cams::report::{Bound, Place, Verdict, shown, to_type};
+use camgen_kernel::text::{KeyChange, Length, Remedy, text};
 
 /// The check of the axial force, for the drive of the shift.
 pub const AXIAL_FORCE: Check = Check {
