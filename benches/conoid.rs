@@ -39,7 +39,7 @@ fn stages(criterion: &mut Criterion) {
         criterion.bench_function(&name("table"), |b| b.iter(|| Table::from_rows(&black_box(&conoid).rows(720))));
     }
     criterion.bench_function("conoid/fewest sections for 2 N", |b| {
-        b.iter(|| between::fewest(black_box(&machine), (20.0, 35.0), 2.0));
+        b.iter(|| between::fewest(black_box(&machine), 20.0, 35.0, 2.0));
     });
 }
 

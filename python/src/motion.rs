@@ -351,7 +351,7 @@ impl Motion {
             return Err(option("segments", why, Some("give the last what is left of the turn".into())));
         }
         let start = start.map(|start| position(start, of)).transpose()?.unwrap_or(0.0);
-        let program = Program::new(of, start, &all).map_err(|why| option("segments", why.what, why.remedy))?;
+        let program = Program::new(of, start, &all).map_err(|why| option("segments", why.what.clone(), why.remedy_words()))?;
         Ok(Self(Arc::new(program)))
     }
 
@@ -392,7 +392,7 @@ impl Motion {
         let curve =
             SampleCurve { shape: shape_of(shape)?, degree, smooth: smooth.map(|by| smooth_of(by, of)).transpose()? };
         let program =
-            Program::through(of, &theta, &lift, curve).map_err(|why| option("lift", why.what, why.remedy))?;
+            Program::through(of, &theta, &lift, curve).map_err(|why| option("lift", why.what.clone(), why.remedy_words()))?;
         Ok(Self(Arc::new(program)))
     }
 

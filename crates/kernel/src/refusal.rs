@@ -46,6 +46,12 @@ impl Refusal {
         Self { remedy: Some(self.remedy.unwrap_or_default().and("; ", remedy)), ..self }
     }
 
+    /// What would be right, in millimetres.
+    #[must_use]
+    pub fn remedy_words(&self) -> Option<String> {
+        self.remedy.as_ref().map(Text::to_string)
+    }
+
     /// With what fails because of it, before what is wrong: "no table of points: a plate has no angle".
     #[must_use]
     pub fn context(self, failed: &str) -> Self {

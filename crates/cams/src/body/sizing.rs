@@ -89,6 +89,6 @@ pub fn passing(base_radius: f64) -> Text {
     const PER_METRE: f64 = 1e12;
     let picometres = (PER_METRE * base_radius - 1e-3).ceil();
     let typed = format!("{} mm", picometres / (PER_METRE / MILLIMETRES));
-    let words = text!("a base radius of {}", typed.clone());
-    text!("{} would pass", Remedy::new([KeyChange::new("cam.base_radius", typed)]).named(words))
+    let remedy = Remedy::new([KeyChange::new("cam.base_radius", typed)]).named("a base radius of");
+    text!("{} would pass", remedy)
 }

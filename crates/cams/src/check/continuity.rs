@@ -1,13 +1,13 @@
 //! How smooth a motion is as a whole.
 
 use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
-use crate::report::{Bound, shown};
+use crate::report::Bound;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::jump::{self, Jump};
 use camgen_kernel::motion::program::SegmentSummary;
 use camgen_kernel::motion::{Motion, Quantity};
 use camgen_kernel::profile::Worst;
-use camgen_kernel::text::Text;
+use camgen_kernel::text::{Text, Value, text};
 use std::f64::consts::TAU;
 
 /// The check.
@@ -61,7 +61,7 @@ pub fn measure(
     } else {
         None
     };
-    let note = Text::from(words(&jump, run)).and("; ", change.unwrap_or_default());
+    let note = words(&jump, run).and("; ", change.unwrap_or_default());
     let measure = CHECK.measure(value, Some(limit)).noted(note);
     Some(measure.at(subject, &Worst { value, at: jump.at, z: run.z }))
 }
@@ -75,7 +75,7 @@ fn begins_in_a_table(motion: &dyn Motion, jump: &Jump) -> bool {
     jump.order < 3 && motion.program().is_some_and(|program| program.segments().iter().any(of_table))
 }
 
-fn words(jump: &Jump, run: &RunMotion<'_>) -> String {
+fn words(jump: &Jump, run: &RunMotion<'_>) -> Text {
     let (what, power) = match jump.order {
         1 => ("velocity", ""),
         2 => ("acceleration", "²"),
@@ -85,12 +85,13 @@ fn words(jump: &Jump, run: &RunMotion<'_>) -> String {
     // The parameter of what is run over once and back is a length.
     let Some(_) = run.motion.period() else {
         let order = i32::try_from(jump.order).unwrap_or(1);
-        return format!("the {what} jumps by {} {unit}/mm{power}", shown(size * jump.by / MILLIMETRES.powi(order)));
+        let by = Value::with_unit(size * jump.by / MILLIMETRES.powi(order), &format!("{unit}/mm{power}"));
+        return text!("the {} jumps by {}", what, by);
     };
-    let by_time = run.speed.map_or(String::new(), |speed| {
+    let by_time = run.speed.map(|speed| {
         let unit = if run.motion.quantity() == Quantity::Angle { "rad" } else { "m" };
         let value = jump.by * libm::pow(speed, f64::from(jump.order));
-        format!(", {} {unit}/s{power} at this speed", shown(value))
+        text!(", {} at this speed", Value::with_unit(value, &format!("{unit}/s{power}")))
     });
-    format!("the {what} jumps by {} {unit}/rad{power}{by_time}", shown(size * jump.by))
+    text!("the {} jumps by {}{}", what, Value::with_unit(size * jump.by, &format!("{unit}/rad{power}")), by_time)
 }

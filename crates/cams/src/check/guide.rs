@@ -25,8 +25,8 @@ pub const CHECK: Check = Check {
 #[must_use]
 pub fn measure(least: &Worst, subject: &Subject<'_>) -> Measure {
     let kept = least.value > 0.0;
-    let note = (!kept).then(|| {
-        "the follower jams in its guide; a longer guide.span, a shorter guide.overhang or less guide.friction would free it"
-    });
+    let note = (!kept).then_some(
+        "the follower jams in its guide; a longer guide.span, a shorter guide.overhang or less guide.friction would free it",
+    );
     CHECK.measure(least.value, Some(0.0)).kept(kept).noted(note).at(subject, least)
 }

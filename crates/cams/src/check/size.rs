@@ -22,6 +22,6 @@ pub const CHECK: Check = Check {
 pub fn measure(written: &AsWritten<'_>, blank: f64, subject: &Subject<'_>) -> Option<Measure> {
     let limits = subject.machine.limits;
     let limit = 1e3 * limits.largest_size();
-    let note = limits.size.is_none().then(|| "the customary limit");
+    let note = limits.size.is_none().then_some("the customary limit");
     Some(CHECK.measure(written.size_mm?.max(blank), Some(limit)).noted(note))
 }

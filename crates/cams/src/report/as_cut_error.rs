@@ -1,8 +1,7 @@
 //! Errors of the follower on a written outline: velocity and acceleration as cut.
 
-use super::{Place, shown};
+use super::Place;
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::text::{Length, LengthKind, Value};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -28,12 +27,6 @@ pub struct AsCutError {
     pub shaft_speed: Option<f64>,
     /// Mass that moves with the follower, kg, where it is known.
     pub mass: Option<f64>,
-}
-
-/// A value in a unit of reports, in a sentence.
-pub(crate) fn in_unit(value: f64, unit: &str) -> Value {
-    LengthKind::of_symbol(unit)
-        .map_or_else(|| format!("{} {unit}", shown(value)).into(), |kind| Length::new(value, kind).into())
 }
 
 impl AsCutError {

@@ -123,6 +123,13 @@ impl Place {
     }
 }
 
+/// In degrees or millimetres.
+impl std::fmt::Display for Place {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        std::fmt::Display::fmt(&self.text(), f)
+    }
+}
+
 /// A value and its unit as a report shows them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ShownValue {

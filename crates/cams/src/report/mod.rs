@@ -22,7 +22,6 @@ pub mod trace;
 mod values;
 
 pub use as_cut_error::AsCutError;
-pub(crate) use as_cut_error::in_unit;
 pub use camgen_kernel::text::{shown, to_type};
 pub use finding::{Bound, Finding, Place, ShownValue, Verdict, degrees, failed, passed, worst_first};
 pub use inputs::{Inputs, hexadecimal, sha256};
@@ -223,7 +222,6 @@ impl Report {
     }
 
     /// The figures for the review sheet.
-    #[must_use]
     pub fn figures(&self) -> impl Iterator<Item = &Text> {
         self.sections.iter().flat_map(|section| &section.figures)
     }

@@ -1,8 +1,7 @@
 //! Tables of points in a report.
 
-use super::as_cut_error::in_unit;
 use super::{AsCutError, Section};
-use camgen_kernel::text::{Length, Text, text};
+use camgen_kernel::text::{Length, Text, Value, text};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -47,10 +46,10 @@ impl PointMeasures {
             Length::mm(self.error_mm)
         );
         if let Some(error) = self.velocity_error {
-            words += text!(", the velocity by {}", in_unit(error, of_velocity));
+            words += text!(", the velocity by {}", Value::with_unit(error, of_velocity));
         }
         if let Some(error) = self.acceleration_error {
-            words += text!(", the acceleration by {}", in_unit(error, of_acceleration));
+            words += text!(", the acceleration by {}", Value::with_unit(error, of_acceleration));
         }
         words
     }

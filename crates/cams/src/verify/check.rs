@@ -164,7 +164,7 @@ impl Deref for CheckEntry {
 }
 
 /// A finding at a worst place, with notes about the place and more.
-pub(super) fn at(body: &dyn Body, worst: &Worst, finding: Finding, more: Option<String>) -> Finding {
+pub(super) fn at(body: &dyn Body, worst: &Worst, finding: Finding, more: Option<Text>) -> Finding {
     let note = Text::from(body.along_axis(worst.z)).and("; ", more);
     Finding { place: body.place(worst.at), note: Some(note).filter(|note| !note.is_empty()), ..finding }
 }

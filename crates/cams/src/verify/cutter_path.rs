@@ -13,6 +13,7 @@ use crate::report::{Bound, Finding, Verdict};
 use camgen_kernel::geometry::contour::{Contour, Segment, Vertex};
 use camgen_kernel::geometry::following::follow;
 use camgen_kernel::geometry::two_sided_distance::two_sided_distance;
+use camgen_kernel::text::{Length, Text, text};
 use nalgebra::Vector2;
 
 pub(super) const CHECK: FileCheck = FileCheck {
@@ -66,14 +67,15 @@ fn along(evidence: &Evidence<'_>, path: &WrittenPath) -> Option<Finding> {
         middle if middle < 0.0 => "never inside it",
         _ => "on either side",
     };
-    let note = format!(
-        "{}cutter Ø{} mm along {} segments as read from the file, in both directions, {side}",
-        left.fault.map_or_else(String::new, |fault| format!("{fault}; ")),
-        2.0 * path.radius,
+    let cutter = text!(
+        "cutter Ø{} along {} segments as read from the file, in both directions, {}",
+        Length::mm(2.0 * path.radius),
         contour.vertices.len(),
+        side
     );
+    let note = Text::from(left.fault).and("; ", cutter);
     let found = CHECK.found(left.distance, Some(limit), Verdict::of(left.kept));
-    Some(Finding { place: place(evidence.body, left.at), note: Some(note.into()), ..found })
+    Some(Finding { place: place(evidence.body, left.at), note: Some(note), ..found })
 }
 
 /// What a cutter leaves along a path.

@@ -10,6 +10,7 @@ use camgen_kernel::motion::Quantity;
 use camgen_kernel::profile::followed::{ErrorsOnChain, FollowerOnChain};
 use camgen_kernel::profile::outline::too_many_arcs;
 use camgen_kernel::profile::{Curves, Worst};
+use camgen_kernel::text::{Text, Value, text};
 
 pub(super) const CHECK: FileCheck = FileCheck {
     check: Check {
@@ -98,43 +99,45 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let needed = curves_of(evidence.body).and_then(|curves| too_many_arcs(curves, evidence.motion));
     if let (true, Some(arcs)) = (too_much, needed) {
         note =
-            format!("the acceleration requested needs {} arcs or more, too many for a control; {note}", arcs.round());
+            text!("the acceleration requested needs {} arcs or more, too many for a control; {}", arcs.round(), note);
     }
     if evidence.body.surface().is_some() {
-        note = format!("sections, to first order: {note}");
+        note = text!("sections, to first order: {}", note);
     }
     if too_fast {
         let [velocity, _] = motion.units();
-        note = format!(
-            "the velocity exceeds the {} {velocity} requested; {note}",
-            shown(of_velocity * evidence.motion.velocity)
-        );
+        let requested = Value::with_unit(of_velocity * evidence.motion.velocity, velocity);
+        note = text!("the velocity exceeds the {} requested; {}", requested, note);
     }
-    Some(Finding { place: motion.acceleration_error.1, note: Some(note.into()), ..found })
+    Some(Finding { place: motion.acceleration_error.1, note: Some(note), ..found })
 }
 
-fn words(motion: &AsCutError) -> String {
+fn words(motion: &AsCutError) -> Text {
     let [velocity, acceleration] = motion.units();
-    let mut words = format!(
-        "off by {} {acceleration} of the motion's {}, in steps of up to {} at {}; the velocity by {} {velocity} at {}",
-        shown(motion.acceleration_error.0),
-        shown(motion.acceleration_of_motion),
-        shown(motion.acceleration_step.0),
+    let mut words = text!(
+        "off by {} of the motion's {}, in steps of up to {} at {}; the velocity by {} at {}",
+        Value::with_unit(motion.acceleration_error.0, acceleration),
+        Value::before_unit(motion.acceleration_of_motion, acceleration),
+        Value::before_unit(motion.acceleration_step.0, acceleration),
         motion.acceleration_step.1.text(),
-        shown(motion.velocity_error.0),
+        Value::with_unit(motion.velocity_error.0, velocity),
         motion.velocity_error.1.text(),
     );
     if let Some((step, place)) = motion.velocity_step {
-        words += &format!("; at the kinks the velocity steps by up to {} {velocity}, at {}", shown(step), place.text());
+        words += text!(
+            "; at the kinks the velocity steps by up to {}, at {}",
+            Value::with_unit(step, velocity),
+            place.text()
+        );
     }
     let unit = if motion.swings { "rad/s²" } else { "m/s²" };
     if let (Some(error), Some(motion)) =
         (motion.acceleration(motion.acceleration_error.0), motion.acceleration(motion.acceleration_of_motion))
     {
-        words += &format!("; at this speed {} of {} {unit}", shown(error), shown(motion));
+        words += text!("; at this speed {} of {}", Value::before_unit(error, unit), Value::with_unit(motion, unit));
     }
     if let Some(force) = motion.force() {
-        words += &format!(", {} N of the follower's own mass", shown(force));
+        words += text!(", {} N of the follower's own mass", shown(force));
     }
     words
 }

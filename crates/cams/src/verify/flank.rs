@@ -14,6 +14,7 @@ use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::nurbs::NurbsSurface as Patch;
 use camgen_kernel::motion::Motion;
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::{Length, Text, text};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
 
@@ -118,20 +119,23 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let once = (turns - 1.0).abs() <= ONE_TURN;
     let size = if patches.is_empty() { f64::INFINITY } else { found.worst.value.abs() };
     let kept = once && !found.folded && size <= limit && found.bound <= SLACK * limit;
-    let mut words = vec![format!(
-        "{} patches as read from the file, at {} places, at most {:.6} mm between them",
+    let mut words = vec![text!(
+        "{} patches as read from the file, at {} places, at most {} between them",
         patches.len(),
         found.samples,
-        found.bound
+        Length::mm(found.bound).decimals(6)
     )];
     if !once {
-        words.push(format!("the patches go {turns:.4} times round the axis from end to end, not once"));
+        words.push(text!(
+            "the patches go {} times round the axis from end to end, not once",
+            format_args!("{turns:.4}")
+        ));
     }
     if found.folded {
-        words.push("a patch is folded or turned inside out".to_owned());
+        words.push("a patch is folded or turned inside out".into());
     }
     let finding = CHECK.found(size, Some(limit), Verdict::of(kept));
-    Some(at(evidence.body, &found.worst, finding, Some(words.join("; "))))
+    Some(at(evidence.body, &found.worst, finding, Some(Text::joined(words, "; "))))
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ use camgen_kernel::geometry::contour::{Contour, Edge};
 use camgen_kernel::geometry::edge_tree::{Chords, EdgeTree, NearestCache};
 use camgen_kernel::motion::{Jet, Quantity};
 use camgen_kernel::profile::Curves;
-use camgen_kernel::text::{Length, LengthKind, text};
+use camgen_kernel::text::{Length, Text, text};
 use nalgebra::Vector2;
 use std::cell::Cell;
 
@@ -440,31 +440,28 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let agree = rolled.chord_difference_mm <= rolled.chord_sagitta_mm + ROUNDING * size;
     let kept = rolled.gap_mm.abs() <= evidence.tolerance_mm;
     let found = CHECK.found(rolled.gap_mm.abs(), Some(evidence.tolerance_mm), Verdict::of(kept && agree));
-    Some(Finding { place: rolled.gap_at, note: Some(words(rolled, kept, agree).into()), ..found })
+    Some(Finding { place: rolled.gap_at, note: Some(words(rolled, kept, agree)), ..found })
 }
 
-fn words(rolled: &Rolled, kept: bool, agree: bool) -> String {
+fn words(rolled: &Rolled, kept: bool, agree: bool) -> Text {
     let fault = if rolled.gap_mm > 0.0 { "metal is missing" } else { "metal is in excess" };
     let lift = match (rolled.lift_error_max_mm, rolled.lift_error_q99_mm) {
         (Some(most), Some(q99)) => {
-            text!(
-                "lift off by {} at most, {} in 99 of 100",
-                Length::new(1e3 * most, &LengthKind::UM),
-                Length::new(1e3 * q99, &LengthKind::UM)
-            )
+            text!("lift off by {} at most, {} in 99 of 100", Length::um_of_mm(most), Length::um_of_mm(q99))
         }
         _ => "there is a place at which the roller does not touch along its path".into(),
     };
-    let compared = format!(
-        "law against {} segments as read from the file, roller at {} places; {lift}; parry2d on {} chords {}",
+    let compared = text!(
+        "law against {} segments as read from the file, roller at {} places; {}; parry2d on {} chords {}",
         rolled.segments,
         rolled.places,
+        lift,
         rolled.chords,
         if agree { "agrees" } else { "DISAGREES" },
     );
-    let double =
-        rolled.double_contact_at.map_or(String::new(), |at| format!("; two simultaneous contacts at {}", at.text()));
-    if kept { format!("{compared}{double}") } else { format!("{fault}; {compared}{double}") }
+    let double = rolled.double_contact_at.map(|at| text!("two simultaneous contacts at {}", at.text()));
+    let compared = compared.and("; ", double);
+    if kept { compared } else { Text::from(fault).and("; ", compared) }
 }
 
 #[cfg(test)]

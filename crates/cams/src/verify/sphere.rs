@@ -10,6 +10,7 @@ use camgen_kernel::geometry::edge_tree::EdgeTree;
 use camgen_kernel::geometry::solid::SplineSurface;
 use camgen_kernel::numeric::{extremum, parallel};
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::text;
 use nalgebra::Vector3;
 
 pub(super) const ROLLING_FLANK: FileCheck = FileCheck {
@@ -105,7 +106,7 @@ pub(super) fn on_sections(evidence: &Evidence<'_>, surface: &dyn Surface, check:
     let limit = evidence.tolerance_mm;
     let found = check.found(worst.value.abs(), Some(limit), Verdict::of(worst.value.abs() <= limit));
     let count = evidence.outlines.len();
-    let note = format!("sphere on {count} sections as read from their files, at {ANGLES} angles each");
+    let note = text!("sphere on {} sections as read from their files, at {} angles each", count, ANGLES);
     Some(at(evidence.body, &worst, found, Some(note)))
 }
 

@@ -41,6 +41,8 @@ impl LengthKind {
     pub const MM_PER_RAD2: Self = Self::linear("mm/rad²", "in/rad²", 1.0);
     /// Millimetres per radian cubed.
     pub const MM_PER_RAD3: Self = Self::linear("mm/rad³", "in/rad³", 1.0);
+    /// Millimetres per millimetre: a slope.
+    pub const MM_PER_MM: Self = Self { metric: "mm/mm", inch: "in/in", inches: 1.0 };
     /// Millimetres per square millimetre: a curvature.
     pub const MM_PER_MM2: Self = Self { metric: "mm/mm²", inch: "in/in²", inches: MM_IN_INCH };
     /// Millimetres per cubic millimetre.
@@ -48,7 +50,7 @@ impl LengthKind {
 }
 
 /// Every kind.
-const KINDS: [&LengthKind; 12] = [
+const KINDS: [&LengthKind; 13] = [
     &LengthKind::MM,
     &LengthKind::UM,
     &LengthKind::MM2,
@@ -59,6 +61,7 @@ const KINDS: [&LengthKind; 12] = [
     &LengthKind::MM_PER_RAD,
     &LengthKind::MM_PER_RAD2,
     &LengthKind::MM_PER_RAD3,
+    &LengthKind::MM_PER_MM,
     &LengthKind::MM_PER_MM2,
     &LengthKind::MM_PER_MM3,
 ];

@@ -130,6 +130,24 @@ impl Text {
 }
 
 impl Value {
+    /// A number with its unit, which may have a length: "mm/rad²", "rad/s".
+    #[must_use]
+    pub fn with_unit(number: f64, unit: &str) -> Self {
+        match LengthKind::of_symbol(unit) {
+            Some(kind) => Length::new(number, kind).into(),
+            None => format!("{} {unit}", shown(number)).into(),
+        }
+    }
+
+    /// A number whose unit another one behind it has.
+    #[must_use]
+    pub fn before_unit(number: f64, unit: &str) -> Self {
+        match LengthKind::of_symbol(unit) {
+            Some(kind) => Length::new(number, kind).bare().into(),
+            None => shown(number).into(),
+        }
+    }
+
     fn write(&self, words: &mut String, unit: LengthUnit) {
         match self {
             Value::Words(own) => words.push_str(own),
@@ -182,13 +200,6 @@ impl<T: Into<Text>> From<Option<T>> for Text {
 impl From<&Text> for Text {
     fn from(text: &Text) -> Self {
         text.clone()
-    }
-}
-
-/// Without values: two texts that read alike in millimetres.
-impl PartialEq<&str> for Text {
-    fn eq(&self, other: &&str) -> bool {
-        self.to_string() == *other
     }
 }
 
@@ -308,9 +319,9 @@ mod tests {
         let empty = Text::default();
         let all = [empty.clone(), Text::from("a"), empty, text!("b {} {}", 3_u32, Length::mm(2.54))];
         let all = Text::joined(all, "; ");
-        assert_eq!(all, "a; b 3 2.54 mm");
+        assert_eq!(all.to_string(), "a; b 3 2.54 mm");
         assert_eq!(all.in_unit(LengthUnit::Inch), "a; b 3 0.1 in");
-        assert_eq!(Text::from("with {} braces"), "with {} braces");
+        assert_eq!(Text::from("with {} braces").to_string(), "with {} braces");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The linkage that moves the bed: its motion over a turn, dead points, largest accelerations, transmission angles, torque.
 
+use camgen_kernel::text::{Length, Text, text};
 mod air;
 mod described;
 mod moving;
@@ -325,14 +326,14 @@ fn measures(machine: &Machine, data: &LinkageData, found: &Characteristics) -> V
     all
 }
 
-fn describe(linkage_figures: &LinkageFigures) -> Vec<String> {
+fn describe(linkage_figures: &LinkageFigures) -> Vec<Text> {
     let mut lines = vec![
-        format!(
-            "stroke {} mm, dead points at {}° (outer) and {}°, K_φ {:.5}",
-            shown(linkage_figures.stroke_mm),
+        text!(
+            "stroke {}, dead points at {}° (outer) and {}°, K_φ {}",
+            Length::mm(linkage_figures.stroke_mm),
             shown(linkage_figures.outer_deg),
             shown(linkage_figures.inner_deg),
-            linkage_figures.k_phi
+            format_args!("{:.5}", linkage_figures.k_phi)
         ),
         format!(
             "C⁺ {:.5}, C⁻ {:.5}, K_c {:.5}, W {:.5}, velocity coefficient {:.5}",
@@ -341,14 +342,16 @@ fn describe(linkage_figures: &LinkageFigures) -> Vec<String> {
             linkage_figures.k_c,
             linkage_figures.w,
             linkage_figures.velocity_coefficient
-        ),
+        )
+        .into(),
         format!(
             "inertia at most {} N, torque {} N·m, power {} W; rod at most {}°",
             shown(linkage_figures.inertia_max_n),
             shown(linkage_figures.torque_max_nm),
             shown(linkage_figures.power_max_w),
             shown(linkage_figures.rod_angle_max_deg)
-        ),
+        )
+        .into(),
     ];
     if let Some(angle) = linkage_figures.transmission_min_deg {
         let comparison = &linkage_figures.compared;
@@ -357,7 +360,7 @@ fn describe(linkage_figures: &LinkageFigures) -> Vec<String> {
             signed_percent(comparison.c),
             signed_percent(comparison.w),
             signed_percent(comparison.speed)
-        ));
+        ).into());
     }
     lines
 }

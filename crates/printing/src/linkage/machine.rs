@@ -180,7 +180,8 @@ fn linkage(reader: &Reader<'_>, bed: Option<&Bed>) -> Option<LinkageData> {
             (true, false) => &ROD_RATIO,
             (false, _) => &BASE_RATIO,
         };
-        table.fail(key, error.what, error.remedy.map(|remedy| remedy.to_string()));
+        let remedy = error.remedy_words();
+        table.fail(key, error.what, remedy);
         return None;
     }
     let (driving_crank, base_angle) = (table.get(&DRIVING_CRANK), table.get(&BASE_ANGLE)?);

@@ -8,14 +8,14 @@ use super::positions::Positions;
 use super::spline::position;
 use crate::check::Measure;
 use crate::report::plot::{GREY, Plot, PlotCurve, PlotPanel};
-use crate::report::{Place, Section, in_unit, shown};
+use crate::report::{Place, Section, shown};
 use crate::table::{ListedColumn, Table};
 use camgen_kernel::follower::Follower;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::laws::SegmentEnd;
 use camgen_kernel::motion::program::Program;
 use camgen_kernel::motion::{Motion, Quantity};
-use camgen_kernel::text::{Length, Text, text};
+use camgen_kernel::text::{Length, Text, Value, text};
 use nalgebra::Vector2;
 use serde::Serialize;
 
@@ -319,12 +319,12 @@ impl Imported {
             "points" => "points",
             _ => "places of the outline",
         };
-        let rounding = value.rounding.map(|step| text!(", rounded to {}", in_unit(step, value.unit)));
+        let rounding = value.rounding.map(|step| text!(", rounded to {}", Value::with_unit(step, value.unit)));
         let mut words = vec![text!(
             "{} {}, lift {}{}, noise {}, deviation allowed {}",
             value.rows,
             what,
-            in_unit(value.lift, value.unit),
+            Value::with_unit(value.lift, value.unit),
             rounding,
             told(quantity, self.noise),
             told(quantity, self.deviation)
@@ -355,11 +355,13 @@ impl Imported {
             let law = model.segments.get(at).map_or(ModelLaw::Dwell, |segment| segment.law);
             let fits = told_segment.map_or(&[][..], |told| told.fits.as_slice());
             let way = match segment.law {
-                "dwell" => text!("dwell at {}", in_unit(segment.from, value.unit)),
-                law if value.unit == "mm" => {
-                    text!("{} from {} to {}", law, Length::mm(segment.from).bare(), Length::mm(segment.to))
-                }
-                law => text!("{} from {} to {} {}", law, shown(segment.from), shown(segment.to), value.unit),
+                "dwell" => text!("dwell at {}", Value::with_unit(segment.from, value.unit)),
+                law => text!(
+                    "{} from {} to {}",
+                    law,
+                    Value::before_unit(segment.from, value.unit),
+                    Value::with_unit(segment.to, value.unit)
+                ),
             };
             let comment = told_of(quantity, fits, law);
             let comment = if comment.is_empty() { comment } else { format!(": {comment}") };
@@ -370,7 +372,7 @@ impl Imported {
             "the design leaves {} rms, {} at most; largest acceleration {}",
             told(quantity, self.left.rms),
             told(quantity, self.left.largest),
-            in_unit(value.largest_acceleration_per_rad2, rate)
+            Value::with_unit(value.largest_acceleration_per_rad2, rate)
         ));
         words
     }

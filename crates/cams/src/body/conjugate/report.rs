@@ -38,10 +38,10 @@ pub(crate) fn section(found: &Closure, main: &dyn Body, (counter, checks): (&dyn
     );
     let named = |name: &&str| {
         let found = checks.iter().find(|found| found.check == *name && found.value.is_finite())?;
-        Some(format!("{name} {} {}", shown(found.value), found.unit))
+        Some(text!("{} {}", *name, found.value_text()))
     };
-    let checks: Vec<String> = NAMED.iter().filter_map(named).collect();
-    let checks = text!("checks of the counter disc, which its own sheet has in full: {}", checks.join(", "));
+    let checks: Vec<Text> = NAMED.iter().filter_map(named).collect();
+    let checks = text!("checks of the counter disc, which its own sheet has in full: {}", Text::joined(checks, ", "));
     let words = [Some(size), spacing(main, counter), Some(sum), Some(checks)];
     Section::new("conjugate", &value).with_words(words.into_iter().flatten().collect::<Vec<Text>>())
 }

@@ -7,6 +7,7 @@ use camgen_kernel::motion::laws::optimum::{Objective, Optimum};
 use camgen_kernel::motion::program::SegmentSummary;
 use camgen_kernel::motion::program::rows::{RowFigures, Smoothing};
 use camgen_kernel::motion::{Motion, Quantity};
+use camgen_kernel::text::{Text, Value, text};
 use serde::Serialize;
 
 /// A segment; positions in mm or degrees, rates by the cam angle in radians.
@@ -132,32 +133,32 @@ impl RowsSection {
         }
     }
 
-    fn words(&self, unit: &str) -> Vec<String> {
-        let mut words = vec![format!("{} rows, usually {}° apart", self.count, shown(self.spacing_deg))];
+    fn words(&self, unit: &str) -> Vec<Text> {
+        let mut words = vec![text!("{} rows, usually {}° apart", self.count, shown(self.spacing_deg))];
         if !self.dwells_deg.is_empty() {
             let all: Vec<String> =
                 self.dwells_deg.iter().map(|[from, to]| format!("{} to {}°", shown(*from), shown(*to))).collect();
-            words.push(format!("equal rows are kept as dwells: {}", all.join(", ")));
+            words.push(text!("equal rows are kept as dwells: {}", all.join(", ")));
         }
         if let Some(SmoothingFigures { bound, largest, rms }) = &self.smoothing {
             let text = if *bound > 0.0 {
-                format!(
-                    "smoothed within {} {unit} of each row: largest deviation {}, rms {} {unit}",
-                    shown(*bound),
-                    shown(*largest),
-                    shown(*rms)
+                text!(
+                    "smoothed within {} of each row: largest deviation {}, rms {}",
+                    Value::with_unit(*bound, unit),
+                    Value::before_unit(*largest, unit),
+                    Value::with_unit(*rms, unit)
                 )
             } else {
-                "not smoothed: no rounding is seen in the digits of the rows".to_owned()
+                "not smoothed: no rounding is seen in the digits of the rows".into()
             };
             words.push(text);
         }
-        words.extend(self.read.iter().cloned());
+        words.extend(self.read.iter().cloned().map(Text::from));
         words
     }
 
     /// Of a segment only what is not as its rows say.
-    fn words_of_segment(&self, unit: &str) -> Vec<String> {
+    fn words_of_segment(&self, unit: &str) -> Vec<Text> {
         let usual = self.smoothing.is_none() && self.dwells_deg.is_empty();
         if usual { Vec::new() } else { self.words(unit) }
     }
@@ -220,15 +221,15 @@ pub(in crate::body) fn of_motion(motion: &dyn Motion, speed: Option<f64>) -> Opt
     let (unit, size) = if swings { ("deg", 1.0_f64.to_degrees()) } else { ("mm", MILLIMETRES) };
     let summary = program.segments();
     let mut segments: Vec<SegmentFigures> = summary.iter().map(|summary| segment(summary, size, speed)).collect();
-    let mut words: Vec<String> =
+    let mut words: Vec<Text> =
         segments.iter().zip(summary).map(|(segment, summary)| line(segment, summary, unit)).collect();
     let of_time = if swings { "rad" } else { "m" };
     words.extend(at_speed(&segments, of_time));
     if motion.lobes() > 1 {
-        words.push(format!("{} equal lobes", motion.lobes()));
+        words.push(text!("{} equal lobes", motion.lobes()));
     }
     if let Some(load) = program.load() {
-        words.push(format!(
+        words.push(text!(
             "for an elastic load, cam speed over natural frequency {}, damping {}: these are the figures of the cam, and the \
                 program of the file is that of the load",
             shown(load.ratio),
@@ -245,7 +246,7 @@ pub(in crate::body) fn of_motion(motion: &dyn Motion, speed: Option<f64>) -> Opt
             continue;
         };
         let of_segment = section.words_of_segment(unit);
-        words.extend(of_segment.into_iter().map(|text| format!("segment {}: {text}", index + 1)));
+        words.extend(of_segment.into_iter().map(|text| text!("segment {}: {}", index + 1, text)));
         if let Some(segment) = segments.get_mut(index) {
             segment.rows = Some(section);
         }
@@ -255,44 +256,54 @@ pub(in crate::body) fn of_motion(motion: &dyn Motion, speed: Option<f64>) -> Opt
 }
 
 /// The largest rates by the time.
-fn at_speed(segments: &[SegmentFigures], unit: &str) -> Option<String> {
+fn at_speed(segments: &[SegmentFigures], unit: &str) -> Option<Text> {
     let most =
         |of: fn(&Peaks) -> Option<f64>| segments.iter().filter_map(|segment| of(&segment.peaks)).reduce(f64::max);
     let (velocity, acceleration) = (most(|peaks| peaks.velocity_per_s)?, most(|peaks| peaks.acceleration_per_s2)?);
     let unbounded = segments.iter().any(|segment| segment.peaks.jerk.is_none());
     let jerk = most(|peaks| peaks.jerk_per_s3).filter(|_| !unbounded);
-    let jerk = jerk.map_or("unbounded".to_owned(), |jerk| format!("{} {unit}/s³", shown(jerk)));
-    Some(format!("at this speed at most v {} {unit}/s, a {} {unit}/s², j {jerk}", shown(velocity), shown(acceleration)))
+    let jerk = jerk.map_or("unbounded".into(), |jerk| Value::with_unit(jerk, &format!("{unit}/s³")));
+    Some(text!(
+        "at this speed at most v {}, a {}, j {}",
+        Value::with_unit(velocity, &format!("{unit}/s")),
+        Value::with_unit(acceleration, &format!("{unit}/s²")),
+        jerk
+    ))
 }
 
-fn line(segment: &SegmentFigures, summary: &SegmentSummary, unit: &str) -> String {
+fn line(segment: &SegmentFigures, summary: &SegmentSummary, unit: &str) -> Text {
     let SegmentFigures { law, class, from_deg, to_deg, from, to, overshoot, optimum, peaks, .. } = segment;
     let least = optimum.as_ref().map_or(String::new(), OptimumFigures::words);
-    let mut text = format!("{} to {}° {law}{least}", shown(*from_deg), shown(*to_deg));
+    let law = format!("{} to {}° {law}{least}", shown(*from_deg), shown(*to_deg));
     if summary.peaks[0].0 == 0.0 {
-        return format!("{text} at {} {unit}", shown(*from));
+        return text!("{} at {}", law, Value::with_unit(*from, unit));
     }
     let positions = if summary.whole {
         let size = if unit == "deg" { 1.0_f64.to_degrees() } else { MILLIMETRES };
         let (low, high) = summary.range;
         // A place that is 0 but for rounding is shown as 0.
         let [low, high] = [low, high].map(|at| if at.abs() > ROUNDING * (high - low) { size * at } else { 0.0 });
-        format!("between {} and {}", shown(low), shown(high))
+        text!("between {} and {}", Value::before_unit(low, unit), Value::with_unit(high, unit))
     } else {
-        format!("{class} from {} to {}", shown(*from), shown(*to))
+        text!("{} from {} to {}", class, Value::before_unit(*from, unit), Value::with_unit(*to, unit))
     };
     // Rates of an angle are per radian in radians, as everywhere else.
     let (of_rate, size) = if unit == "deg" { ("rad", 1.0_f64.to_radians()) } else { (unit, 1.0) };
-    let rate = |value: f64| format!("{} {of_rate}", shown(size * value));
-    text.push_str(&format!(" {positions} {unit}: v {}/rad, a {}/rad²", rate(peaks.velocity), rate(peaks.acceleration)));
-    text.push_str(&peaks.jerk.map_or(", j unbounded".into(), |jerk| format!(", j {}/rad³", rate(jerk))));
+    let mut words = text!(
+        "{} {}: v {}, a {}, j {}",
+        law,
+        positions,
+        Value::with_unit(size * peaks.velocity, &format!("{of_rate}/rad")),
+        Value::with_unit(size * peaks.acceleration, &format!("{of_rate}/rad²")),
+        peaks.jerk.map_or("unbounded".into(), |jerk| Value::with_unit(size * jerk, &format!("{of_rate}/rad³")))
+    );
     if *overshoot > 0.0 {
-        text.push_str(&format!("; it overshoots its ends by {} {unit}", shown(*overshoot)));
+        words += text!("; it overshoots its ends by {}", Value::with_unit(*overshoot, unit));
     }
     if summary.humps {
-        text.push_str(
-            "; its acceleration has two humps of one sign: another inflection or law = \"polynomial\" avoids that",
+        words += text!(
+            "; its acceleration has two humps of one sign: another inflection or law = \"polynomial\" avoids that"
         );
     }
-    text
+    words
 }

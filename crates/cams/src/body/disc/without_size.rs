@@ -96,13 +96,12 @@ impl Disc {
         }
         let limit = (TENTHS * kept.to_degrees()).ceil() / TENTHS;
         let key = KeyChange::new("limits.pressure_angle", format!("{limit} deg"));
-        let remedy = match self.machine.limits.pressure_angle_return {
-            None => Remedy::new([key]),
-            Some(_) => {
-                let words = format!("{key} and limits.pressure_angle_return as much");
-                let of_return = KeyChange::new("limits.pressure_angle_return", key.value.clone());
-                Remedy::new([key, of_return]).named(words)
-            }
+        let remedy = if self.machine.limits.pressure_angle_return.is_some() {
+            let words = format!("{key} and limits.pressure_angle_return as much");
+            let of_return = KeyChange::new("limits.pressure_angle_return", key.value.clone());
+            Remedy::new([key, of_return]).in_words(words)
+        } else {
+            Remedy::new([key])
         };
         Some(refusal.remedy(text!("{} would pass; a longer rise lowers the angle", remedy)))
     }

@@ -207,13 +207,13 @@ fn line(segment: &SegmentFigures) -> Text {
         .map_or(Text::from(", j unbounded"), |jerk| text!(", j {}", Length::new(jerk, &LengthKind::MM_PER_MM3)));
     let through = rows.map_or(String::new(), |rows| format!(" through {rows} rows"));
     let mut words = text!(
-        "{}{} {} from {} to {}: v {} mm/mm, a {}{}",
+        "{}{} {} from {} to {}: v {}, a {}{}",
         range,
         through,
         class,
         Length::mm(*from).bare(),
         Length::mm(*to),
-        shown(peaks.velocity_mm_per_mm),
+        Length::new(peaks.velocity_mm_per_mm, &LengthKind::MM_PER_MM),
         Length::new(peaks.acceleration_mm_per_mm2, &LengthKind::MM_PER_MM2),
         jerk
     );

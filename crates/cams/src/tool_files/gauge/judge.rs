@@ -15,7 +15,7 @@ use crate::report::{Bound, Finding, Verdict, shown};
 use crate::verify::{Evidence, place};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::{Contour, Edge, Segment};
-use camgen_kernel::text::{Length, text};
+use camgen_kernel::text::{Length, Text, text};
 use nalgebra::Vector2;
 
 pub(super) const CHECK: Check = Check {
@@ -44,13 +44,13 @@ pub(super) fn judge(evidence: &Evidence<'_>, table: &Result<GaugeRows, String>) 
         Err(why) => Finding { note: Some(why.into()), ..CHECK.found(f64::INFINITY, Some(limit), Verdict::Fail) },
         Ok((value, at, words)) => {
             let found = CHECK.found(value, Some(limit), Verdict::of(value <= limit));
-            Finding { note: Some(words.into()), place: place(evidence.body, at), ..found }
+            Finding { note: Some(words), place: place(evidence.body, at), ..found }
         }
     }
 }
 
 /// The largest difference, where, and what was compared.
-fn judged(evidence: &Evidence<'_>, read: &GaugeRows) -> Result<(f64, Vector2<f64>, String), String> {
+fn judged(evidence: &Evidence<'_>, read: &GaugeRows) -> Result<(f64, Vector2<f64>, Text), String> {
     let gauge = read.radius.map_or(Gauge::Flat, |radius| Gauge::Round(radius / MILLIMETRES));
     let lowest = read.rows.iter().map(|row| row[1]).fold(f64::INFINITY, f64::min);
     let exact = match evidence.outlines.first() {
@@ -91,9 +91,9 @@ fn judged(evidence: &Evidence<'_>, read: &GaugeRows) -> Result<(f64, Vector2<f64
         }
     }
     let follower =
-        read.radius.map_or("a flat face".into(), |radius| text!("a ball or roller Ø{}", Length::mm(2.0 * radius)));
+        read.radius.map_or(Text::from("a flat face"), |radius| text!("a ball or roller Ø{}", Length::mm(2.0 * radius)));
     let on = if exact.is_some() { "the exact profile" } else { "the outline as read from the cut file" };
-    Ok((worst.0, worst.1, format!("{} rows of {follower} on {on}", read.rows.len())))
+    Ok((worst.0, worst.1, text!("{} rows of {} on {}", read.rows.len(), follower, on)))
 }
 
 /// The contradiction between the head of a gauge follower's lift table and the cam, if any.

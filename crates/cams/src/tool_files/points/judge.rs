@@ -7,9 +7,10 @@
 use super::plan::{PointErrors, PointTable, by_travel, largest_errors, motion_errors, swings, traced};
 use crate::body::PointCurve;
 use crate::check::{Check, CheckExplanation, CheckScope};
-use crate::report::{AsCutError, Bound, Finding, Place, Verdict, shown};
+use crate::report::{AsCutError, Bound, Finding, Place, Verdict};
 use crate::verify::{Evidence, place};
 use camgen_kernel::geometry::points::{Interpolant, PointCoordinates, PointInterpolation, PointStep, deviations};
+use camgen_kernel::text::{Text, Value, text};
 use nalgebra::Vector2;
 
 pub(super) const CHECK: Check = Check {
@@ -72,7 +73,7 @@ pub(super) fn judge(evidence: &Evidence<'_>, tables: &[WrittenPoints]) -> Option
     };
     let mut finding = CHECK.found(worst.worst, Some(limit), verdict);
     let motion = motion_words(evidence, &found);
-    finding.note = Some(format!("{}{motion}", words(&worst.written.table, tables.len())).into());
+    finding.note = Some(text!("{}{}", words(&worst.written.table, tables.len()), motion));
     finding.place = worst.at;
     Some(finding)
 }
@@ -92,7 +93,7 @@ impl TableDeviation<'_> {
 }
 
 /// The largest errors of the follower's motion over all tables, in words.
-fn motion_words(evidence: &Evidence<'_>, found: &[TableDeviation<'_>]) -> String {
+fn motion_words(evidence: &Evidence<'_>, found: &[TableDeviation<'_>]) -> Text {
     let swings = swings(evidence.body);
     let by_travel = by_travel(evidence.body);
     let (sizes, units) = (AsCutError::sizes(swings, by_travel), AsCutError::units_of(swings, by_travel));
@@ -101,12 +102,12 @@ fn motion_words(evidence: &Evidence<'_>, found: &[TableDeviation<'_>]) -> String
         sizes.get(index).copied().unwrap_or(1.0) * errors.fold(0.0, f64::max)
     };
     if let Some(PointErrors::Unknown(why)) = found.first().map(|found| found.written.table.errors) {
-        return format!("; velocity and acceleration are not known: {why}");
+        return text!("; velocity and acceleration are not known: {}", why.to_string());
     }
-    let velocity = format!("; the velocity off by {} {}", shown(largest(0)), units[0]);
-    let acceleration = match largest(1) {
-        error if error.is_finite() => format!(", the acceleration by {} {}", shown(error), units[1]),
-        _ => ", the acceleration is not kept where the control moves in straight lines".to_owned(),
+    let mut words = text!("; the velocity off by {}", Value::with_unit(largest(0), units[0]));
+    words += match largest(1) {
+        error if error.is_finite() => text!(", the acceleration by {}", Value::with_unit(error, units[1])),
+        _ => ", the acceleration is not kept where the control moves in straight lines".into(),
     };
     let over = |index: usize, name: &str| {
         let is_over = found.iter().any(|found| found.exceeds().get(index) == Some(&true));
@@ -114,13 +115,17 @@ fn motion_words(evidence: &Evidence<'_>, found: &[TableDeviation<'_>]) -> String
         let requested =
             found.first().and_then(|found| found.written.table.allowed.get(index).map(|allowed| size * allowed));
         if is_over {
-            requested.map(|requested| format!("; {} of {name} were requested", shown(requested)))
+            requested.map(|requested| {
+                let unit = units.get(index).copied().unwrap_or_default();
+                text!("; {} of {} were requested", Value::before_unit(requested, unit), name)
+            })
         } else {
             None
         }
     };
     let over = [over(0, "velocity"), over(1, "acceleration")].into_iter().flatten();
-    over.fold(velocity + &acceleration, |words, next| words + &next)
+    over.for_each(|next| words += next);
+    words
 }
 
 /// The finding on a table that there is not, or that is none of the cam.

@@ -48,7 +48,8 @@ pub(super) fn read(segment: &TableReader<'_>, law: &str) -> Option<Mover> {
         Ok(curve) => Some(Mover::Optimum(optimum, curve)),
         Err(error) => {
             let key = if error.input == "ratio" { &RATIO } else { &OF_OPTIMUM };
-            segment.fail(key, error.refusal.what, error.refusal.remedy.map(|remedy| remedy.to_string()));
+            let remedy = error.refusal.remedy_words();
+            segment.fail(key, error.refusal.what, remedy);
             None
         }
     }

@@ -7,7 +7,7 @@ use crate::brake::machine::{BeltMode, BrakeData, BrakeModel};
 use crate::brake::mechanics::{FramePose, PaperRoll, Web};
 use camgen_cams::report::{Section, shown};
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::text::{Length, Text, text};
+use camgen_kernel::text::{Length, Text, Value, text};
 use serde::Serialize;
 
 /// Change of the friction for which tensions are also reported, as a share.
@@ -288,8 +288,8 @@ pub(super) fn web(data: &BrakeData, roll: Option<&PaperRoll>) -> Option<Section>
     );
     words.extend(speeding.zip(inertia).map(|(tension, inertia)| {
         text!(
-            "speeding up at {} m/s² adds {} N on the full roll ({} kg·m²), and less as it runs down",
-            data.acceleration,
+            "speeding up at {} adds {} N on the full roll ({} kg·m²), and less as it runs down",
+            Value::from(format!("{} m/s²", data.acceleration)),
             format_args!("{:.3}", tension),
             format_args!("{:.3}", inertia)
         )

@@ -88,7 +88,7 @@ pub(super) fn axial_reach(conoid: &Conoid, subject: &Subject<'_>) -> Measure {
         text!(
             "the roller rides on the edge of the cam; {} or {} would carry it",
             Remedy::new([KeyChange::new("conoid.overhang", needed)]),
-            Remedy::new([KeyChange::new("conoid.overhang", "auto")]).named("\"auto\"")
+            Remedy::new([KeyChange::new("conoid.overhang", "auto")]).in_words("\"auto\"")
         )
     };
     AXIAL_REACH.measure(1e3 * beyond, Some(0.0)).kept(kept).noted(note).at(subject, &reach)

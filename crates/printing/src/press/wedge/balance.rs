@@ -104,7 +104,7 @@ impl Wedge {
             share.map(|steps| {
                 let efficiency = (steps / EFFICIENCY_STEPS).to_string();
                 let words = format!("translating.efficiency = {efficiency}");
-                Remedy::new([KeyChange::new("translating.efficiency", efficiency)]).named(words)
+                Remedy::new([KeyChange::new("translating.efficiency", efficiency)]).in_words(words)
             }),
             longer.map(|steps| {
                 Remedy::new([KeyChange::new("translating.roller_arm", format!("{} mm", steps * ARM_STEP_MM))])

@@ -8,6 +8,7 @@ use crate::machine::{Controller, CuttingData};
 use crate::report::shown;
 use crate::verify::Evidence;
 use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::text::{Length, Text, text};
 
 /// Depths that differ by less are equal, mm: numbers of three decimals, and of four in inches, are off by less.
 pub(super) const SAME_DEPTH: f64 = 1.3e-3;
@@ -73,13 +74,17 @@ pub(super) fn not_too_deep_at_once(
 }
 
 /// What is to be known of a program whose control may leave its path by more than the tolerance, for a note.
-pub(super) fn leaves_its_path(program: &CutterProgram, tolerance_mm: f64) -> String {
+pub(super) fn leaves_its_path(program: &CutterProgram, tolerance_mm: f64) -> Text {
     let widest =
         program.path_tolerances.iter().copied().reduce(|widest, next| if next.1 > widest.1 { next } else { widest });
     widest.filter(|(_, tolerance)| *tolerance > tolerance_mm * (1.0 + SAME)).map_or_else(
-        String::new,
+        Text::default,
         |(line, tolerance)| {
-            format!("; line {line} lets the control leave its path by {} mm, more than the tolerance", shown(tolerance))
+            text!(
+                "; line {} lets the control leave its path by {}, more than the tolerance",
+                line,
+                Length::mm(tolerance)
+            )
         },
     )
 }

@@ -17,6 +17,7 @@ use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::{Contour, Edge, Segment};
 use camgen_kernel::geometry::edge_tree::EdgeTree;
 use camgen_kernel::geometry::lead_in;
+use camgen_kernel::text::{Length, Text, text};
 use nalgebra::Vector2;
 
 pub(in super::super) const CHECK: Check = Check {
@@ -63,7 +64,7 @@ pub(in super::super) fn judge(evidence: &Evidence<'_>, programs: &[WrittenProgra
     }
     let worst = worst?;
     let found = CHECK.found(worst.value, Some(limit), Verdict::Pass);
-    Some(Finding { place: place(evidence.body, worst.at), note: Some(worst.note.into()), ..found })
+    Some(Finding { place: place(evidence.body, worst.at), note: Some(worst.note), ..found })
 }
 
 /// Whether radius compensation is on for at least half of the level cutting moves.
@@ -222,21 +223,29 @@ fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedPro
             return Err(ProgramFault { why, value: deep, at: Some(way.start()) });
         }
     }
-    let room = if written.cutter.is_none() { cleared(&closed, &metal, (written.kept, limit))? } else { String::new() };
+    let room =
+        if written.cutter.is_none() { cleared(&closed, &metal, (written.kept, limit))? } else { Text::default() };
     deep_enough(&cuts, written, &deepest)?;
     if program.side_at_end != CutterSide::Centre {
         return Err(ProgramFault::new("the program ends while the control keeps the cutter beside its path"));
     }
     let blocks = program.moves.len();
     let how = match written.cutter {
-        Some(radius) => format!("the centre of a cutter Ø{} mm", shown(2.0 * radius)),
-        None => "the profile, along which the control keeps its cutter".to_owned(),
+        Some(radius) => text!("the centre of a cutter Ø{}", Length::mm(2.0 * radius)),
+        None => "the profile, along which the control keeps its cutter".into(),
     };
-    let unknown = room + &remarks(evidence.body, written) + &leaves_its_path(program, limit);
+    let unknown = text!("{}{}{}", room, remarks(evidence.body, written), leaves_its_path(program, limit));
     let (depth, passes) = (passes.iter().map(|pass| pass.depth).fold(0.0, f64::max), passes.len());
     let noun = if passes == 1 { "pass" } else { "passes" };
-    let note =
-        format!("{how}, {blocks} moves in {passes} {noun} to {} mm, as the control reads them{unknown}", shown(depth));
+    let note = text!(
+        "{}, {} moves in {} {} to {}, as the control reads them{}",
+        how,
+        blocks,
+        passes,
+        noun,
+        Length::mm(depth),
+        unknown
+    );
     Ok(JudgedProgram { value: worst.0, at: worst.1, note })
 }
 
@@ -251,7 +260,7 @@ fn cleared(
     closed: &[ClosedPass<'_>],
     metal: &[EdgeTree],
     (radius, limit): (Option<f64>, f64),
-) -> Result<String, ProgramFault> {
+) -> Result<Text, ProgramFault> {
     let ways: Vec<TakingUp> = closed.iter().flat_map(|pass| [pass.taking_up(), pass.ending()]).collect();
     let deepest = |radius: f64| {
         let depths = ways.iter().map(|way| (way.depth(metal, (radius, FINE_SHARE * limit)), way.at()));
@@ -260,7 +269,7 @@ fn cleared(
     if let Some(radius) = radius {
         let (deep, at) = deepest(radius);
         if deep <= limit {
-            return Ok(String::new());
+            return Ok(Text::default());
         }
         let (diameter, depth) = (shown(2.0 * radius), shown(deep));
         let why = format!(
@@ -269,7 +278,7 @@ fn cleared(
         return Err(ProgramFault { why, value: deep, at });
     }
     if deepest(LARGEST_KEPT).0 <= limit {
-        return Ok(String::new());
+        return Ok(Text::default());
     }
     let (mut clear, mut wide) = (0.0, LARGEST_KEPT);
     for _ in 0..RADIUS_HALVINGS {
@@ -281,9 +290,9 @@ fn cleared(
         return Err(ProgramFault { why, value: f64::INFINITY, at: deepest(wide).1 });
     }
     let largest = (TENTHS * clear).floor() / TENTHS;
-    Ok(format!(
-        "; a cutter of a radius up to {} mm is clear of the cam there, --cutter-diameter judges another",
-        shown(largest)
+    Ok(text!(
+        "; a cutter of a radius up to {} is clear of the cam there, --cutter-diameter judges another",
+        Length::mm(largest)
     ))
 }
 

@@ -2,7 +2,7 @@
 
 use super::super::read::{CutterProgram, Unstated};
 use crate::machine::{Controller, CuttingData};
-use crate::report::shown;
+use camgen_kernel::text::{Length, Text, text};
 
 /// Lower than this, mm, Z of the machine is not at its top: programs for HEIDENHAIN retract to -1 mm.
 const TOP: f64 = -1.01;
@@ -41,12 +41,12 @@ pub(super) fn assumed(program: &CutterProgram) -> String {
 }
 
 /// The height of the machine to which a program retracts, where the design states none and it is not the top; for a note.
-pub(super) fn assumed_home(design: &CuttingData, program: &CutterProgram) -> String {
+pub(super) fn assumed_home(design: &CuttingData, program: &CutterProgram) -> Text {
     match program.lowest_home.filter(|(_, z)| design.home.is_none() && *z < TOP) {
         Some((_, z)) => {
-            format!("; Z {} mm of the machine is taken as clear of the part: cut.home is not given", shown(z))
+            text!("; Z {} of the machine is taken as clear of the part: cut.home is not given", Length::mm(z))
         }
-        None => String::new(),
+        None => Text::default(),
     }
 }
 

@@ -16,6 +16,7 @@ use crate::tool_files::points::traced;
 use crate::verify::Evidence;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::points::{Interpolant, PointCoordinates, PointInterpolation, deviations};
+use camgen_kernel::text::{Length, Text, text};
 use nalgebra::Vector2;
 
 /// Places between two rows of a barrel at which the tool is compared, at least, and the angle between two of them at most, degrees.
@@ -40,7 +41,7 @@ pub(super) fn judged(
 /// What is common to the verdict on every turned program: its depth, and the note.
 fn concluded(
     worst: (f64, Vector2<f64>),
-    (passes, tool): (&[TurnedPass], &str),
+    (passes, tool): (&[TurnedPass], &Text),
     (body, written): (&dyn Body, &WrittenProgram),
 ) -> Result<JudgedProgram, ProgramFault> {
     let deepest = passes.iter().map(|pass| pass.depth).fold(0.0, f64::max);
@@ -51,8 +52,15 @@ fn concluded(
     let (rows, count) = (passes.iter().map(|pass| pass.rows.len()).sum::<usize>(), passes.len());
     let noun = if count == 1 { "pass" } else { "passes" };
     let unknown = remarks(body, written);
-    let note =
-        format!("{tool}, {rows} rows in {count} {noun} to {} mm, as the control reads them{unknown}", shown(deepest));
+    let note = text!(
+        "{}, {} rows in {} {} to {}, as the control reads them{}",
+        tool,
+        rows,
+        count,
+        noun,
+        Length::mm(deepest),
+        unknown
+    );
     Ok(JudgedProgram { value: worst.0, at: worst.1, note })
 }
 
@@ -93,7 +101,7 @@ impl Barrel<'_> {
             return Err(ProgramFault::new(why));
         }
         program.standing.iter().try_for_each(|moved| self.stays_between(moved, tool / MILLIMETRES))?;
-        let words = format!("the axis of a tool Ø{} mm under A, X and Y", shown(2.0 * tool));
+        let words = text!("the axis of a tool Ø{} under A, X and Y", Length::mm(2.0 * tool));
         concluded((worst.0, self.place(worst.1)), (&program.turned, &words), (self.evidence.body, self.written))
     }
 
@@ -187,7 +195,7 @@ fn ground(
         not_too_deep_at_once(evidence, pass.line, (deepest, pass.depth))?;
         deepest = deepest.max(pass.depth);
     }
-    let words = format!("the centre of a wheel Ø{} mm in C and X", shown(2.0 * wheel));
+    let words = text!("the centre of a wheel Ø{} in C and X", Length::mm(2.0 * wheel));
     concluded(worst, (passes, &words), (evidence.body, written))
 }
 
