@@ -304,11 +304,11 @@ fn sentences_that_are_read(text: &str) -> Vec<usize> {
         if is(next, "(") && is(next + 1, ")") {
             next += 2;
         }
-        while is(next, ".") && is(next + 2, "(") && is(next + 3, ")") {
+        let reads = |at: usize| all.get(at).is_some_and(|call| READERS.contains(&call.text.as_str()));
+        while is(next, ".") && !reads(next + 1) && is(next + 2, "(") && is(next + 3, ")") {
             next += 4;
         }
-        let reads = all.get(next + 1).is_some_and(|call| READERS.contains(&call.text.as_str()));
-        if is(next, ".") && reads && is(next + 2, "(") {
+        if is(next, ".") && reads(next + 1) && is(next + 2, "(") {
             lines.push(all[at].line);
         }
     }
