@@ -4,7 +4,6 @@ use camgen::catalogue::{catalogue, checks};
 use camgen::check::Check;
 use camgen::document::{Key, KeyForm, KeySection, Occurrence, Presence};
 use camgen::motion::laws::{LAWS, Law, LawTask};
-use camgen::units::Dimension;
 use std::fmt::Write as _;
 
 /// A list by the name that a page gives it.
@@ -105,7 +104,7 @@ fn tables_of(all: &[&KeySection], wanted: impl Fn(&KeySection) -> bool) -> Strin
 fn units() -> String {
     let keys = catalogue().keys.sections.iter().flat_map(|section| section.keys);
     let mut rows: Vec<String> = Vec::new();
-    for dimension in keys.flat_map(|key| dimensions(key.form)) {
+    for dimension in keys.flat_map(|key| key.form.dimensions()) {
         let symbols: Vec<String> = dimension.unit_list().split(", ").map(|unit| format!("`{unit}`")).collect();
         let row = format!("| {dimension} | {} |\n", symbols.join(", "));
         if !rows.contains(&row) {
@@ -113,19 +112,6 @@ fn units() -> String {
         }
     }
     "| quantity | units |\n|---|---|\n".to_owned() + &rows.concat()
-}
-
-fn dimensions(form: KeyForm) -> Vec<Dimension> {
-    match form {
-        KeyForm::LengthOrAngle(..) => vec![Dimension::Length, Dimension::Angle],
-        KeyForm::AngleOrLength(..) | KeyForm::Points(..) => vec![Dimension::Angle, Dimension::Length],
-        KeyForm::Either((one, _), (other, _)) => vec![one, other],
-        KeyForm::Quantity(dimension, _)
-        | KeyForm::WordsOrQuantity(_, dimension, _)
-        | KeyForm::Band(dimension, _)
-        | KeyForm::Pair(dimension, _) => vec![dimension],
-        _ => Vec::new(),
-    }
 }
 
 fn heading(section: &KeySection) -> String {

@@ -1,7 +1,7 @@
 //! The table of keys as data, for fields and sliders: what a value of each may be, its range, its units and what it means.
 
 use crate::catalogue::catalogue;
-use camgen_kernel::document::{Bounds, Key, KeyForm, KeySection, Occurrence, Presence};
+use camgen_kernel::document::{Key, KeyForm, KeySection, Occurrence, Presence, ValueRange};
 use camgen_kernel::motion::laws::{LAWS, LawCurve, LawTask};
 use camgen_kernel::units::{self, Dimension};
 use serde_json::{Map, Value, json};
@@ -29,7 +29,7 @@ fn key_of(section: &KeySection, key: &Key, units: &mut Map<String, Value>) -> Va
         "name": key.name, "about": key.about, "presence": kind, "example": example,
         "cams": catalogue().keys.listed(section.cams_of(key)), "halves": key.halved,
     });
-    let ranges: Vec<Value> = ranges(key.form).into_iter().map(|range| range_of(range, units)).collect();
+    let ranges: Vec<Value> = key.form.ranges().into_iter().map(|range| range_of(range, units)).collect();
     if !ranges.is_empty() {
         field["ranges"] = Value::from(ranges);
     }
@@ -37,38 +37,30 @@ fn key_of(section: &KeySection, key: &Key, units: &mut Map<String, Value>) -> Va
         KeyForm::Words(words) | KeyForm::WordsOrQuantity(words, ..) => field["words"] = json!(words),
         KeyForm::Boolean => field["words"] = json!(["true", "false"]),
         KeyForm::Columns => field["file"] = Value::Bool(true),
-        _ => {}
+        KeyForm::Text
+        | KeyForm::TextOrNumber
+        | KeyForm::Number(_)
+        | KeyForm::Share(_)
+        | KeyForm::Numbers(_)
+        | KeyForm::Texts
+        | KeyForm::Quantity(..)
+        | KeyForm::LengthOrAngle(..)
+        | KeyForm::AngleOrLength(..)
+        | KeyForm::LengthAngleOrShare(..)
+        | KeyForm::Either(..)
+        | KeyForm::Band(..)
+        | KeyForm::Pair(..)
+        | KeyForm::Points(..) => {}
     }
     field
 }
 
-/// A range of a value: of a dimension, or of bare numbers.
-type Range = (Option<Dimension>, Bounds);
-
-/// The ranges of a single number of this form; none where it is a text or a list.
-fn ranges(form: KeyForm) -> Vec<Range> {
-    let (angle, length) = (Some(Dimension::Angle), Some(Dimension::Length));
-    match form {
-        KeyForm::Number(bounds) | KeyForm::Share(bounds) => vec![(None, bounds)],
-        KeyForm::Quantity(dimension, bounds) | KeyForm::WordsOrQuantity(_, dimension, bounds) => {
-            vec![(Some(dimension), bounds)]
-        }
-        KeyForm::LengthOrAngle(first, second) => vec![(length, first), (angle, second)],
-        KeyForm::AngleOrLength(first, second) => vec![(angle, first), (length, second)],
-        KeyForm::LengthAngleOrShare(first, second, share) => vec![(length, first), (angle, second), (None, share)],
-        KeyForm::Either((first, of_first), (second, of_second)) => {
-            vec![(Some(first), of_first), (Some(second), of_second)]
-        }
-        _ => Vec::new(),
-    }
-}
-
-fn range_of((dimension, bounds): Range, units: &mut Map<String, Value>) -> Value {
-    let name = dimension.map(|dimension| dimension.to_string());
-    if let (Some(dimension), Some(name)) = (dimension, &name) {
+fn range_of(range: ValueRange, units: &mut Map<String, Value>) -> Value {
+    let name = range.dimension.map(|dimension| dimension.to_string());
+    if let (Some(dimension), Some(name)) = (range.dimension, &name) {
         units.entry(name.clone()).or_insert_with(|| units_of(dimension));
     }
-    let (low, high) = bounds.ends();
+    let (low, high) = range.bounds.ends();
     json!({"dimension": name, "low": low, "high": high})
 }
 

@@ -1,7 +1,7 @@
 //! Changes of the text of a machine file: its comments and its order stay.
 
 use crate::catalogue::catalogue;
-use camgen_kernel::document::{Key, KeyForm};
+use camgen_kernel::document::{Key, Typing};
 use camgen_kernel::refusal::Refusal;
 use serde::{Deserialize, Serialize};
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, TableLike, Value};
@@ -208,17 +208,10 @@ pub(super) fn twin_of(path: &str) -> Option<String> {
 fn value(path: &str, typed: &str) -> Value {
     let typed = typed.trim();
     let unquoted = typed.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).unwrap_or(typed);
-    let bare = match key_of(path).map(|key| key.form) {
-        Some(
-            KeyForm::Number(_)
-            | KeyForm::Numbers(_)
-            | KeyForm::Texts
-            | KeyForm::Boolean
-            | KeyForm::Pair(..)
-            | KeyForm::Points(..),
-        ) => true,
-        Some(KeyForm::Share(_) | KeyForm::TextOrNumber) => unquoted.parse::<f64>().is_ok(),
-        _ => false,
+    let bare = match key_of(path).map(|key| key.form.typing()) {
+        Some(Typing::Bare) => true,
+        Some(Typing::BareNumber) => unquoted.parse::<f64>().is_ok(),
+        Some(Typing::Quoted) | None => false,
     };
     if bare && let Ok(value) = unquoted.parse::<Value>() {
         return value;

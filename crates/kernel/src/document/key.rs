@@ -51,6 +51,110 @@ pub enum KeyForm {
     Columns,
 }
 
+/// How a value of a form is typed in TOML.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Typing {
+    /// As a text, `"180 mm"`.
+    Quoted,
+    /// As it stands: `35`, `true`, `[1, 2]`.
+    Bare,
+    /// Bare where it is a number, else as a text.
+    BareNumber,
+}
+
+/// The range of a single number of a form.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ValueRange {
+    /// What it measures; none for a bare number.
+    pub dimension: Option<Dimension>,
+    /// Its limits, in SI.
+    pub bounds: Bounds,
+}
+
+impl KeyForm {
+    /// How its values are typed in TOML.
+    #[must_use]
+    pub const fn typing(self) -> Typing {
+        match self {
+            KeyForm::Boolean
+            | KeyForm::Number(_)
+            | KeyForm::Numbers(_)
+            | KeyForm::Texts
+            | KeyForm::Pair(..)
+            | KeyForm::Points(..) => Typing::Bare,
+            KeyForm::Share(_) | KeyForm::TextOrNumber => Typing::BareNumber,
+            KeyForm::Text
+            | KeyForm::Quantity(..)
+            | KeyForm::LengthOrAngle(..)
+            | KeyForm::AngleOrLength(..)
+            | KeyForm::LengthAngleOrShare(..)
+            | KeyForm::Either(..)
+            | KeyForm::Words(_)
+            | KeyForm::WordsOrQuantity(..)
+            | KeyForm::Band(..)
+            | KeyForm::Columns => Typing::Quoted,
+        }
+    }
+
+    /// What its values measure, in the order in which a reader tries them; none for words, texts and bare numbers.
+    #[must_use]
+    pub fn dimensions(self) -> Vec<Dimension> {
+        match self {
+            KeyForm::Quantity(dimension, _)
+            | KeyForm::WordsOrQuantity(_, dimension, _)
+            | KeyForm::Band(dimension, _)
+            | KeyForm::Pair(dimension, _) => vec![dimension],
+            KeyForm::LengthOrAngle(..) | KeyForm::LengthAngleOrShare(..) => vec![Dimension::Length, Dimension::Angle],
+            KeyForm::AngleOrLength(..) | KeyForm::Points(..) => vec![Dimension::Angle, Dimension::Length],
+            KeyForm::Either((first, _), (second, _)) => vec![first, second],
+            KeyForm::Text
+            | KeyForm::TextOrNumber
+            | KeyForm::Boolean
+            | KeyForm::Number(_)
+            | KeyForm::Share(_)
+            | KeyForm::Numbers(_)
+            | KeyForm::Texts
+            | KeyForm::Words(_)
+            | KeyForm::Columns => Vec::new(),
+        }
+    }
+
+    /// The ranges of a single number of this form; none where a value is a text, a list or a band.
+    #[must_use]
+    pub fn ranges(self) -> Vec<ValueRange> {
+        let bare = |bounds| ValueRange { dimension: None, bounds };
+        let quantity = |dimension, bounds| ValueRange { dimension: Some(dimension), bounds };
+        match self {
+            KeyForm::Number(bounds) | KeyForm::Share(bounds) => vec![bare(bounds)],
+            KeyForm::Quantity(dimension, bounds) | KeyForm::WordsOrQuantity(_, dimension, bounds) => {
+                vec![quantity(dimension, bounds)]
+            }
+            KeyForm::LengthOrAngle(length, angle) => {
+                vec![quantity(Dimension::Length, length), quantity(Dimension::Angle, angle)]
+            }
+            KeyForm::AngleOrLength(angle, length) => {
+                vec![quantity(Dimension::Angle, angle), quantity(Dimension::Length, length)]
+            }
+            KeyForm::LengthAngleOrShare(length, angle, share) => {
+                vec![quantity(Dimension::Length, length), quantity(Dimension::Angle, angle), bare(share)]
+            }
+            KeyForm::Either((first, first_bounds), (second, second_bounds)) => {
+                vec![quantity(first, first_bounds), quantity(second, second_bounds)]
+            }
+            KeyForm::Text
+            | KeyForm::TextOrNumber
+            | KeyForm::Boolean
+            | KeyForm::Numbers(_)
+            | KeyForm::Texts
+            | KeyForm::Words(_)
+            | KeyForm::Band(..)
+            | KeyForm::Pair(..)
+            | KeyForm::Points(..)
+            | KeyForm::Columns => Vec::new(),
+        }
+    }
+}
+
 /// Whether a key must be given. The texts are values as typed, without the quotes of TOML.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Presence {
@@ -104,14 +208,11 @@ impl Key {
     /// A value as typed, as it is written in TOML.
     #[must_use]
     pub fn in_toml(&self, typed: &str) -> String {
-        match self.form {
-            KeyForm::Number(_)
-            | KeyForm::Numbers(_)
-            | KeyForm::Texts
-            | KeyForm::Boolean
-            | KeyForm::Pair(..)
-            | KeyForm::Points(..) => typed.to_owned(),
-            _ => format!("\"{}\"", typed.replace('\\', "\\\\").replace('"', "\\\"")),
+        match self.form.typing() {
+            Typing::Bare => typed.to_owned(),
+            Typing::Quoted | Typing::BareNumber => {
+                format!("\"{}\"", typed.replace('\\', "\\\\").replace('"', "\\\""))
+            }
         }
     }
 }

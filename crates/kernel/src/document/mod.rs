@@ -29,7 +29,10 @@ pub use columns::{Columns, FileRow, parts};
 pub use fault::{Excerpt, FileFault, similar};
 pub use heading::{HeadingUnit, UnclearHeading, derivative_in, is_diameter, is_lift, is_of_crank, is_radius};
 pub use input::Input;
-pub use key::{Field, Key, KeyForm, KeySection, LengthAngleOrShare, LengthOrAngle, Occurrence, PointList, Presence};
+pub use key::{
+    Field, Key, KeyForm, KeySection, LengthAngleOrShare, LengthOrAngle, Occurrence, PointList, Presence, Typing,
+    ValueRange,
+};
 pub use named::{InputFiles, NamedFiles, NamedFolder};
 pub use plain::{is_plain, plain, shown};
 pub use reader::KnownValues;

@@ -1,7 +1,7 @@
 //! The JSON schema (draft 2020-12) of a file, for editors, written from the sections.
 
 use super::bounds::Bounds;
-use super::key::{Key, KeyForm, KeySection, Occurrence, Presence, continues};
+use super::key::{Key, KeyForm, KeySection, Occurrence, Presence, Typing, continues};
 use crate::units::Dimension;
 use serde_json::{Value, json};
 
@@ -116,14 +116,9 @@ fn property(key: &Key) -> Value {
     let mut property = form(key.form);
     property["description"] = key.about.into();
     let text = key.presence.text();
-    let value = match key.form {
-        KeyForm::Number(_)
-        | KeyForm::Numbers(_)
-        | KeyForm::Texts
-        | KeyForm::Boolean
-        | KeyForm::Pair(..)
-        | KeyForm::Points(..) => serde_json::from_str(text).unwrap_or(text.into()),
-        _ => Value::from(text),
+    let value = match key.form.typing() {
+        Typing::Bare => serde_json::from_str(text).unwrap_or(text.into()),
+        Typing::Quoted | Typing::BareNumber => Value::from(text),
     };
     match key.presence {
         Presence::Default(_) => property["default"] = value,
