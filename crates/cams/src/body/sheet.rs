@@ -390,9 +390,7 @@ pub(crate) fn profile_table(machine: &Machine, curves: Curves<'_>, outline: &Con
     EVERY
         .iter()
         .map(|(degrees, every)| PlaceTable {
-            title: format!(
-                "Profile on the part: radius R at polar angle ψ, each {degrees}°; cam angle θ of contact, lift there"
-            ),
+            title: profile_title("Profile", *degrees),
             heads: vec![
                 "ψ, °".to_owned(),
                 format!("R, {unit}"),
@@ -403,6 +401,17 @@ pub(crate) fn profile_table(machine: &Machine, curves: Curves<'_>, outline: &Con
             every: *every,
         })
         .collect()
+}
+
+fn profile_title(surface: &str, degrees: u32) -> String {
+    format!("{surface} on the part: radius R at polar angle ψ, each {degrees}°; cam angle θ of contact, lift there")
+}
+
+/// Names the surface whose profile the tables of [`profile_table`] list, where a part has more than one.
+pub(crate) fn name_profile(tables: &mut [PlaceTable], surface: &str) {
+    for (table, (degrees, _)) in tables.iter_mut().zip(&EVERY) {
+        table.title = profile_title(surface, *degrees);
+    }
 }
 
 /// An angle of a whole turn, degrees, to two decimals: 359.996 is 0.

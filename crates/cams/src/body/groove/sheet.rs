@@ -1,6 +1,7 @@
 //! What the review sheet of a groove or a ring shows: the disc under the same roller, with the other flank, the blank and the groove's section.
 
 use super::{Groove, RING};
+use crate::body::sheet::name_profile;
 use crate::body::{Body, Drawn, Layer};
 use crate::report::sheet::Dimensions;
 use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView};
@@ -32,8 +33,8 @@ pub(super) fn view(groove: &Groove, drawn: &Drawn) -> Result<SheetView, OutlineE
             if ring { ("bore", group.label.clone()) } else { ("profile", "inner flank".into()) };
     }
     view.groups.splice(0..0, back);
-    for table in view.tables.iter_mut().filter(|_| !ring) {
-        table.title = table.title.replace("Profile on the part", "Inner flank on the part");
+    if !ring {
+        name_profile(&mut view.tables, "Inner flank");
     }
     let units = groove.machine().units();
     let blank = MILLIMETRES * groove.blank_radius;
