@@ -30,7 +30,12 @@ impl From<&FileFault> for Fault {
 impl From<&Refusal> for Fault {
     fn from(refusal: &Refusal) -> Self {
         let Refusal { what, place, remedy, .. } = refusal;
-        Self { message: what.clone(), key: None, place: place.clone(), remedy: remedy.as_ref().map(ToString::to_string) }
+        Self {
+            message: what.clone(),
+            key: None,
+            place: place.clone(),
+            remedy: remedy.as_ref().map(ToString::to_string),
+        }
     }
 }
 

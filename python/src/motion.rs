@@ -351,7 +351,8 @@ impl Motion {
             return Err(option("segments", why, Some("give the last what is left of the turn".into())));
         }
         let start = start.map(|start| position(start, of)).transpose()?.unwrap_or(0.0);
-        let program = Program::new(of, start, &all).map_err(|why| option("segments", why.what.clone(), why.remedy_words()))?;
+        let program =
+            Program::new(of, start, &all).map_err(|why| option("segments", why.what.clone(), why.remedy_words()))?;
         Ok(Self(Arc::new(program)))
     }
 
@@ -391,8 +392,8 @@ impl Motion {
         let (theta, lift) = (table::numbers(theta)?, table::numbers(lift)?);
         let curve =
             SampleCurve { shape: shape_of(shape)?, degree, smooth: smooth.map(|by| smooth_of(by, of)).transpose()? };
-        let program =
-            Program::through(of, &theta, &lift, curve).map_err(|why| option("lift", why.what.clone(), why.remedy_words()))?;
+        let program = Program::through(of, &theta, &lift, curve)
+            .map_err(|why| option("lift", why.what.clone(), why.remedy_words()))?;
         Ok(Self(Arc::new(program)))
     }
 

@@ -299,13 +299,13 @@ fn sentences_that_are_read(text: &str) -> Vec<usize> {
     let is = |at: usize, wanted: &str| all.get(at).is_some_and(|token| token.text == wanted);
     let mut lines = Vec::new();
     for at in (0..all.len()).filter(|at| SENTENCES.contains(&all[*at].text.as_str())) {
-        // Further calls on it without arguments, such as as_ref(), then the one that reads.
+        // Further calls on it without arguments, such as as_ref(), then the one that reads; what iter() finds is an item.
         let mut next = at + 1;
         if is(next, "(") && is(next + 1, ")") {
             next += 2;
         }
         let reads = |at: usize| all.get(at).is_some_and(|call| READERS.contains(&call.text.as_str()));
-        while is(next, ".") && !reads(next + 1) && is(next + 2, "(") && is(next + 3, ")") {
+        while is(next, ".") && !reads(next + 1) && !is(next + 1, "iter") && is(next + 2, "(") && is(next + 3, ")") {
             next += 4;
         }
         if is(next, ".") && reads(next + 1) && is(next + 2, "(") {
