@@ -2,7 +2,7 @@
 //! profile that a motion and a follower have together. Nothing here knows what is cut, or a file of a cam.
 //!
 //! Users take the crate `camgen`, on whose first page all of this is; the modules may change with any version. Each uses only those
-//! before it: [`units`], [`text`], [`refusal`], [`numeric`], [`document`], [`geometry`], [`motion`], [`follower`], [`profile`].
+//! before it: [`units`], [`text`](mod@text), [`refusal`], [`numeric`], [`document`], [`geometry`], [`motion`], [`follower`], [`profile`].
 #![forbid(unsafe_code)]
 
 pub mod units;

@@ -54,7 +54,7 @@ pub enum Value {
     Remedy(Remedy),
 }
 
-/// A [`Text`](crate::text::Text) of a template and its values, in their order: `text!("{} deep", Length::mm(3.0))`.
+/// A [`Text`] of a template and its values, in their order: `text!("{} deep", Length::mm(3.0))`.
 #[macro_export]
 macro_rules! text {
     ($template:literal $(, $value:expr)* $(,)?) => {

@@ -1,9 +1,9 @@
 //! The developed view of the outside: both flanks and the centre line of the roller as arcs, and what the customary drawings of it would miss.
 
-use super::swept::CURVES;
+use super::swept::{CURVES, nearest_about};
 use super::{Barrel, BarrelLine, BarrelRoller};
 use crate::body::Layer;
-use crate::body::swept::{FlankSide, RollerLine};
+use crate::body::swept::{FlankSide, RollerLine, SeenPoint};
 use camgen_kernel::geometry::biarcs::biarcs;
 use camgen_kernel::geometry::contour::Segment;
 use camgen_kernel::geometry::{Entity, MILLIMETRES};
@@ -16,8 +16,6 @@ use std::f64::consts::TAU;
 const SHARE: f64 = 0.8;
 /// A dwell is drawn in stretches no longer than this, rad: an arc of the other pieces is shorter anyway.
 const LONGEST: f64 = TAU;
-/// Steps to the nearest place of an unrolled curve.
-const STEPS: usize = 12;
 
 impl<R: BarrelRoller> Barrel<R> {
     /// The entities of the developed view within a tolerance, mm.
@@ -74,7 +72,7 @@ impl<R: BarrelRoller> Barrel<R> {
             for side in FlankSide::BOTH {
                 let Some((polar, height)) = place(side, (piece, angle)) else { continue };
                 let due = self.axis(piece, angle).radius_at(radius, self.groove.signed(side).abs());
-                let off = (self.distance_unrolled((polar, height), radius, angle) - due).abs();
+                let off = (self.distance_unrolled((polar, height), radius) - due).abs();
                 if off > worst.value {
                     worst = Worst { value: off, at: angle, z: 0.0 };
                 }
@@ -83,22 +81,21 @@ impl<R: BarrelRoller> Barrel<R> {
         worst
     }
 
-    /// Distance of a place (angle and height, m) from the centre line of the roller unrolled at a radius, m, near a cam angle.
-    fn distance_unrolled(&self, (polar, height): (f64, f64), radius: f64, near: f64) -> f64 {
-        let mut angle = near;
-        let apart = |angle: f64| {
+    /// Distance of a place (angle and height, m) from the centre line of the roller unrolled at a radius, m.
+    fn distance_unrolled(&self, (polar, height): (f64, f64), radius: f64) -> f64 {
+        let see = |angle: f64| {
             let (piece, inside) = self.groove.motion.locate(angle);
             let line = self.axis(piece, inside);
             let axis = line.axis();
             let x = radius * (polar - angle) - axis.across[0];
-            ([x, height - axis.along[0]], [-radius - axis.across[1], -axis.along[1]], [-axis.across[2], -axis.along[2]])
+            SeenPoint {
+                off: [x, height - axis.along[0]],
+                first: [-radius - axis.across[1], -axis.along[1]],
+                second: [-axis.across[2], -axis.along[2]],
+                rise: (0.0, 1.0),
+            }
         };
-        for _ in 0..STEPS {
-            let ([a, b], [da, db], [dda, ddb]) = apart(angle);
-            let bend = da * da + db * db + a * dda + b * ddb;
-            angle -= (a * da + b * db) / if bend > 0.0 { bend } else { da * da + db * db };
-        }
-        let ([a, b], ..) = apart(angle);
+        let [a, b] = nearest_about(polar, self.groove.farther() / radius, see).seen.off;
         libm::hypot(a, b)
     }
 }

@@ -123,6 +123,12 @@ impl<R: BarrelRoller> SweptBody for Barrel<R> {
     const KIND: &'static Kind = R::KIND;
     const WORDS: SweptWords = R::WORDS;
 
+    /// On the floor.
+    fn narrowest_half_width(&self) -> f64 {
+        let taper = self.roller.half_angle(self.outer).map_or(0.0, libm::tan);
+        self.groove.widest_tool() - taper * self.depth
+    }
+
     /// At the inner end of the roller or at the outside, signed.
     fn steepest(&self, lift: &Jet) -> f64 {
         let axis = self.roller.line(lift, self.outer);

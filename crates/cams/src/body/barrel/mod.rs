@@ -34,6 +34,7 @@ pub(super) use contact::{AxisLine, BarrelLine, OffsetPoint, RollerPath};
 use nalgebra::Vector3;
 use std::fmt::Debug;
 use std::sync::Arc;
+pub(super) use swept::tried_about;
 
 /// The barrel of any motion.
 pub const BARREL: Kind = Kind { command: cams::MAKE, noun: "barrel cam", keys: cams::BARREL };
@@ -70,6 +71,14 @@ pub(crate) trait BarrelRoller: Debug + Clone + Send + Sync + 'static {
     /// Angle between its axis and its surface, rad; `None` of a cylinder.
     fn half_angle(&self, _outer: f64) -> Option<f64> {
         None
+    }
+
+    /// The refusal of a roller that does not suit a cylinder of a radius, m.
+    ///
+    /// # Errors
+    /// [`Refusal`] with the reason.
+    fn refuse_in(&self, _outer: f64) -> Result<(), Refusal> {
+        Ok(())
     }
 
     /// How a point (mm) of a flank lies to the nearest flank.
@@ -142,7 +151,10 @@ impl<R: BarrelRoller> Barrel<R> {
             .bore_reach()
             .map_or(0.0, |bore| bore + limits.least_wall(self.groove.machine.cam.bore_radius));
         let least = rounded_up(bore + self.depth.max(self.reach));
-        let keeps = |outer: f64| Self { outer, ..self.clone() }.keeps_limits();
+        let keeps = |outer: f64| {
+            let tried = Self { outer, ..self.clone() };
+            tried.roller.refuse_in(outer).is_ok() && tried.keeps_limits()
+        };
         if keeps(least) {
             return Ok(least);
         }
@@ -192,6 +204,7 @@ impl<R: BarrelRoller> Barrel<R> {
 
     /// The refusal of a groove that leaves the cylinder, or whose roller misses it.
     fn refuse_what_leaves(&self) -> Result<(), Refusal> {
+        self.roller.refuse_in(self.outer)?;
         let floor = self.floor();
         let deep = MILLIMETRES * self.depth;
         if !(floor > 0.0) {

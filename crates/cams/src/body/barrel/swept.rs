@@ -21,6 +21,19 @@ const AT_REST: f64 = 1e-14;
 pub(super) const CURVES: [(Option<FlankSide>, Layer); 3] =
     [(Some(FlankSide::Upper), Layer::FlankUpper), (Some(FlankSide::Lower), Layer::FlankLower), (None, Layer::Pitch)];
 
+/// The cam angles about a polar angle at which a roller is tried first, whose longest step is given, rad.
+pub(crate) fn tried_about(polar: f64, longest: f64) -> impl Iterator<Item = f64> {
+    (-TRIED..=TRIED).map(move |i| polar + APART * longest * f64::from(i))
+}
+
+/// Where a roller comes nearest to a point at a polar angle, in steps no longer than given, rad.
+pub(super) fn nearest_about(polar: f64, longest: f64, see: impl Fn(f64) -> SeenPoint) -> NearestRoller {
+    let tried = tried_about(polar, longest).map(|angle| (angle, see(angle)));
+    let start = tried.reduce(|a, b| if b.1.square() < a.1.square() { b } else { a });
+    let start = start.map_or(polar, |(angle, _)| angle);
+    Descent { longest, steps: STEPS }.from(start, see)
+}
+
 impl<R: BarrelRoller> Barrel<R> {
     /// Point (mm) and unit tangent of a flank, or of the centre line of the roller, in the developed view at a piece and cam angle: x along the outer circumference, growing with the cam angle
     /// if the cam turns clockwise; y along the axis.
@@ -45,11 +58,7 @@ impl<R: BarrelRoller> Barrel<R> {
     pub(super) fn nearest_roller(&self, point: Vector3<f64>) -> NearestRoller {
         let polar = libm::atan2(point.y, point.x);
         let longest = self.groove.farther() / point.xy().norm();
-        let step = APART * longest;
-        let tried = (-TRIED..=TRIED).map(|i| polar + step * f64::from(i)).map(|angle| (angle, self.see(point, angle)));
-        let start = tried.reduce(|a, b| if b.1.square() < a.1.square() { b } else { a });
-        let start = start.map_or(polar, |(angle, _)| angle);
-        Descent { longest, steps: STEPS }.from(start, |angle| self.see(point, angle))
+        nearest_about(polar, longest, |angle| self.see(point, angle))
     }
 
     /// A point (m) seen along the roller at a cam angle.

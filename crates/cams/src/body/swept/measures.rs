@@ -21,7 +21,7 @@ pub(crate) fn take_measures<B: SweptBody>(body: &B, of: &mut Measures<'_>) {
     of.add(&continuity::CHECK, |_| continuity::measure(&run, || None, &subject));
     of.add(&pressure_angle::CHECK, |_| pressure_angle::measure(pressure_angles(body), &subject));
     of.add(&curvature::UNDERCUT, |_| curvature::undercut(&least_fold(body), groove.farther(), Vec::new, &subject));
-    let half = groove.widest_tool();
+    let half = body.narrowest_half_width();
     let widest_cutter = Worst { value: half, at: 0.0, z: 0.0 };
     of.add(&cutter_radius::CHECK, |_| cutter_radius::measure(Some(widest_cutter), Some(half), &subject));
     of.add(&wall::CHECK, |written| wall::measure(body.wall(), written, &subject));

@@ -1,7 +1,7 @@
 //! Cams into which rollers sweep grooves with flanks in space.
 //!
-//! Such a body states where its rollers run ([`SweptGeometry`]) and what it is called, drawn and measured as ([`SweptBody`]). Worst places, forces, checks, refusals, the
-//! frame of its sheet and its report follow from these here, once: every [`SweptBody`] is a [`Body`](super::Body). The proof of its files needs only
+//! Such a body states where its rollers run (`SweptGeometry`) and what it is called, drawn and measured as (`SweptBody`). Worst places, forces, checks, refusals, the
+//! frame of its sheet and its report follow from these here, once: every `SweptBody` is a [`Body`](super::Body). The proof of its files needs only
 //! [`SweptFlanks`].
 
 use camgen_kernel::text::Text;
@@ -150,6 +150,11 @@ pub(crate) trait SweptBody: SweptGeometry + SweptMeasures + SweptFlanks {
     /// Equal lobes of a turn.
     fn lobes(&self) -> u32 {
         self.groove().motion.lobes()
+    }
+
+    /// Half of the width of its groove where that is narrowest, m: the radius of the largest tool that fits.
+    fn narrowest_half_width(&self) -> f64 {
+        self.groove().widest_tool()
     }
 
     /// The largest pressure angle of the rollers at a lift, as a table shows it, rad.

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 /// Least and largest half angle, rad: below, the roller is a cylinder; beyond, it is pushed out of its groove.
 const LEAST: f64 = 0.1 * PI / 180.0;
-const LARGEST: f64 = 0.25 * PI;
+pub(super) const LARGEST: f64 = 0.25 * PI;
 
 /// Half angle of the roller, rad; `None` where its cone points at the axis of the cam.
 #[derive(Debug, Clone, Copy)]

@@ -7,7 +7,7 @@
 mod contact;
 mod keys;
 
-use super::barrel::{Barrel, BarrelRoller, RollerPath};
+use super::barrel::{Barrel, BarrelRoller, RollerPath, tried_about};
 use super::swept::{FlankMiss, FlankSide, NearestRoller, SweptGeometry, SweptWords};
 use super::{BodyKeys, Kind, ProgramCams};
 use crate::machine::Machine;
@@ -69,6 +69,7 @@ impl BarrelRoller for TaperedRoller {
             "Vibration, friction and the guide of the follower are not computed for a barrel.",
             "The thrust of the conical roller along its axis, on its bearing and its guide. The limit of the pressure angle is that in the plane across its axis.",
             "The ends of the roller: it is a straight cone without a rounded edge.",
+            "Where the flank of a wide roller leaves the outside before the roller does: the contact counts as long as the roller reaches into the groove.",
         ],
     };
 
@@ -111,6 +112,19 @@ impl BarrelRoller for TaperedRoller {
 
     fn half_angle(&self, outer: f64) -> Option<f64> {
         Some(libm::atan(self.taper(outer)))
+    }
+
+    fn refuse_in(&self, outer: f64) -> Result<(), Refusal> {
+        let half_angle = libm::atan(self.taper(outer));
+        if half_angle <= keys::LARGEST {
+            return Ok(());
+        }
+        let [radius, outer] = [self.radius, outer].map(|length| MILLIMETRES * length);
+        let [half_angle, largest] = [half_angle, keys::LARGEST].map(f64::to_degrees);
+        let what = format!(
+            "a roller of radius {radius:.3} mm in a cylinder of radius {outer:.3} mm has a half angle of {half_angle:.3} deg, above the {largest:.0} deg beyond which it is pushed out of its groove"
+        );
+        Err(Refusal::new(what).remedy("give a larger cam.outer_radius or a smaller roller"))
     }
 
     fn miss(barrel: &Barrel<Self>, point: Vector3<f64>) -> FlankMiss {
@@ -166,11 +180,18 @@ fn see(barrel: &Barrel<TaperedRoller>, point: Vector3<f64>, angle: f64) -> SeenF
     }
 }
 
-/// The cam angle at which the cone comes nearest to a point, m, from the one at which its axis does.
+/// The cam angle at which the cone comes nearest to a point, m.
 fn nearest_cone(barrel: &Barrel<TaperedRoller>, point: Vector3<f64>) -> (f64, SeenFromCone) {
-    let NearestRoller { mut at, .. } = barrel.nearest(point);
-    let mut seen = see(barrel, point, at);
     let longest = barrel.groove().farther() / point.xy().norm();
+    let NearestRoller { at: of_axis, .. } = barrel.nearest(point);
+    let (mut at, mut seen) = (of_axis, see(barrel, point, of_axis));
+    // A wide cone comes nearest far from where its axis does.
+    for tried in tried_about(libm::atan2(point.y, point.x), longest) {
+        let found = see(barrel, point, tried);
+        if found.excess[0] < seen.excess[0] {
+            (at, seen) = (tried, found);
+        }
+    }
     for _ in 0..STEPS {
         let [excess, slope, bend] = seen.excess;
         let step = if bend > 0.0 { slope / bend } else { slope / seen.away };

@@ -27,8 +27,12 @@ fn cam(overrides: &[&str]) -> Cam {
 /// Points of a flank at a known distance along its normal are found there, in either sense of rotation.
 #[test]
 fn a_point_is_as_far_from_the_flank_as_it_was_moved() {
-    for rotation in ["cw", "ccw"] {
-        let barrel = barrel(&[&format!("cam.rotation={rotation}"), "cam.roller_half_angle=12 deg"]);
+    for (rotation, roller) in [
+        ("cw", ["cam.roller_half_angle=12 deg", "follower.roller.radius=10 mm"]),
+        ("ccw", ["cam.roller_half_angle=12 deg", "follower.roller.radius=10 mm"]),
+        ("cw", ["cam.roller_half_angle=auto", "follower.roller.radius=64 mm"]),
+    ] {
+        let barrel = barrel(&[&format!("cam.rotation={rotation}"), roller[0], roller[1]]);
         let (groove, sense) = (barrel.groove(), barrel.groove().sense());
         for i in 0..40 {
             let (piece, angle) = groove.motion.locate(0.157 * f64::from(i) + 0.01);
@@ -128,4 +132,34 @@ fn what_a_cone_cannot_do_is_refused() {
         };
         assert!(refused.contains(what), "{refused}");
     }
+}
+
+/// A roller as wide as the cam is drawn and proved, a wider one is refused in whatever cylinder is found.
+#[test]
+fn a_wide_roller_is_proved_or_refused() {
+    let wide = ["limits.pressure_angle=40 deg", "limits.min_convex_radius=1 mm", "follower.roller.radius=70 mm"];
+    let with = |outer: &str| {
+        let overrides = [wide.as_slice(), &[outer]].concat();
+        let machine = machine(&overrides);
+        let (motion, rpm) = machine.motion().expect("a motion");
+        Barrel::<TaperedRoller>::of(&machine, &motion, rpm)
+    };
+    assert!(with("cam.outer_radius=69 mm").expect_err("46 deg").what.contains("45.41"));
+    let found = with("cam.outer_radius=auto").expect("a barrel");
+    let line = found.line(&found.groove().motion.jet(0, 0.0), 0);
+    assert!(line.taper <= 1.0 && line.outer >= 0.07, "{line:?}");
+    let solved = cam(&[wide.as_slice(), &["cam.outer_radius=72 mm"]].concat());
+    let proven = solved.draw(5e-6).expect("a drawing").prove().expect("a proof");
+    for name in ["flank_surface", "groove_width"] {
+        let found = proven.findings().iter().find(|finding| finding.check == name).expect("a check");
+        assert_eq!(found.verdict, Verdict::Pass, "{found:?}");
+    }
+}
+
+/// The largest tool is as wide as the floor, not as the outside.
+#[test]
+fn a_cutter_goes_down_to_the_floor() {
+    let barrel = barrel(&["cam.roller_half_angle=30 deg"]);
+    let floor = 10.015e-3 - 12e-3 * libm::tan(30_f64.to_radians());
+    assert!((crate::body::swept::SweptBody::narrowest_half_width(&barrel) - floor).abs() < 1e-12);
 }
