@@ -5,7 +5,8 @@ const ghostOf = (view) => (doc.sentCam && doc.sentCam.views[Math.min(doc.sentCam
 
 /** The outlines of the design as sent, in the picture of the present one and moving with it. */
 function withGhost(view) {
-  const before = cams.length === 1 ? ghostOf(view)?.parts.filter(({ role }) => role === "cam") ?? [] : [];
+  // Nothing is behind a design that has not changed.
+  const before = cams.length === 1 && (doc.past.length || isDragging) ? ghostOf(view)?.parts.filter(({ role }) => role === "cam") ?? [] : [];
   const own = view.parts.filter(({ role }) => role === "cam");
   if (before.length !== own.length) return;
   const ghosts = own.map((part, index) => ({ ...part, role: "sent", name: null, path: before[index].path }));

@@ -13,6 +13,10 @@ function thumbnail(cam) {
   return svg;
 }
 
+/** Disc cams come first, then other bodies, presses last. */
+const FIRST_DESIGNS = ["lever", "feeder", "valve", "conjugate", "groove", "yoke", "barrel", "indexer", "wedge"];
+const rankOf = ({ name, commands }) => (FIRST_DESIGNS.includes(name) ? FIRST_DESIGNS.indexOf(name) : FIRST_DESIGNS.length + (commands.includes("make") ? 0 : 1));
+
 /** The designs in the binary, once they were asked for, and their cards. */
 let designs = null;
 async function gallery() {
@@ -21,6 +25,7 @@ async function gallery() {
   if (formsOf !== language) newCam();
   if (designs) return;
   ({ designs } = await engine({ task: "designs" }));
+  designs.sort((a, b) => rankOf(a) - rankOf(b));
   const cards = designs.flatMap((design) => design.commands.map((command) => ({ design, command, card: make("button", { type: "button", "data-design": `${design.name}-${command}` }, make("strong", {}, design.title), make("span", { className: "muted" }, `${design.name}, ${command}`)) })));
   for (const { design, command, card } of cards) card.addEventListener("click", () => {
     byId("gallery").hidden = true;
@@ -59,6 +64,7 @@ function startDesigns() {
   const buttons = [button("write", async (own) => {
     const done = await servedJson("/write", requestOf({ tolerance: own.tolerance }, own));
     if (done.faults) return refuse(done.faults);
+    own.handedOut = own.now.toml;
     say("written", { files: done.written.join(", ") });
     if (own === doc) byId("files-note").textContent = text("written", { files: done.written.join(", ") });
   })];
@@ -67,15 +73,14 @@ function startDesigns() {
       const { toml } = own.now;
       const done = await servedJson("/save", { design: own.index ?? -1, toml, before: own.onDisk });
       if (done.faults) return refuse(done.faults);
-      own.onDisk = toml;
+      own.onDisk = own.handedOut = toml;
       own.saved = performance.now();
       say("written", { files: own.file });
       tabs();
     }));
     watchFiles();
   } else gallery();
-  // Above what changes with the cam, so that they stay where they are.
-  byId("downloads").firstElementChild.after(make("p", { className: "row" }, ...buttons));
+  byId("served").replaceChildren(...buttons);
 }
 
 /** An answer of that program that has no files. */

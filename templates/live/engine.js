@@ -62,8 +62,8 @@ function workerMain() {
 /** The memory of the engine, bytes. */
 let engineMemory = 0;
 
-/** The engine in this page. */
-function ownEngine() {
+/** An engine in this page; of the first one the memory is told. */
+function ownEngine(isFirst = true) {
   const source = URL.createObjectURL(new Blob([byId("unpack").textContent, `;\n(() => { "use strict"; (${workerMain})(); })();`], { type: "text/javascript" }));
   const worker = new Worker(source);
   const waiting = new Map();
@@ -74,7 +74,7 @@ function ownEngine() {
     if (data.ready) return started();
     const { resolve, reject } = waiting.get(data.id);
     waiting.delete(data.id);
-    if (data.memory && data.memory !== engineMemory) document.documentElement.dataset.engineMemory = engineMemory = data.memory;
+    if (isFirst && data.memory && data.memory !== engineMemory) document.documentElement.dataset.engineMemory = engineMemory = data.memory;
     if (data.error) reject(new Error(data.error));
     else resolve(answerOf(data.bytes));
   };

@@ -22,29 +22,85 @@ function quantityOf(typed) {
   return match ? { number: Number(match[2]), unit: match[3] } : null;
 }
 
-/** Ends and step of the slider of a value: around it in whole steps, within the range of its key. */
-function sliderOf(key, typed) {
+/** Keys of whole numbers: their sliders step from one to the next. */
+const WHOLE = new Set(["motion.repeat", "cam.rollers", "cam.advance", "limits.continuity", "cutting.decimals", "cutting.tool", "cutting.program", "as_made.draw"]);
+const isWhole = (path) => WHOLE.has(path) || path.endsWith(".degree");
+
+/** One significant digit, downwards or upwards: the ends of a slider are round. */
+function roundEnd(value, isUp) {
+  if (value === 0) return 0;
+  const power = 10 ** Math.floor(Math.log10(Math.abs(value)));
+  const digits = Number((value / power).toPrecision(6));
+  return Number(((isUp ? Math.ceil(digits) : Math.floor(digits)) * power).toPrecision(12));
+}
+
+/** Round ends around a value, within the range of its key. */
+function endsAround(value, range, size, example) {
+  const reach = Math.abs(value) || example;
+  const low = range.low < 0 && value <= 0 ? -roundEnd(2.2 * reach, true) : value > 0 ? roundEnd(value / 3, false) : 0;
+  const high = value > 0 ? roundEnd(2.2 * value, true) : value < 0 || range.low < 0 ? roundEnd(2.2 * reach, true) : roundEnd(reach, true);
+  return { low: Math.max(range.low / size, low), high: Math.min(range.high / size, high) };
+}
+
+/** Ends and step of the slider of a value. The ends of a key stay, and are widened only where its value goes beyond. */
+function sliderOf(key, typed, path) {
   const found = quantityOf(typed);
   if (!found || !key.ranges) return null;
   const sizeIn = (range) => (range.dimension === null ? (found.unit === "" ? 1 : found.unit === "%" ? 0.01 : null) : keyTable.units[range.dimension][found.unit] ?? null);
   const range = key.ranges.find((one) => sizeIn(one) !== null);
   if (!range) return null;
-  const size = sizeIn(range);
-  const example = Math.abs(quantityOf(key.example)?.number || 1);
-  const span = Math.abs(found.number) || example;
-  const step = 10 ** (Math.floor(Math.log10(span)) - 2);
-  const low = Math.max(range.low / size, found.number > 0 && range.low >= 0 ? found.number / 4 : found.number - span);
-  const high = Math.min(range.high / size, found.number + span);
+  const value = found.number;
+  const id = `${path} ${found.unit}`;
+  const around = endsAround(value, range, sizeIn(range), Math.abs(quantityOf(key.example)?.number || 1));
+  const before = doc.ends.get(id);
+  const ends = !before ? around : value >= before.low && value <= before.high ? before : { low: Math.min(before.low, around.low), high: Math.max(before.high, around.high) };
+  doc.ends.set(id, ends);
+  const step = isWhole(path) ? 1 : 10 ** (Math.floor(Math.log10(Math.max(Math.abs(ends.low), Math.abs(ends.high)) || 1)) - 2);
   // Whole steps away from the value: a browser moves a value between two steps to one of them.
-  const round = (end) => Number((found.number + Math.trunc((end - found.number) / step) * step).toPrecision(12));
-  return { low: round(low), high: round(high), step, unit: found.unit, value: found.number };
+  const round = (end) => Number((value + Math.trunc(Number(((end - value) / step).toPrecision(12))) * step).toPrecision(12));
+  return { low: round(ends.low), high: round(ends.high), step, unit: found.unit, value, ends };
 }
 
 /** Whether a slider can stay as it is for another value: it is between its ends, on a whole step. */
 function isOn({ low, high, step, unit }, found) {
-  if (!found || found.unit !== unit || found.number <= low || found.number >= high) return false;
+  if (!found || found.unit !== unit || found.number < low || found.number > high) return false;
   const steps = (found.number - low) / step;
   return Math.abs(steps - Math.round(steps)) < 1e-6;
+}
+
+// ---- the keys that are changed most often
+
+/** They come first, in this order; of each line the first that the design has. */
+const OFTEN = [
+  ["motion.rpm"], ["follower.swinging-roller.arm"], ["follower.swinging-roller.pivot_distance", "follower.swinging-flat.pivot_distance"], ["cam.turret_distance"], ["cam.arm"], ["lift"],
+  ["follower.roller.offset", "follower.flat.offset", "follower.knife.offset", "follower.swinging-flat.face_offset"],
+  ["follower.roller.radius", "follower.roller.diameter", "follower.swinging-roller.radius", "follower.swinging-roller.diameter"],
+  ["cam.base_radius", "cam.base_diameter", "cam.outer_radius", "cam.outer_diameter", "cam.run_in"], ["spring.preload"], ["cam.clearance"], ["cam.counter.radius", "cam.counter.diameter"], ["cam.groove_depth"],
+  ["cam.roller_distance"], ["cam.roller_height"], ["spring.rate"], ["cam.thickness"], ["limits.pressure_angle"],
+];
+const MOST_OFTEN = 6;
+
+/** The key of the segment that rises highest. */
+function liftKey(answer) {
+  const segments = answer.motion?.segments ?? [];
+  const highest = segments.reduce((best, { position }, index) => (best < 0 || position[1] > segments[best].position[1] + 1e-9 ? index : best), -1);
+  return ["to", "by"].map((name) => `motion.segment[${highest}].${name}`).find((path) => answer.given.includes(path)) ?? null;
+}
+
+/** The paths of the keys that are shown with a slider beside the cam. */
+function oftenChanged(answer, known) {
+  const has = (path) => path !== null && known.has(path) && (quantityOf((answer.values ?? {})[path]) !== null || (answer.values ?? {})[path] === "auto");
+  const listed = OFTEN.map((names) => names.map((name) => (name === "lift" ? liftKey(answer) : name)).find(has)).filter(Boolean);
+  const rest = answer.given.filter((path) => has(path) && /^(follower|cam|spring|press|bed|air|buffer|limits)/.test(path) && !listed.includes(path));
+  return [...listed, ...rest].slice(0, MOST_OFTEN);
+}
+
+/** What such a key is called: its own name may mean anything without its table. */
+function oftenName(path, key) {
+  const id = path.startsWith("motion.segment[") ? "key_lift" : `key_${path.replace(/^follower\.[a-z-]+\./, "follower.")}`;
+  if (languages[language].page[id]) return text(id);
+  const name = key.name.replace(/_/g, " ");
+  return name[0].toUpperCase() + name.slice(1);
 }
 
 /** A value of a slider as typed, with the unit that the value had. */
@@ -60,12 +116,12 @@ function pathsOf(section, answer) {
 }
 
 /** One key: its label, a field, and a slider where its value is a number. */
-function fieldOf(path, key, answer) {
+function fieldOf(path, key, answer, isOften = false) {
   const isGiven = answer.given.includes(path);
   const typed = (answer.values ?? {})[path] ?? "";
   const id = `key-${path}`;
   const box = make("div", { className: isGiven ? "field" : "field absent" });
-  const label = make("label", { htmlFor: id, title: key.about }, key.name.replace(/_/g, " "));
+  const label = make("label", { htmlFor: id, title: `${path}: ${key.about}` }, isOften ? oftenName(path, key) : key.name.replace(/_/g, " "));
   const why = make("div", { className: "why", lang: "en" }, key.about);
   const one = { path, key, box, typed, slider: null, range: null };
   if (key.words && !key.ranges) {
@@ -88,15 +144,23 @@ function fieldOf(path, key, answer) {
   one.input.setAttribute("aria-describedby", `${id}-why`);
   why.id = `${id}-why`;
   box.append(label, one.input);
+  if (key.ranges && key.words?.includes("auto")) {
+    // A chip: moving the slider switches it off, a click switches it on again.
+    one.auto = make("button", { type: "button", className: "auto", "aria-pressed": "false", title: key.about }, "auto");
+    one.auto.addEventListener("click", () => commit([{ set: { key: path, to: one.typed === "auto" ? chosenValue(path) || key.example : "auto" } }]));
+    box.append(one.auto);
+  }
   if (key.ranges) {
-    one.range = make("input", { type: "range", "aria-label": key.about, tabIndex: 0 });
+    one.range = make("input", { type: "range", "aria-label": isOften ? label.textContent : `${path.replace(/[._]/g, " ")}`, tabIndex: 0 });
     one.range.addEventListener("input", () => {
       one.filled = null;
       one.input.value = typedOf(one.range.value, one.slider);
       draft([{ set: { key: path, to: one.input.value } }]);
     });
     one.range.addEventListener("change", () => commit([{ set: { key: path, to: one.input.value } }]));
-    box.append(one.range);
+    one.ends = make("span", { className: "ends", "aria-hidden": "true" }, make("span"), make("span"), make("span"));
+    one.zones = make("span", { className: "zones", "aria-hidden": "true" });
+    box.append(one.range, one.zones, one.ends);
   }
   box.append(why);
   fields.set(path, one);
@@ -146,9 +210,12 @@ function fillField(one, answer) {
   if (one.filled === typed && typed !== "auto") return;
   one.filled = typed;
   const found = typed === "auto" ? chosenValue(one.path) : typed;
-  if (!one.slider || !isOn(one.slider, quantityOf(found))) one.slider = sliderOf(one.key, found);
-  one.range.hidden = !one.slider;
+  if (!one.slider || !isOn(one.slider, quantityOf(found))) one.slider = sliderOf(one.key, found, one.path);
+  one.range.hidden = one.ends.hidden = one.zones.hidden = !one.slider;
+  one.auto?.setAttribute("aria-pressed", String(typed === "auto"));
   if (!one.slider) return;
+  const notes = [shown(one.slider.ends.low), typed === "auto" ? `auto: ${found}` : "", shown(one.slider.ends.high)];
+  [...one.ends.children].forEach((end, at) => end.textContent !== notes[at] && (end.textContent = notes[at]));
   Object.assign(one.range, { min: one.slider.low, max: one.slider.high, step: one.slider.step });
   one.range.value = quantityOf(found).number;
   one.range.setAttribute("aria-valuetext", found);
@@ -156,9 +223,10 @@ function fillField(one, answer) {
 
 /** What was found for a key that is left to camgen. */
 function chosenValue(path) {
-  if (path !== "cam.base_radius") return "";
+  const name = { "cam.base_radius": "base radius", "cam.outer_radius": "outer radius" }[path];
+  if (!name) return "";
   const values = cams[0].sections?.find((section) => section.key === "cam")?.values ?? [];
-  const found = values.find(([label]) => label === "base radius");
+  const found = values.find(([label]) => label === name);
   return found ? `${found[1]} mm` : "";
 }
 
@@ -179,13 +247,17 @@ function form(answer) {
       return [[path, section, given, absent, of]];
     });
     const all = keyTable.sections.flatMap(tablesOf);
+    const known = new Map(all.flatMap(([, , given, absent, of]) => [...given, ...absent].map((key) => [of(key), key])));
+    const often = oftenChanged(answer, known);
+    byId("chosen").replaceChildren(...often.map((path) => fieldOf(path, known.get(path), answer, true)));
+    const isElsewhere = (of) => (key) => !often.includes(of(key));
     const boxOf = ([path, section, given, absent, of]) => {
       const number = /\[(\d+)\]$/.exec(path);
       const name = path ? path.replace(/\[(\d+)\]/g, (_, index) => ` ${Number(index) + 1}`).replace(/[._-]/g, " ") : text("design");
-      const more = absent.length ? make("details", { className: "more" }, make("summary", {}, text("add")), ...absent.map((key) => fieldOf(of(key), key, answer))) : null;
+      const more = absent.length ? make("details", { className: "more" }, make("summary", {}, text("add")), ...absent.filter(isElsewhere(of)).map((key) => fieldOf(of(key), key, answer))) : null;
       if (more) more.dataset.path = `${path}+`;
       const box = make("details", { open: isFirst ? /^(follower|cam|limits)/.test(path) && given.length > 0 : false },
-        make("summary", { title: section.about }, name, number ? make("span", { className: "muted" }, ` ${(answer.values ?? {})[`${path}.law`] ?? ""}`) : null), ...given.map((key) => fieldOf(of(key), key, answer)), more);
+        make("summary", { title: section.about }, name, number ? make("span", { className: "muted" }, ` ${(answer.values ?? {})[`${path}.law`] ?? ""}`) : null), ...given.filter(isElsewhere(of)).map((key) => fieldOf(of(key), key, answer)), more);
       box.dataset.path = path;
       if (open.has(path)) box.open = true;
       if (more && open.has(more.dataset.path)) more.open = true;
@@ -208,6 +280,7 @@ function search() {
     const has = `${path} ${path.replace(/_/g, " ")} ${key.about}`.toLowerCase();
     box.hidden = !wanted.every((word) => has.includes(word));
   }
+  if (wanted.length) byId("all-keys").open = true;
   for (const box of byId("fields").querySelectorAll("details")) {
     const left = box.querySelector(".field:not([hidden])");
     box.hidden = wanted.length > 0 && !left;

@@ -12,7 +12,7 @@ const MOST_PAST = 1000;
 /** A design that is open: as it was sent, as it is now, its history and its last cam. */
 function opened({ name, usual_names, toml, files, command, commands, rpm, tolerance, file }, index = null) {
   const now = { toml, command, rpm: rpm ?? [] };
-  return { name, usualNames: usual_names ?? false, files: files ?? {}, commands, tolerance: tolerance ?? 5e-6, file: file ?? null, index, first: now, now, onDisk: toml, past: [], future: [], sent: { values: {} }, sentCam: null, last: null, lastCam: null, chosen: 0, measured: null };
+  return { name, usualNames: usual_names ?? false, files: files ?? {}, commands, tolerance: tolerance ?? 5e-6, file: file ?? null, index, first: now, now, onDisk: toml, past: [], future: [], sent: { values: {} }, sentCam: null, last: null, lastCam: null, chosen: 0, measured: null, ends: new Map(), handedOut: null };
 }
 const docs = live.designs.map(opened);
 /** The design that is shown. */
@@ -89,6 +89,7 @@ const say = (name, values) => {
 /** What comes of changes that are not made yet: while a slider moves. */
 function draft(changes) {
   isDragging = true;
+  zoneTurn += 1;
   say("draft");
   const of = doc;
   ask(() => requestOf({ changes, page: STEPS.draft, tolerance: Math.max(DRAFT, doc.tolerance) }), (answer) => of === doc && inFrame(answer), true);
@@ -97,12 +98,13 @@ function draft(changes) {
 /** Figures and verdict are those of the state before, until an answer comes. */
 function working() {
   say("working");
-  byId("shown").classList.add("working");
+  document.body.classList.add("working");
 }
 
 /** Makes changes: full tolerance, and a step of the history. */
 function commit(changes, more = {}, why = null) {
   isDragging = false;
+  zoneTurn += 1;
   working();
   const of = doc;
   ask(() => (of === doc ? whole({ changes, ...more }) : { task: "text" }), (answer, since) => {
@@ -158,12 +160,18 @@ function told(faults, isStale) {
   complaint = said;
   // The key stands before a message that does not begin with it.
   const named = (key, message) => key && !message.startsWith(`\`${key}\``);
-  const line = ({ key, message, help, remedies, line: at }) => make("p", {}, named(key, message) ? make("strong", {}, `${key}: `) : null, message, at ? ` (${text("line", { line: at })})` : null, help ? make("br") : null, help ? make("span", { className: "muted" }, help) : null, ...remedyButtons(remedies ?? []));
-  byId("faults").replaceChildren(...faults.map(line), isStale ? make("p", { className: "muted" }, text("lastGood")) : "");
+  const line = ({ key, message, help, line: at }) => make("p", { title: [message, help].filter(Boolean).join("\n") }, named(key, message) ? make("strong", {}, `${key}: `) : null, make("strong", {}, message), at ? ` (${text("line", { line: at })})` : null, help ? make("span", { className: "muted" }, ` ${help}`) : null);
+  const back = make("button", { type: "button", className: "back control" }, text("undo"));
+  back.addEventListener("click", () => travel("past", "future"));
+  const ways = make("span", { className: "ways" }, ...remedyButtons(faults.flatMap(({ remedies }) => remedies ?? []).slice(0, 2)), isStale && doc.past.length ? back : null);
+  byId("faults").replaceChildren(make("span", { className: "sign", "aria-hidden": "true" }, "✕"), make("div", { className: "said" }, ...faults.map(line), isStale && cams[0].views ? make("p", { className: "muted" }, text("lastGood")) : ""), ways);
   byId("faults").hidden = !faults.length;
+  byId("strip").classList.toggle("refused", faults.length > 0);
   byId("shown").classList.toggle("stale", isStale);
   for (const { box } of fields.values()) box.classList.remove("wrong");
   for (const { key } of faults) fields.get(key)?.box.classList.add("wrong");
+  if (faults.length && isStale) stripRefused();
+  else stripAnew(doc.last);
 }
 
 /** Buttons that make the changes with which something would pass. */
@@ -174,6 +182,52 @@ function remedyButtons(remedies) {
     button.addEventListener("click", () => commit(changes));
     return button;
   });
+}
+
+// ---- the answer first
+
+/** The margin whose place is shown. */
+let chosenMargin = null;
+let stripSaid = "";
+
+/** The verdict and the tightest margins of the cam that is shown; of two discs also of the other one. */
+function stripAnew(answer) {
+  if (!answer) return;
+  const others = (answer.others ?? []).filter(({ passed }) => !passed);
+  const checks = [...cams[0].checks, ...others.flatMap(({ name, checks: all }) => all.map((check) => ({ ...check, disc: name })))];
+  const said = JSON.stringify([checks.map(({ check, value, limit, verdict: of, place }) => [check, value, limit, of, place]), answer.passed, answer.remedies, language, chosenMargin]);
+  if (said === stripSaid) return;
+  stripSaid = said;
+  const focused = byId("answer").contains(document.activeElement) ? document.activeElement.dataset.check : null;
+  const remedies = (check) => remedyButtons((check.disc ? others.find(({ name }) => name === check.disc).remedies : answer.remedies ?? {})?.[check.check] ?? []);
+  byId("answer").replaceChildren(...stripOf({ checks }, answer.passed ?? cams[0].passed, { go: markCheck, all: () => openMore("verdict"), remedies }));
+  // One stop for the keyboard: the arrow keys go from margin to margin.
+  const stops = [...byId("answer").querySelectorAll(".margin, .more")];
+  stops.forEach((stop, index) => {
+    stop.tabIndex = index ? -1 : 0;
+    if (stop.dataset.check) stop.setAttribute("aria-pressed", String(stop.dataset.check === chosenMargin));
+  });
+  if (focused) byId("answer").querySelector(`[data-check="${focused}"]`)?.focus();
+}
+
+/** No cam exists: the last one is shown, and nothing about it is said. */
+function stripRefused() {
+  stripSaid = "";
+  byId("answer").replaceChildren(make("div", { className: "summary" }, make("b", { className: "stamp fail" }, `✕ ${text("verdictRefused")}`), make("span", { className: "counts" }, make("strong", {}, ""), make("small", {}, text("lastProved")))));
+}
+
+/** Goes to the place of a check, which stays marked. */
+function markCheck(check) {
+  if (placeOfCheck(check, first()) !== null) chosenMargin = check.check;
+  goToCheck(check);
+  stripAnew(doc.last);
+}
+
+/** Shows a section below the bench, with what is folded in it. */
+function openMore(id) {
+  const area = byId(id);
+  for (const box of area.querySelectorAll(":scope > details")) box.open = true;
+  area.scrollIntoView({ block: "start" });
 }
 
 /** The newest answer to a draft that is not shown yet: it is shown with the next frame. */
@@ -201,13 +255,15 @@ function drafted(answer) {
   plotsAnew(true);
   if (diagram && !diagram.isSeen) diagram.waiting = answer;
   else motionCurves(answer);
+  stack.anew();
   if (!reads) return;
+  stripAnew(answer);
   verdict(answer);
   for (const one of readouts) one.draw();
 }
 
 function refused(faults) {
-  byId("shown").classList.remove("working");
+  document.body.classList.remove("working");
   complain(faults);
   say("refused");
 }
@@ -231,8 +287,10 @@ function proved(answer, since, why = null) {
   doc.last = answer;
   if (answer.cam.views) takeCam(answer.cam);
   else Object.assign(cams[0], { checks: answer.cam.checks, passed: false });
+  chosenMargin = null;
+  stripAnew(answer);
   verdict(answer);
-  byId("shown").classList.remove("working");
+  document.body.classList.remove("working");
   byId("title").textContent = cams[0].title;
   movers[0].draw(true);
   const ms = Math.round(performance.now() - since);
@@ -241,7 +299,7 @@ function proved(answer, since, why = null) {
   else say(answer.passed ? "proved" : "failed", { ms });
   // When it can be seen: after the next frame.
   requestAnimationFrame(() => setTimeout(() => (document.documentElement.dataset.proof = Math.round(performance.now() - since)), 0));
-  later([written, () => form(answer), movers[0].rest, () => plotsAnew(false), show, () => motionEditor(answer), solidAnew, tables, differences, () => sheetAnew(), () => downloads(answer), titles, settle]);
+  later([written, () => form(answer), movers[0].rest, stack.anew, paintChoices, () => plotsAnew(false), show, () => motionEditor(answer), solidAnew, tables, differences, () => sheetAnew(), () => downloads(answer), titles, settle, zonesAnew]);
 }
 
 /** Of a design that never was a cam only its text can be changed: the fields are those of another one. */
@@ -249,7 +307,8 @@ function textAlone() {
   fields = new Map();
   formOf = "";
   byId("fields").replaceChildren();
-  byId("motion").hidden = byId("compare").hidden = byId("sheet").hidden = true;
+  byId("motion").hidden = byId("to-motion").hidden = byId("compare").hidden = byId("sheet").hidden = true;
+  byId("chosen").replaceChildren();
   diagram = null;
   byId("file").open = true;
   byId("title").textContent = doc.name;
@@ -283,10 +342,14 @@ function titles() {
 
 /** Buttons and texts that follow the history. */
 function settle() {
+  byId("command-label").hidden = doc.commands.length < 2;
+  byId("rpm-label").hidden = Boolean(doc.last?.given?.includes("motion.rpm")) || Boolean(doc.last?.given?.includes("motion.stroke"));
   byId("undo").disabled = !doc.past.length;
   byId("redo").disabled = !doc.future.length;
   byId("command").value = doc.last?.command ?? doc.now.command;
-  byId("rpm").value = doc.now.rpm.length ? doc.now.rpm.join(", ") : cams[0].speeds.replace(/[^\d., ]/g, "").trim();
+  const speeds = [...new Set((cams[0].views ?? []).map(({ rpm }) => rpm).filter((rpm) => rpm !== null))];
+  const ofFile = doc.last?.values?.["motion.rpm"];
+  byId("rpm").value = (doc.now.rpm.length ? doc.now.rpm : ofFile ? [ofFile] : speeds.length ? speeds : [cams[0].speeds.match(/[\d.]+/)?.[0] ?? ""]).join(", ");
   document.documentElement.dataset.settled = Number(document.documentElement.dataset.settled ?? 0) + 1;
 }
 
@@ -331,7 +394,7 @@ function verdict(answer) {
         // Behind the text of a note are its buttons.
         if (cell.firstChild && cell.firstChild.data !== words) cell.firstChild.data = words;
       };
-      write(value, withUnit(check.value, check.unit));
+      write(value, valueOfCheck(check));
       write(limit, limitOf(check));
       write(place, check.place || "");
       write(note, check.note || "");
@@ -413,24 +476,38 @@ function save(name, bytes, type = "application/octet-stream") {
   setTimeout(() => URL.revokeObjectURL(address), 10000);
 }
 
-/** The program that serves the page also makes PDF. */
-const FORMATS = ["dxf", "svg", "step", "csv", "json", ...(live.token ? ["pdf"] : [])];
+/** Files with their pictures; the program that serves the page also makes PDF. */
+const FILES = {
+  ...(live.token ? { pdf: "M8 6H40V42H8ZM13 11H27V24H13ZM13 29H35M13 33H35M30 11H35M30 16H35" } : {}),
+  svg: "M8 6H40V42H8ZM13 12a7 7 0 1 0 14 0a7 7 0 1 0-14 0M13 30H35M13 35H35M30 12H35",
+  dxf: "M24 5C34 5 40 12 39 22C38 34 32 42 22 42C13 42 8 35 8 26C8 15 14 5 24 5ZM24 22a4 4 0 1 0 .01 0",
+  step: "M20 8C28 8 34 14 33 22C32 33 28 40 20 40C12 40 8 34 8 26C8 16 12 8 20 8ZM27 4C36 4 41 10 40 19C39 28 35 35 28 37M20 8L27 4M20 24a3 3 0 1 0 .01 0",
+  csv: "M8 8H40V40H8ZM8 16H40M8 24H40M8 32H40M19 8V40M29 8V40",
+  json: "M17 6C11 6 14 22 8 24C14 26 11 42 17 42M31 6C37 6 34 22 40 24C34 26 37 42 31 42M22 24h.01M27 24h.01",
+};
+const FORMATS = Object.keys(FILES);
 function downloads({ passed }) {
-  if (!byId("formats").children.length) byId("formats").append(...FORMATS.map((format) => {
-    const button = make("button", { type: "button", "data-format": format }, format.toUpperCase());
-    button.addEventListener("click", () => ask(() => requestOf({ tolerance: doc.tolerance, formats: [format] }), (made) => {
-      if (made.faults) return refuse(made.faults);
-      const files = made.files.filter(({ name }) => name.endsWith(`.${format}`));
-      if (files.length === 1) save(files[0].name, files[0].bytes);
-      // Of several a browser lets a page hand out one at a click.
-      else byId("files-list").replaceChildren(...files.map((file) => {
-        const one = make("button", { type: "button", "data-file": file.name }, file.name);
-        one.addEventListener("click", () => save(file.name, file.bytes));
-        return one;
+  if (byId("formats").dataset.language !== language) {
+    byId("formats").dataset.language = language;
+    byId("formats").replaceChildren(...FORMATS.map((format) => {
+      const picture = makeSvg("svg", { viewBox: "4 2 40 44", "aria-hidden": "true" });
+      picture.append(makeSvg("path", { d: FILES[format] }));
+      const button = make("button", { type: "button", "data-format": format }, picture, make("span", {}, make("b", {}, text(`file_${format}`)), make("small", {}, format.toUpperCase())));
+      button.addEventListener("click", () => ask(() => requestOf({ tolerance: doc.tolerance, formats: [format] }), (made) => {
+        if (made.faults) return refuse(made.faults);
+        const files = made.files.filter(({ name }) => name.endsWith(`.${format}`));
+        doc.handedOut = doc.now.toml;
+        if (files.length === 1) save(files[0].name, files[0].bytes);
+        // Of several a browser lets a page hand out one at a click.
+        else byId("files-list").replaceChildren(...files.map((file) => {
+          const one = make("button", { type: "button", "data-file": file.name }, file.name);
+          one.addEventListener("click", () => save(file.name, file.bytes));
+          return one;
+        }));
       }));
+      return button;
     }));
-    return button;
-  }));
+  }
   for (const button of byId("formats").children) button.disabled = !passed;
   byId("files-list").replaceChildren();
   byId("files-note").textContent = text(passed ? "provenNote" : "onlyProven");
@@ -451,6 +528,19 @@ document.addEventListener("keydown", (event) => {
   else return;
   event.preventDefault();
 });
+
+/** Buttons that are one stop for the keyboard: the arrow keys go from one to the next. */
+function roving(id, selector) {
+  byId(id).addEventListener("keydown", (event) => {
+    const stops = [...byId(id).querySelectorAll(selector)];
+    const next = stops[stops.indexOf(event.target) + ({ ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key] ?? NaN)];
+    if (!next) return;
+    event.preventDefault();
+    event.stopPropagation();
+    for (const stop of stops) stop.tabIndex = stop === next ? 0 : -1;
+    next.focus();
+  });
+}
 
 /** What the buttons and fields of the page do. */
 function listen() {
@@ -480,7 +570,20 @@ function listen() {
     }
     say("copied");
   });
-  on("save-toml", "click", () => save(`${doc.name}.toml`, byId("toml").value, "application/toml"));
+  on("save-toml", "click", () => {
+    doc.handedOut = doc.now.toml;
+    save(`${doc.name}.toml`, byId("toml").value, "application/toml");
+  });
+  on("to-motion", "click", () => openMore("motion"));
+  on("to-text", "click", () => openMore("text"));
+  on("to-more", "click", () => byId("more").scrollIntoView());
+  on("zoom", "click", ({ target }) => target.dataset.zoom && movers[0].zoomBy(Number(target.dataset.zoom)));
+  roving("answer", ".margin, .more");
+  roving("zoom", "button");
+  // A change that was neither downloaded nor written would be lost.
+  window.addEventListener("beforeunload", (event) => {
+    if (docs.some((one) => one.now.toml !== one.onDisk && one.now.toml !== one.handedOut)) event.preventDefault();
+  });
   on("reset", "click", () => commit([], doc.first));
   on("rpm", "change", () => {
     const speeds = byId("rpm").value.split(/[,;\s]+/).map(Number).filter((rpm) => rpm > 0);
@@ -499,10 +602,17 @@ function listen() {
     formOf = "";
     verdictOf = "";
     complaint = "";
+    stripSaid = "";
     speak();
     if (!byId("gallery").hidden) gallery();
     if (doc.last) turnTo(doc);
   });
+}
+
+/** The bench takes what the window has below the head and the strip. */
+function measureTop() {
+  const top = byId("strip").getBoundingClientRect().bottom + window.scrollY + 10;
+  document.documentElement.style.setProperty("--top", `${Math.round(top)}px`);
 }
 
 /** What a cam is found to be, without the samples of its curves. */
@@ -512,6 +622,11 @@ async function startLive() {
   say("starting");
   listen();
   speak();
+  watchers.push(stack);
+  // Designers think in rates per second; those of the shaft's angle are a choice.
+  if (!byId("unit-choice").hidden) byId("unit").value = state.rate = "time";
+  measureTop();
+  window.addEventListener("resize", measureTop);
   keyTable = mergedKeys((await engine({ task: "keys" })).keys);
   startDesigns();
   byId("command").append(...doc.commands.map((command) => make("option", { value: command }, command)));
@@ -520,6 +635,7 @@ async function startLive() {
     if (own === doc && own.now === own.first && answer.cam?.views) {
       // The program wrote the page with its own results; an engine of other sources finds others.
       byId("older").hidden = live.token !== null || findingsOf(answer.cam) === findingsOf(cams[0]);
+      measureTop();
       asSent(answer);
     }
     proved(answer, since);

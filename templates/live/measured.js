@@ -56,7 +56,7 @@ function measuredShown() {
   const view = first();
   const [unit, along] = [view.kinds[lanesOf(view)[0].column][1], view.kinds[view.place][1]];
   const { largest, place, mean, count } = measuredDifference();
-  byId("measured-said").textContent = count ? text("measuredSaid", { name: doc.measured.name, count, largest: `${shown(largest, 4)} ${unit}`, place: `${shown(place)} ${along}`, mean: `${shown(mean, 3)} ${unit}` }) : text("measuredOutside", { name: doc.measured.name });
+  byId("measured-said").textContent = count ? text("measuredSaid", { name: doc.measured.name, count, largest: `${shown(largest, 4)} ${unit}`, place: `${shown(place, ALL_DIGITS)} ${along}`, mean: `${shown(mean, 3)} ${unit}` }) : text("measuredOutside", { name: doc.measured.name });
 }
 
 async function takeMeasured(file) {

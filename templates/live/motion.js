@@ -33,7 +33,7 @@ function slopeFreed(answer, index) {
 const isProgram = (answer) => Boolean(answer.motion?.segments.length) && answer.given.some((path) => path.startsWith("motion.segment[")) && !answer.motion.segments.some(({ whole: all }) => all);
 
 function motionEditor(answer) {
-  byId("motion").hidden = !isProgram(answer);
+  byId("motion").hidden = byId("to-motion").hidden = !isProgram(answer);
   if (byId("motion").hidden) {
     diagram = null;
     return;
@@ -55,12 +55,13 @@ function pathOf(places, values, xOf, yOf) {
   for (let index = 0; index < values.length; index += 1) {
     const value = values[index];
     const has = value !== null && value !== undefined;
-    if (has) path += `${isOpen ? "L" : "M"}${tenths(xOf(places[index]))} ${tenths(yOf(value))}`;
+    if (has) path += `${isOpen ? "L" : "M"}${fine(xOf(places[index]))} ${fine(yOf(value))}`;
     isOpen = has;
   }
   return path;
 }
-const tenths = (value) => Math.round(10 * value) / 10;
+/** Coordinates to a thousandth: a curve that is rounded to pixels has steps. */
+const fine = (value) => Math.round(1000 * value) / 1000;
 
 const ends = (...lists) => {
   let [low, high] = [0, 0];

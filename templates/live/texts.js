@@ -9,6 +9,10 @@ function text(name, values = {}) {
   return found.replace(/\{(\w+)\}/g, (_, key) => values[key]);
 }
 
+// The strip speaks the language of the page; the name of a check is in the table of words, or stays English.
+phrase = text;
+checkName = (check) => (check.disc ? `${check.disc}: ` : "") + (languages[language].report[words(check.check)] ?? words(check.check));
+
 /** Words of the report in the chosen language, where it has them: as a whole, or by the patterns of lines with numbers in them. */
 function spoken(words) {
   const { report, patterns } = languages[language];
@@ -23,7 +27,7 @@ function translatedText(node) {
   node.camgenEnglish = node.data;
   const line = node.data.trim();
   const said = line && spoken(line);
-  if (!line || said === line || node.parentElement?.closest("[data-text], .field, textarea, #cards, #new, #laws, #tabs, .note, #verdict tbody th, #fields > details > summary, #results tbody th, #differences tbody th, #differences h3, #results p, #results h3, #missing li")) return;
+  if (!line || said === line || node.parentElement?.closest("[data-text], #strip, #stack, #scale-bar, #paint, #formats, .field, textarea, #cards, #new, #laws, #tabs, .note, #verdict tbody th, #fields > details > summary, #results tbody th, #differences tbody th, #differences h3, #results p, #results h3, #missing li")) return;
   node.camgenSaid = node.data.replace(line, () => said);
   node.data = node.camgenSaid;
 }

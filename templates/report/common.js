@@ -20,18 +20,32 @@ function makeSvg(tag, attributes = {}) {
   return element;
 }
 
-/** A number for a person: at most six digits and four decimals, a power of ten only where nothing else is short. */
-function shown(value, digits = 6) {
+/** Significant digits for people; those of a table of all values, for whom they are too few. */
+const FOR_PEOPLE = 4;
+const ALL_DIGITS = 6;
+
+/** A power of ten as people write it. */
+const powerOfTen = (power) => `·10${[...String(power)].map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)])).join("")}`;
+
+/** A number in full with a true minus; from 10 000 on thin spaces part the thousands. */
+function grouped(text) {
+  const [whole, decimals] = text.replace("-", "−").split(".");
+  const parted = whole.replace("−", "").length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, "\u2009") : whole;
+  return decimals ? `${parted}.${decimals}` : parted;
+}
+
+/** A number for a person: four significant digits, powers of a thousand where it is very large or small. Every figure of the page is written here. */
+function shown(value, digits = FOR_PEOPLE) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const size = Math.abs(value);
   if (size < 1e-9) return "0";
-  if (size < 1e-6 || size >= 1e9) {
-    const [mantissa, power] = value.toExponential(1).split("e");
-    const raised = [...power.replace("+", "")].map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)])).join("");
-    return `${mantissa}·10${raised}`.replace(/-/g, "−");
+  if (size < 1e-4 || size >= 1e5) {
+    const power = 3 * Math.floor(Math.log10(size) / 3);
+    return `${grouped(String(Number((value / 10 ** power).toPrecision(digits))))}${powerOfTen(power)}`;
   }
-  const rounded = Number(value.toFixed(size < 0.1 ? 6 : 4));
-  return String(Number(rounded.toPrecision(digits))).replace(/-/g, "−");
+  // Digits in front of the point are never rounded away, and no sum of doubles ends in 0000001.
+  const inFront = Math.floor(Math.log10(size)) + 1;
+  return grouped(String(Number(Number(value.toPrecision(14)).toPrecision(Math.max(digits, inFront)))));
 }
 
 /** A number with a steady number of decimals, so that it does not jump while it changes. */
@@ -39,8 +53,15 @@ function steady(value) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const size = Math.abs(value);
   if (size < 5e-4) return size < 1e-6 ? "0.000" : shown(value, 2);
-  const text = size < 1e5 ? value.toFixed(size < 10 ? 3 : size < 1000 ? 2 : 1) : String(Number(value.toPrecision(6)));
-  return text.replace(/-/g, "−");
+  if (size >= 1e5) return `${grouped((value / 1e3).toFixed(1))}·10³`;
+  return grouped(value.toFixed(size < 10 ? 3 : size < 100 ? 2 : size < 1000 ? 1 : 0));
+}
+
+/** A value next to its limit: with as many digits more as the two need to differ. */
+function nextTo(limit, value) {
+  let digits = FOR_PEOPLE;
+  while (value !== limit && digits < ALL_DIGITS + 1 && shown(value, digits) === shown(limit, digits)) digits += 1;
+  return shown(value, digits);
 }
 
 /** The place of a value in an increasing list: the index before it and the share of the distance to the next. */

@@ -9,6 +9,9 @@ function plottedOf(curves) {
 
 const withUnits = (name, unit) => (unit ? `${name}, ${unit}` : name);
 
+/** Most characters beside an axis on paper. */
+const LONGEST_ON_PAPER = 18;
+
 /** The axes of a panel; their words are drawn, in the language of the page. */
 function axesOf(panel, view, spoken) {
   const [placeName, placeUnit] = view.kinds[view.place];
@@ -17,7 +20,9 @@ function axesOf(panel, view, spoken) {
   const axis = { stroke: colour("ink"), grid: { stroke: colour("faint"), width: 1 }, ticks: { stroke: colour("line"), width: 1 }, font, labelFont: font, labelSize: 18 };
   const turning = view.place.endsWith("_deg") ? { incrs: [5, 10, 15, 30, 45, 60, 90, 120, 180], space: 42 } : {};
   // What the values are, without of what.
-  const what = isPrinting() ? unit : withUnits(spoken(panel.title.split(/ of |,/)[0]), unit);
+  const named = withUnits(spoken(panel.title.split(/ of |,/)[0]), unit);
+  // On paper an axis is short.
+  const what = isPrinting() && named.length > LONGEST_ON_PAPER ? unit : named;
   return [{ ...axis, ...turning, size: 30, label: withUnits(spoken(placeName), placeUnit) },
     { ...axis, size: 58, label: what, values: (_, splits) => splits.map((value) => (value === null ? "" : shown(value))) }];
 }
@@ -27,7 +32,7 @@ function diagramOf(panel, { curves, data, same }, [width, height], spoken = (wor
   const view = cams.map(viewOf)[0];
   const [placeName, placeUnit] = view.kinds[view.place];
   const [, unit] = inRates(view, panel.unit, panel.order);
-  const series = curves.map((one) => ({ label: one.label, stroke: colour(one.colour), dash: one.dash, width: one.width, points: { show: false }, spanGaps: !same }));
+  const series = curves.map((one) => ({ label: one.label, stroke: colour(one.colour), dash: one.dash, width: one.width, pxAlign: 0, points: { show: false }, spanGaps: !same }));
   const options = {
     width, height, series: [{}, ...series],
     // Values that are only rounding are drawn as 0.

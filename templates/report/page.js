@@ -11,11 +11,12 @@ function panelsOf() {
 function drawPlots(width, height = 210) {
   for (const { plot } of plots) plot.destroy();
   plots = [];
-  // All places first: their width depends on how many there are. The first one lies next to the mechanism.
+  // All places first: their width depends on how many there are. The first one lies next to the mechanism, unless all curves are stacked there.
   const boxes = panelsOf().map((panel) => [panel, make("div", { className: "plot" })]);
-  byId("lead").replaceChildren(...boxes.slice(0, 1).map(([, box]) => box));
-  byId("plots").replaceChildren(...boxes.slice(1).map(([, box]) => box));
-  byId("curves").hidden = boxes.length < 2;
+  const leads = byId("lead") ? 1 : 0;
+  byId("lead")?.replaceChildren(...boxes.slice(0, leads).map(([, box]) => box));
+  byId("plots").replaceChildren(...boxes.slice(leads).map(([, box]) => box));
+  byId("curves").hidden = boxes.length <= leads;
   const widths = boxes.map(([, box]) => width ?? Math.max(240, box.clientWidth));
   boxes.forEach(([panel, box], index) => {
     const made = plotOf(panel, widths[index], height);
@@ -39,9 +40,11 @@ function pointed(plot) {
 const movers = cams.map((cam, index) => mechanism(cam, index));
 const readouts = cams.map((cam, index) => readout(cam, index));
 const solids = cams.flatMap((cam, index) => (cam.solid ? [solidView(cam, index)] : []));
+/** What else shows the place of the mechanism; the live page has its stack of curves here. */
+const watchers = [];
 
 function show() {
-  for (const mover of [...movers, ...readouts, ...plots]) mover.draw();
+  for (const mover of [...movers, ...readouts, ...plots, ...watchers]) mover.draw();
   const scrub = byId("scrub");
   scrub.value = state.cycle;
   const view = first();
@@ -112,6 +115,27 @@ document.addEventListener("keydown", (event) => {
   event.preventDefault();
 });
 
+/** Moves the mechanism to a place of the view. */
+function goToPlace(place) {
+  const view = first();
+  setCycle(between(view.turn, locate(view.at, place)) - view.turn[0]);
+}
+
+/** Goes to the place of a check, or opens the list of checks where it has none. */
+function goToCheck(check) {
+  const place = placeOfCheck(check, first());
+  if (place === null) return openChecks();
+  play(false);
+  goToPlace(place);
+  for (const cell of byId("answer").querySelectorAll(".margin")) cell.setAttribute("aria-pressed", String(cell.dataset.check === check.check));
+}
+
+function openChecks() {
+  const box = byId("verdict").querySelector("details");
+  box.open = true;
+  box.scrollIntoView({ block: "nearest" });
+}
+
 // ---- the page put together
 
 function tables() {
@@ -129,6 +153,7 @@ function tables() {
 
 function redraw() {
   drawPlots();
+  for (const watcher of watchers) watcher.anew();
   for (const solid of solids) solid.draw();
   byId("rows").replaceChildren(byId("rows").firstElementChild, ...cams.map(rowsOf));
 }
@@ -144,6 +169,9 @@ function start() {
   // An analysis may have nothing to judge.
   byId("verdict").hidden = cams.every((cam) => !cam.checks.length);
   byId("verdict").append(verdicts());
+  // Of two cams each has its own line.
+  byId("strip").hidden = several || !cams[0].checks.length || !cams[0].views;
+  if (!byId("strip").hidden) byId("answer").replaceChildren(...stripOf(cams[0], cams[0].passed, { go: goToCheck, all: openChecks }));
   byId("mechanisms").className = several ? "two" : "";
   byId("mechanisms").append(...movers.map((mover) => mover.figure));
   // An analysis without motion has curves and no mechanism.

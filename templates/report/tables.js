@@ -5,7 +5,6 @@
 const word = { pass: "pass", fail: "FAIL", warn: "WARN", info: "info" };
 const badge = (verdict, text = word[verdict]) => make("span", { className: `badge ${verdict}` }, text);
 const limitOf = (check) => (check.limit === null ? "" : `${check.side ? `${check.side} ` : ""}${withUnit(check.limit, check.unit)}`);
-const withUnit = (value, unit) => (value === null ? "–" : `${shown(value)}${unit ? ` ${unit}` : ""}`);
 const words = (name) => name.replace(/_/g, " ");
 
 function table(head, rows, className = "full") {
@@ -14,7 +13,8 @@ function table(head, rows, className = "full") {
   const body = rows.map(({ className: of, cells }) =>
     make("tr", { className: of || "" }, ...cells.map((entry, index) => cell(index === 0 ? "th" : "td", entry))));
   for (const row of body) row.firstElementChild.setAttribute("scope", "row");
-  return make("div", { className: "wide" }, make("table", { className }, make("thead", {}, headRow), make("tbody", {}, ...body)));
+  // A wide table scrolls on a narrow screen, and must be reached by the keyboard there.
+  return make("div", head.length > 5 ? { className: "wide", tabIndex: 0 } : { className: "wide" }, make("table", { className }, make("thead", {}, headRow), make("tbody", {}, ...body)));
 }
 
 const isBad = (check) => check.verdict === "fail" || check.verdict === "warn";
@@ -46,7 +46,7 @@ function checksOf(checks) {
   if (!checks.length) return null;
   const rows = checks.map((check) => ({
     className: check.verdict,
-    cells: [[words(check.check)], [badge(check.verdict)], [withUnit(check.value, check.unit), "number"],
+    cells: [[words(check.check)], [badge(check.verdict)], [valueOfCheck(check), "number"],
       [limitOf(check), "number"], [check.place || "", "place"], [check.note || "", "note"]],
   }));
   const box = table([["Check"], ["Verdict"], ["Value", "number"], ["Limit", "number"], ["Place"], ["Note"]], rows);
@@ -65,7 +65,7 @@ function checksBeside([a, b], isWanted) {
   const rows = names.map((name) => {
     const both = [a, b].map((cam) => of(cam, name));
     const cells = both.flatMap((check) => (check
-      ? [[badge(check.verdict)], [withUnit(check.value, check.unit), "number"], [check.place || "", "place"]] : [["–"], ["", "number"], [""]]));
+      ? [[badge(check.verdict)], [valueOfCheck(check), "number"], [check.place || "", "place"]] : [["–"], ["", "number"], [""]]));
     const limits = [...new Set(both.filter((check) => check && check.limit !== null).map(limitOf))];
     const differs = both[0]?.verdict !== both[1]?.verdict;
     const found = worst(name);
@@ -74,7 +74,7 @@ function checksBeside([a, b], isWanted) {
   return table([["Check"], ["A"], ["", "number"], ["at"], ["B"], ["", "number"], ["at"], ["Limit", "number"]], rows);
 }
 
-const valueText = (value) => (Array.isArray(value) ? value.map(valueText).join(", ") : typeof value === "number" ? shown(value) : String(value));
+const valueText = (value) => (Array.isArray(value) ? value.map(valueText).join(", ") : typeof value === "number" ? shown(value, ALL_DIGITS) : String(value));
 
 function sectionsOf(cam) {
   // What is said in words comes first; the values behind it are there for those who want all digits.
@@ -142,7 +142,26 @@ function rowsOf(cam, index) {
     if (view.words) head.unshift([words(view.words[0])]);
     return table(head, rows, view.words ? "full" : "full every");
   };
-  return make("div", {}, cams.length > 1 ? make("h3", {}, `${letter(index)}: ${cam.title}`) : null, ...parts.map(tableOf));
+  return make("div", {}, cams.length > 1 ? make("h3", {}, `${letter(index)}: ${cam.title}`) : null, ...parts.map(tableOf), profileOf(cam));
+}
+
+/** The profile for paper: place, x and y in four columns of rows; on the screen the files have it. */
+const PROFILE_ROWS = 72;
+function profileOf(cam) {
+  const view = viewOf(cam);
+  const { profile_x_mm: xs, profile_y_mm: ys } = view.columns;
+  // Two cams next to each other are compared, not cut.
+  if (!xs || !ys || view.words || cams.length > 1) return null;
+  const last = xs.length - 1;
+  const step = Math.max(1, Math.round(last / PROFILE_ROWS));
+  const [name, unit] = view.kinds[view.place];
+  const decimals = (value) => (value === null ? "–" : value.toFixed(4).replace("-", "−"));
+  const rows = [];
+  for (let at = 0; at <= last; at += step) if (xs[at] !== null) rows.push([shown(view.columns[view.place][at]), decimals(xs[at]), decimals(ys[at])]);
+  const each = Math.ceil(rows.length / 3);
+  const head = [[`${name}${unit ? `, ${unit}` : ""}`, "number"], ["x, mm", "number"], ["y, mm", "number"]];
+  const parts = [0, 1, 2].map((part) => rows.slice(part * each, (part + 1) * each)).filter((part) => part.length);
+  return make("div", { className: "profile" }, make("h3", {}, "Profile"), make("div", { className: "parts" }, ...parts.map((part) => table(head, part.map((row) => ({ cells: row.map((value) => [value, "number"]) }))))));
 }
 
 function missingOf(cam, index) {

@@ -2,8 +2,8 @@
 //! (`live/build`), the same call as `camgen::engine` in the program.
 
 use super::{
-    ANIMATION, CHARTS, CHARTS_LICENCE, CHARTS_STYLE, COMMON, CURVES, DIAGRAM, MOVING_PARTS, READOUT, SOLID, STYLE,
-    TABLES, filled, in_script, text,
+    ANIMATION, CHARTS, CHARTS_LICENCE, CHARTS_STYLE, COMMON, CURVES, DIAGRAM, MARGINS, MOVING_PARTS, READOUT, SOLID,
+    STYLE, TABLES, filled, in_script, text,
 };
 use camgen_kernel::refusal::Refusal;
 use serde_json::{Value, json};
@@ -23,9 +23,11 @@ pub(super) const FIRST_STEPS: u32 = 180;
 const PAGE: &str = include_str!("../../../templates/live/page.html");
 const OWN_STYLE: &str = include_str!("../../../templates/live/style.css");
 /// The scripts: those of the report, with a mechanism and plots that change while a slider moves.
-const SCRIPTS: [&str; 22] = [
+const SCRIPTS: [&str; 26] = [
     COMMON,
+    MARGINS,
     MOVING_PARTS,
+    include_str!("../../../templates/live/outline.js"),
     include_str!("../../../templates/live/mechanism.js"),
     READOUT,
     SOLID,
@@ -38,8 +40,10 @@ const SCRIPTS: [&str; 22] = [
     include_str!("../../../templates/live/engine.js"),
     include_str!("../../../templates/live/form.js"),
     include_str!("../../../templates/live/live.js"),
+    include_str!("../../../templates/live/zones.js"),
     include_str!("../../../templates/live/compare.js"),
     include_str!("../../../templates/live/motion.js"),
+    include_str!("../../../templates/live/stack.js"),
     include_str!("../../../templates/live/laws.js"),
     include_str!("../../../templates/live/measured.js"),
     include_str!("../../../templates/live/newcam.js"),

@@ -45,6 +45,7 @@ const PARTS: [(&str, &str); 3] = [
     ("{{scripts}}", include_str!("../../../templates/parts/scripts.html")),
 ];
 const COMMON: &str = include_str!("../../../templates/report/common.js");
+const MARGINS: &str = include_str!("../../../templates/report/margins.js");
 const MOVING_PARTS: &str = include_str!("../../../templates/report/parts.js");
 const READOUT: &str = include_str!("../../../templates/report/readout.js");
 const SOLID: &str = include_str!("../../../templates/report/solid.js");
@@ -53,8 +54,9 @@ const CURVES: &str = include_str!("../../../templates/report/curves.js");
 const DIAGRAM: &str = include_str!("../../../templates/report/diagram.js");
 const ANIMATION: &str = include_str!("../../../templates/report/page.js");
 /// The scripts of the report. The live page has others for the mechanism and the plots, which change while a slider moves.
-const SCRIPTS: [&str; 11] = [
+const SCRIPTS: [&str; 12] = [
     COMMON,
+    MARGINS,
     MOVING_PARTS,
     include_str!("../../../templates/report/mechanism.js"),
     READOUT,

@@ -1,0 +1,420 @@
+// One stack of curves over one axis: position, velocity, acceleration, jerk, pressure angle and torque, with the value at the cursor beside each.
+
+/** Diagrams in the order in which a designer reads them, with the letter of their quantity. */
+const LANES = [["lift", "s"], ["velocity", "v"], ["acceleration", "a"], ["jerk", "j"], ["pressure-angle", "α"], ["torque", "T"], ["residual", "F"], ["force", "F"], ["balance", "F"], ["press", "x"], ["profile-curvature", "1/ρ"], ["pitch-curvature", "1/ρ"]];
+const MOST_LANES = 6;
+/** Room for names at the left and values at the right, px; on a narrow screen names stand above their curves. */
+const STACK = { left: 114, right: 78, narrow: 430, head: 34, foot: 34, gap: 7, least: 58 };
+/** The largest share of the height of a lane between two samples of a curve that is continuous: a larger one is a step. */
+const STEP = 0.3;
+
+/** The lanes that the person added or, on a narrow screen, the one that is shown. */
+const stackChoice = { added: new Set(), only: "pressure-angle" };
+
+const stack = (() => {
+  const svg = makeSvg("svg", { class: "stack", role: "group" });
+  const flag = make("output", { className: "flag" });
+  const box = byId("stack");
+  const lettersBox = make("div", { className: "letters control", role: "group", hidden: true });
+  box.append(lettersBox, svg, flag);
+  let [width, height] = [0, 0];
+  let shape = "";
+  let lanes = [];
+  let scale = null;
+  let handles = [];
+  let heldHandle = null;
+  const cursor = makeSvg("line", { class: "cursor" });
+
+  const isNarrow = () => width < STACK.narrow;
+  const leftOf = () => (isNarrow() ? 8 : STACK.left);
+  const rightOf = () => (isNarrow() ? 8 : STACK.right);
+
+  /** The panels that are shown, of those of the first cam. */
+  function panelsShown(view) {
+    const known = LANES.map(([id]) => view.panels.find((panel) => panel.id === id)).filter(Boolean);
+    const all = [...known, ...view.panels.filter((panel) => !known.includes(panel))];
+    const usual = known.slice(0, MOST_LANES);
+    const shownPanels = all.filter((panel) => usual.includes(panel) !== stackChoice.added.has(panel.id));
+    if (!isNarrow()) return { all, shownPanels };
+    const one = all.find(({ id }) => id === stackChoice.only) ?? all[0];
+    return { all, shownPanels: one ? [one] : [] };
+  }
+
+  const nameOf = ({ id, title }) => (languages[language].page[`lane_${id}`] ? text(`lane_${id}`) : spoken(title));
+  const letterOf = ({ id }) => LANES.find(([known]) => known === id)?.[1] ?? "";
+
+  /** The least and the largest value of all curves of a lane, and the room around them; of angles with limits the limits too. */
+  function rangeOf(curves) {
+    let [low, high] = [Infinity, -Infinity];
+    for (const { values } of curves) for (const value of values) if (value !== null && value !== undefined && Number.isFinite(value)) [low, high] = [Math.min(low, value), Math.max(high, value)];
+    if (low > high) return [-1, 1];
+    [low, high] = [Math.min(low, 0), Math.max(high, 0)];
+    if (high - low < 1e-9) return [-1, 1];
+    const room = 0.24 * (high - low);
+    return [low < 0 ? low - room : low - 0.25 * room, high > 0 ? high + room : high + 0.25 * room];
+  }
+
+  /** A curve as a path, and its steps as another one. Nothing is rounded to pixels. */
+  function pathsOf({ places, values }, yOf, high) {
+    let [path, steps, isOpen] = ["", "", false];
+    let before = null;
+    for (let at = 0; at < values.length; at += 1) {
+      const value = values[at];
+      if (value === null || value === undefined || !Number.isFinite(value)) {
+        isOpen = false;
+        continue;
+      }
+      const [x, y] = [scale.xOf(places[at]), yOf(value)];
+      const isStep = isOpen && Math.abs(y - before[1]) > STEP * high;
+      if (isStep) steps += `M${before[0].toFixed(3)} ${before[1].toFixed(3)}L${x.toFixed(3)} ${y.toFixed(3)}`;
+      path += `${isOpen && !isStep ? "L" : "M"}${x.toFixed(3)} ${y.toFixed(3)}`;
+      before = [x, y];
+      isOpen = true;
+    }
+    return [path, steps];
+  }
+
+  /** The extremes of a curve that are worth a label: the largest and the smallest value, at the middle of the places that have it. */
+  function extremesOf({ places, values }, [low, high]) {
+    const found = [];
+    for (const sign of [1, -1]) {
+      let best = -1;
+      for (let at = 0; at < values.length; at += 1) if (values[at] !== null && (best < 0 || sign * values[at] > sign * values[best] + 1e-12 * Math.abs(values[best]))) best = at;
+      if (best < 0 || sign * values[best] <= 0.02 * (high - low)) continue;
+      let last = best;
+      while (last + 1 < values.length && Math.abs(values[last + 1] - values[best]) < 1e-6 * (high - low)) last += 1;
+      found.push({ sign, place: (places[best] + places[last]) / 2, value: values[best] });
+    }
+    return found;
+  }
+
+  /** Everything that does not change with the values: frames, names, grid. */
+  function build(view, shownPanels, curvesOfLane) {
+    svg.replaceChildren();
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    const [left, right] = [leftOf(), rightOf()];
+    const places = view.columns[view.place];
+    const [begin, end] = [places[0], places.at(-1)];
+    const wide = width - left - right;
+    scale = { begin, end, left, wide, xOf: (at) => left + ((at - begin) / (end - begin || 1)) * wide };
+    const top = STACK.head;
+    const each = (height - top - STACK.foot - STACK.gap * (shownPanels.length - 1)) / shownPanels.length;
+    const axis = makeSvg("g", { class: "axis" });
+    svg.append(axis);
+    const tick = tickOf(begin, end, isNarrow() ? 4 : 6);
+    const ticks = [];
+    for (let at = Math.ceil(begin / tick - 1e-9) * tick; at <= end + 1e-9; at += tick) ticks.push(at);
+    const unit = view.kinds[view.place][1];
+    for (const at of ticks) {
+      const label = makeSvg("text", { class: "tick", x: scale.xOf(at), y: height - STACK.foot + 18 });
+      label.textContent = `${shown(at)}${unit === "°" ? "°" : ""}`;
+      axis.append(label);
+    }
+    if (!isNarrow()) axis.append(written("axis-name", 2, height - STACK.foot + 18, `${spoken(view.kinds[view.place][0])}${unit === "°" ? "" : `, ${unit}`}`));
+    lanes = shownPanels.map((panel, index) => {
+      const y = top + index * (each + STACK.gap);
+      const lane = { panel, y, high: each, curves: curvesOfLane[index], group: makeSvg("g", { class: "lane" }) };
+      lane.group.append(makeSvg("rect", { class: "frame", x: left, y, width: wide, height: each }));
+      for (const at of ticks) lane.group.append(makeSvg("path", { class: "grid", d: `M${scale.xOf(at)} ${y}v${each}` }));
+      lane.limits = makeSvg("g");
+      lane.zero = makeSvg("path", { class: "zero" });
+      lane.drawn = makeSvg("g");
+      lane.labels = makeSvg("g");
+      lane.group.append(lane.limits, lane.zero, lane.drawn, lane.labels);
+      lane.bead = makeSvg("circle", { class: "bead", r: 4.5 });
+      lane.value = written("value", width - 4, y + each / 2 + 5, "");
+      if (isNarrow()) lane.value.setAttribute("y", y + 14);
+      else {
+        const name = nameOf(panel);
+        const lines = name.length > 15 && name.includes(" ") ? [name.slice(0, name.lastIndexOf(" ", 15) > 0 ? name.lastIndexOf(" ", 15) : name.indexOf(" ")), name.slice((name.lastIndexOf(" ", 15) > 0 ? name.lastIndexOf(" ", 15) : name.indexOf(" ")) + 1)] : [name];
+        lines.forEach((line, at) => lane.group.append(written("lane-name", 2, y + each / 2 - 4 + 14 * (at - (lines.length - 1)), line)));
+        lane.unit = written("lane-unit", 2, y + each / 2 + 13, "");
+        lane.group.append(lane.unit);
+      }
+      svg.append(lane.group, lane.value);
+      return lane;
+    });
+    svg.append(cursor, ...lanes.map(({ bead }) => bead));
+    handles = [];
+    cursor.setAttribute("y1", top - 4);
+    cursor.setAttribute("y2", height - STACK.foot + 2);
+  }
+
+  function written(name, x, y, words_) {
+    const label = makeSvg("text", { class: name, x, y });
+    label.textContent = words_;
+    return label;
+  }
+
+  /** Round distances of ticks. */
+  function tickOf(begin, end, most) {
+    const span = end - begin;
+    const fine = span > 90 ? [10, 15, 30, 60, 90, 120, 180, 360] : [1, 2, 5].flatMap((one) => [0.001, 0.01, 0.1, 1, 10].map((power) => one * power)).sort((a, b) => a - b);
+    return fine.find((tick) => span / tick <= most + 0.01) ?? span;
+  }
+
+  /** A power of a thousand that makes large values short, in the unit of the lane. */
+  function scaledBy(curves) {
+    let most = 0;
+    for (const { values } of curves) for (const value of values) if (value !== null && Math.abs(value) > most) most = Math.abs(value);
+    return most < 1e5 || !Number.isFinite(most) ? 0 : 3 * Math.floor(Math.log10(most / 1e2) / 3);
+  }
+
+  /** Curves, limits and labels of the present cam. */
+  function fill(lane, curves) {
+    lane.curves = curves;
+    lane.power = scaledBy(curves);
+    const own = curves.filter(({ limit, ghost }) => limit === undefined && !ghost);
+    const limits = curves.filter(({ limit }) => limit !== undefined);
+    const ghosts = curves.filter(({ ghost }) => ghost);
+    // A limit far beyond the values is not drawn: it would flatten the curve.
+    const [bare, withLimits] = [rangeOf([...own, ...ghosts]), rangeOf([...own, ...ghosts, ...limits])];
+    const range = withLimits[1] - withLimits[0] < 3.5 * (bare[1] - bare[0]) ? withLimits : bare;
+    const yOf = (value) => lane.y + lane.high - ((value - range[0]) / (range[1] - range[0])) * lane.high;
+    lane.yOf = yOf;
+    put(lane.zero, "d", `M${scale.left} ${yOf(0).toFixed(2)}h${scale.wide}`);
+    const boundaries = limits.filter(({ limit }) => limit > range[0] && limit < range[1]);
+    lane.limits.replaceChildren(...boundaries.flatMap(({ limit }) => {
+      const y = yOf(limit);
+      const beyond = limit > 0 ? makeSvg("rect", { class: "beyond", x: scale.left, y: lane.y, width: scale.wide, height: Math.max(0, y - lane.y) }) : makeSvg("rect", { class: "beyond", x: scale.left, y, width: scale.wide, height: Math.max(0, lane.y + lane.high - y) });
+      return [beyond, makeSvg("path", { class: "limit", d: `M${scale.left} ${y}h${scale.wide}` })];
+    }));
+    const first_ = boundaries.find(({ limit }) => limit > 0) ?? boundaries[0];
+    const notes = [];
+    if (first_) {
+      const label = written("limit-label", scale.left + scale.wide - 4, first_.limit > 0 ? yOf(first_.limit) - 4 : yOf(first_.limit) + 12, `${text("limit")} ${withUnit(Math.abs(first_.limit), first_.unit === "°" ? "°" : "")}`);
+      if (first_.limit > 0 && yOf(first_.limit) - lane.y < 14) label.setAttribute("y", yOf(first_.limit) + 13);
+      notes.push(label);
+    }
+    const paths = [];
+    for (const ghost of ghosts.slice(0, 1)) paths.push(makeSvg("path", { class: "ghost", d: pathsOf(ghost, yOf, lane.high)[0] }));
+    const isSecond = ({ colour: name }) => cams.length > 1 && name === "two";
+    own.forEach((curve) => {
+      const [path, steps] = pathsOf(curve, yOf, lane.high);
+      // What a diagram shows besides its quantity is thin; of two cams each has its own colour.
+      if (cams.length > 1 ? curve.dash.length : curve !== own[0]) paths.unshift(makeSvg("path", { class: "other", d: path + steps }));
+      else paths.push(makeSvg("path", { class: isSecond(curve) ? "curve second" : "curve", d: path }), makeSvg("path", { class: isSecond(curve) ? "jump second" : "jump", d: steps }));
+    });
+    lane.drawn.replaceChildren(...paths);
+    const main = own[0];
+    if (main) for (const { sign, place, value } of extremesOf(main, range)) {
+      const [x, y] = [scale.xOf(place), yOf(value)];
+      notes.push(makeSvg("circle", { class: "extreme", cx: x, cy: y, r: 3 }));
+      const label = written("extreme-label", 0, 0, shown(value / 10 ** lane.power));
+      // Above a peak and below a valley, within the lane.
+      const room = 7.5 * label.textContent.length * 0.5 + 4;
+      const inside = Math.min(scale.left + scale.wide - room, Math.max(scale.left + room, x));
+      const above = sign > 0 ? y - 6 : y + 14;
+      const fits = above - 11 > lane.y - 8 && above < lane.y + lane.high + 4;
+      label.setAttribute("x", fits ? inside : x > scale.left + scale.wide / 2 ? x - room - 4 : x + room + 4);
+      label.setAttribute("y", fits ? above : sign > 0 ? y + 12 : y - 4);
+      notes.push(label);
+    }
+    lane.labels.replaceChildren(...notes);
+    if (lane.unit) {
+      const letter_ = letterOf(lane.panel);
+      const unit = `${lane.power ? `${powerOfTen(lane.power).slice(1)} ` : ""}${main?.unit ?? ""}`;
+      lane.unit.replaceChildren();
+      if (letter_) {
+        const italic = makeSvg("tspan", { class: "letter" });
+        italic.textContent = letter_;
+        lane.unit.append(italic, `, ${unit}`);
+      } else lane.unit.textContent = unit;
+    }
+  }
+
+  /** Segments of the motion above the curves, with handles at their borders. */
+  const segmentsBox = makeSvg("g", { class: "segments" });
+  function segmentsAnew(answer) {
+    if (heldHandle !== null) return;
+    const focused = segmentsBox.contains(document.activeElement) ? document.activeElement.dataset.handle : null;
+    segmentsBox.replaceChildren();
+    handles = [];
+    if (!scale || !answer?.motion || cams.length > 1 || !isProgram(answer)) return;
+    const { segments, units } = answer.motion;
+    const begin = segments[0].at[0];
+    const xOf = (at) => scale.xOf(scale.begin + at - begin);
+    segments.forEach((segment, index) => {
+      const [x, wide] = [xOf(segment.at[0]), xOf(segment.at[1]) - xOf(segment.at[0])];
+      const [from, to] = segment.position;
+      const kind = from === to ? "dwell" : to > from ? "rise" : "return";
+      const area = makeSvg("rect", { class: from === to ? "piece rests" : "piece", x, y: 2, width: Math.max(0, wide), height: STACK.head - 8 });
+      area.append(makeSvg("title"));
+      area.lastChild.textContent = `${text("segment")} ${index + 1}: ${segment.law}`;
+      area.addEventListener("click", () => chooseSegment(index));
+      const travel = from === to ? "" : ` ${withUnit(Math.abs(to - from), units[1] === "deg" ? "°" : "")}`;
+      const width_ = `${shown(segment.at[1] - segment.at[0])}${units[0] === "deg" ? "°" : ""}`;
+      const names = [`${width_} ${segment.law.replace(/-/g, " ")}`, `${width_} ${segment.law.replace(/-/g, " ").replace("modified", "mod.").replace("trapezoid", "trap.")}`, width_];
+      const fitting = (list, size) => list.find((name) => name.length * size + 18 < wide) ?? "";
+      const [upper, lower] = [written("piece-name", x + wide / 2, 13, fitting([`${text(`piece_${kind}`)}${travel}`, text(`piece_${kind}`)], 7)), written("piece-note", x + wide / 2, 25, fitting(from === to ? [width_] : names, 6.2))];
+      segmentsBox.append(area, upper, lower);
+    });
+    segments.slice(0, -1).forEach((segment, index) => segmentsBox.append(handleOf(segment, index, segments, units, xOf)));
+    if (focused) segmentsBox.querySelector(`[data-handle="${focused}"]`)?.focus();
+  }
+
+  /** The border behind a segment: dragged, or moved by the arrow keys. */
+  function handleOf(segment, index, segments, units, xOf) {
+    const handle = makeSvg("g", { class: "handle", tabindex: index ? -1 : 0, role: "slider", "data-handle": index, "aria-label": `${text("segment")} ${index + 1}, ${text("until")}`, "aria-valuenow": cleaned(segment.at[1]), "aria-valuemin": segment.at[0], "aria-valuemax": segments[index + 1].at[1], "aria-valuetext": `${shown(segment.at[1])} ${units[0]}` });
+    const guide = makeSvg("path", { class: "guide", d: `M0 ${STACK.head - 6}V${height - STACK.foot}` });
+    handle.append(guide, makeSvg("rect", { x: -5, y: 2, width: 10, height: STACK.head - 8, rx: 4 }), makeSvg("path", { class: "grip", d: `M-1.5 10v${STACK.head - 24}M1.5 10v${STACK.head - 24}` }));
+    const moveTo = (at) => handle.setAttribute("transform", `translate(${xOf(at)} 0)`);
+    moveTo(segment.at[1]);
+    const held = { from: null, changes: null };
+    const at = (event) => {
+      const box_ = svg.getBoundingClientRect();
+      const place = ((event.clientX - box_.left - scale.left) / scale.wide) * (scale.end - scale.begin) + segments[0].at[0];
+      return Math.round(2 * Math.min(segments[index + 1].at[1] - 0.5, Math.max(segment.at[0] + 0.5, place))) / 2;
+    };
+    handle.addEventListener("pointerdown", (event) => {
+      handle.setPointerCapture(event.pointerId);
+      Object.assign(held, { from: event.clientX, changes: null });
+      heldHandle = index;
+      event.preventDefault();
+      event.stopPropagation();
+      handle.focus();
+    });
+    handle.addEventListener("pointermove", (event) => {
+      if (held.from === null || Math.abs(event.clientX - held.from) < 3) return;
+      held.changes = nodeMoved(doc.last, index, at(event), null);
+      moveTo(at(event));
+      if (held.changes.length) draft(held.changes);
+    });
+    for (const name of ["pointerup", "pointercancel"]) handle.addEventListener(name, () => {
+      const { changes } = held;
+      Object.assign(held, { from: null, changes: null });
+      heldHandle = null;
+      if (changes?.length) commit(changes);
+      else segmentsAnew(doc.last);
+    });
+    handle.addEventListener("keydown", (event) => {
+      // One stop for the keyboard: up and down go to the other borders.
+      const other = segmentsBox.querySelector(`[data-handle="${index + ({ ArrowUp: -1, ArrowDown: 1 }[event.key] ?? NaN)}"]`);
+      if (other) {
+        event.preventDefault();
+        event.stopPropagation();
+        for (const one of segmentsBox.querySelectorAll(".handle")) one.setAttribute("tabindex", one === other ? 0 : -1);
+        return other.focus();
+      }
+      const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+      if (!step) return;
+      event.preventDefault();
+      event.stopPropagation();
+      const changes = nodeMoved(doc.last, index, segment.at[1] + step * (event.shiftKey ? 10 : 1), null);
+      if (changes.length) commit(changes);
+    });
+    return handle;
+  }
+
+  /** Letters of the curves on a narrow screen: one curve at a time. */
+  function lettersAnew(all) {
+    lettersBox.hidden = !isNarrow();
+    if (!isNarrow()) return;
+    lettersBox.setAttribute("aria-label", text("loads"));
+    lettersBox.replaceChildren(...all.slice(0, 7).map((panel) => {
+      const isChosen = panel.id === lanes[0]?.panel.id;
+      const button = make("button", { type: "button", "aria-pressed": String(isChosen), "aria-label": nameOf(panel) }, letterOf(panel) || nameOf(panel).slice(0, 3));
+      button.addEventListener("click", () => {
+        stackChoice.only = panel.id;
+        anew();
+      });
+      return button;
+    }));
+  }
+
+  /** Draws the curves of the present cam. */
+  function anew() {
+    if (!width || !height || !first().panels.length) return;
+    const view = first();
+    const { all, shownPanels } = panelsShown(view);
+    const curves = shownPanels.map((panel) => [...(cams.length === 1 && (doc.past.length || isDragging) ? ghostsOf(panel, curvesOf(panel)) : []), ...curvesOf(panel)]);
+    const now = JSON.stringify([width, height, language, view.place, view.columns[view.place][0], view.columns[view.place].at(-1), state.rate, shownPanels.map(({ id, unit }) => [id, unit])]);
+    if (now !== shape) {
+      shape = now;
+      build(view, shownPanels, curves);
+      svg.append(segmentsBox, cursor, ...lanes.map(({ bead }) => bead));
+      lettersAnew(all);
+      choicesAnew(all, shownPanels);
+    }
+    lanes.forEach((lane, index) => fill(lane, curves[index]));
+    segmentsAnew(doc.last);
+    draw();
+  }
+
+  /** Diagrams that can be added to the stack or taken from it. */
+  function choicesAnew(all, shownPanels) {
+    const list = byId("more-curves");
+    list.replaceChildren(make("option", { value: "" }, text("moreCurves")), ...all.map((panel) => make("option", { value: panel.id }, `${shownPanels.includes(panel) ? "✓" : "+"} ${spoken(panel.title)}`)));
+    list.value = "";
+  }
+
+  /** The cursor, its values and its beads. */
+  function draw() {
+    if (!scale || !lanes.length) return;
+    const view = first();
+    const at = placeOf(view);
+    const x = scale.xOf(at);
+    put(cursor, "x1", x.toFixed(2));
+    put(cursor, "x2", x.toFixed(2));
+    const [, unit] = view.kinds[view.place];
+    const words_ = `${steady1(at)}${unit === "°" ? "°" : ` ${unit}`}`;
+    if (flag.textContent !== words_) flag.textContent = words_;
+    flag.style.left = `${Math.min(width - 30, Math.max(30, x))}px`;
+    flag.style.top = `${(lettersBox.hidden ? 0 : lettersBox.offsetHeight + 4) + height - STACK.foot + 3}px`;
+    for (const lane of lanes) {
+      const main = lane.curves.find(({ limit, ghost }) => limit === undefined && !ghost);
+      const found = main ? valueAt(main) : null;
+      const value = steady(found === null ? null : found / 10 ** lane.power);
+      if (lane.value.textContent !== value) lane.value.textContent = value;
+      const y = found === null ? NaN : lane.yOf(found);
+      put(lane.bead, "visibility", y >= lane.y - 1 && y <= lane.y + lane.high + 1 ? "visible" : "hidden");
+      if (!(y >= 0)) continue;
+      put(lane.bead, "cx", x.toFixed(2));
+      put(lane.bead, "cy", y.toFixed(2));
+    }
+  }
+  /** A place with one decimal, which does not jump. */
+  const steady1 = (value) => (Math.abs(value) < 0.05 ? 0 : value).toFixed(1).replace("-", "−");
+
+  /** Pressing on the curves moves the mechanism there, and dragging takes it along. */
+  function goTo(event) {
+    const box_ = svg.getBoundingClientRect();
+    const place = scale.begin + ((event.clientX - box_.left - scale.left) / scale.wide) * (scale.end - scale.begin);
+    goToPlace(Math.min(scale.end, Math.max(scale.begin, place)));
+  }
+  svg.addEventListener("pointerdown", (event) => {
+    const box_ = svg.getBoundingClientRect();
+    if (!scale || event.clientY - box_.top < STACK.head || event.clientX - box_.left < scale.left - 6 || event.clientX - box_.left > scale.left + scale.wide + 6) return;
+    svg.setPointerCapture(event.pointerId);
+    svg.dataset.moving = "";
+    play(false);
+    goTo(event);
+  });
+  svg.addEventListener("pointermove", (event) => "moving" in svg.dataset && goTo(event));
+  for (const name of ["pointerup", "pointercancel"]) svg.addEventListener(name, () => delete svg.dataset.moving);
+
+  new ResizeObserver(() => {
+    const box_ = box.getBoundingClientRect();
+    const letters = lettersBox.hidden ? 0 : lettersBox.offsetHeight + 4;
+    const size = [Math.round(box_.width), Math.round(Math.max(180, box_.height - letters))];
+    if (size[0] === width && size[1] === height) return;
+    [width, height] = size;
+    Object.assign(svg.style, { width: `${width}px`, height: `${height}px` });
+    anew();
+  }).observe(box);
+
+  byId("more-curves").addEventListener("change", ({ target }) => {
+    if (!target.value) return;
+    if (stackChoice.added.has(target.value)) stackChoice.added.delete(target.value);
+    else stackChoice.added.add(target.value);
+    anew();
+  });
+  return { anew, draw, segmentsAnew, svg };
+})();
+
+/** Chooses a segment in the editor of the motion, and goes there. */
+function chooseSegment(index) {
+  doc.chosen = index;
+  motionEditor(doc.last);
+  openMore("motion");
+}
