@@ -86,8 +86,12 @@ const say = (name, values) => {
   byId("state").textContent = byId("state").title = words;
 };
 
+/** The keys of the last change. */
+let touched = [];
+
 /** What comes of changes that are not made yet: while a slider moves. */
 function draft(changes) {
+  touched = changes.flatMap(({ set }) => (set ? [set.key] : []));
   isDragging = true;
   zoneTurn += 1;
   say("draft");
@@ -103,6 +107,7 @@ function working() {
 
 /** Makes changes: full tolerance, and a step of the history. */
 function commit(changes, more = {}, why = null) {
+  touched = changes.flatMap(({ set }) => (set ? [set.key] : []));
   isDragging = false;
   zoneTurn += 1;
   working();
@@ -169,7 +174,8 @@ function told(faults, isStale) {
   byId("strip").classList.toggle("refused", faults.length > 0);
   byId("shown").classList.toggle("stale", isStale);
   for (const { box } of fields.values()) box.classList.remove("wrong");
-  for (const { key } of faults) fields.get(key)?.box.classList.add("wrong");
+  // What names no key came of the last change.
+  for (const key of faults.flatMap((fault) => (fault.key ? [fault.key] : isStale ? touched : []))) fields.get(key)?.box.classList.add("wrong");
   if (faults.length && isStale) stripRefused();
   else stripAnew(doc.last);
 }

@@ -160,6 +160,28 @@ const stack = (() => {
     return most < 1e5 || !Number.isFinite(most) ? 0 : 3 * Math.floor(Math.log10(most / 1e2) / 3);
   }
 
+  /** Elements of a group that are taken again one after the other: while a slider moves none is made anew. */
+  function slots(group) {
+    let at = 0;
+    return {
+      take(tag, attributes, words_) {
+        let element = group.children[at];
+        if (element?.tagName !== tag) {
+          const made = makeSvg(tag);
+          if (element) element.replaceWith(made);
+          else group.append(made);
+          element = made;
+        }
+        at += 1;
+        for (const [name, value] of Object.entries(attributes)) put(element, name, String(value));
+        if (words_ !== undefined && element.textContent !== words_) element.textContent = words_;
+      },
+      end() {
+        while (group.children.length > at) group.lastChild.remove();
+      },
+    };
+  }
+
   /** Curves, limits and labels of the present cam. */
   function fill(lane, curves) {
     lane.curves = curves;
@@ -174,52 +196,57 @@ const stack = (() => {
     lane.yOf = yOf;
     put(lane.zero, "d", `M${scale.left} ${yOf(0).toFixed(2)}h${scale.wide}`);
     const boundaries = limits.filter(({ limit }) => limit > range[0] && limit < range[1]);
-    lane.limits.replaceChildren(...boundaries.flatMap(({ limit }) => {
+    const tints = slots(lane.limits);
+    for (const { limit } of boundaries) {
       const y = yOf(limit);
-      const beyond = limit > 0 ? makeSvg("rect", { class: "beyond", x: scale.left, y: lane.y, width: scale.wide, height: Math.max(0, y - lane.y) }) : makeSvg("rect", { class: "beyond", x: scale.left, y, width: scale.wide, height: Math.max(0, lane.y + lane.high - y) });
-      return [beyond, makeSvg("path", { class: "limit", d: `M${scale.left} ${y}h${scale.wide}` })];
-    }));
-    const first_ = boundaries.find(({ limit }) => limit > 0) ?? boundaries[0];
-    const notes = [];
-    if (first_) {
-      const label = written("limit-label", scale.left + scale.wide - 4, first_.limit > 0 ? yOf(first_.limit) - 4 : yOf(first_.limit) + 12, `${text("limit")} ${withUnit(Math.abs(first_.limit), first_.unit === "°" ? "°" : "")}`);
-      if (first_.limit > 0 && yOf(first_.limit) - lane.y < 14) label.setAttribute("y", yOf(first_.limit) + 13);
-      notes.push(label);
+      const [top, high] = limit > 0 ? [lane.y, y - lane.y] : [y, lane.y + lane.high - y];
+      tints.take("rect", { class: "beyond", x: scale.left, y: top, width: scale.wide, height: Math.max(0, high) });
+      tints.take("path", { class: "limit", d: `M${scale.left} ${y}h${scale.wide}` });
     }
-    const paths = [];
-    for (const ghost of ghosts.slice(0, 1)) paths.push(makeSvg("path", { class: "ghost", d: pathsOf(ghost, yOf, lane.high)[0] }));
+    tints.end();
+    const drawn = slots(lane.drawn);
     const isSecond = ({ colour: name }) => cams.length > 1 && name === "two";
-    own.forEach((curve) => {
+    // What a diagram shows besides its quantity is thin; of two cams each has its own colour.
+    const isOther = (curve) => (cams.length > 1 ? curve.dash.length > 0 : curve !== own[0]);
+    for (const curve of own.filter(isOther)) drawn.take("path", { class: "other", d: pathsOf(curve, yOf, lane.high).join("") });
+    for (const ghost of ghosts.slice(0, 1)) drawn.take("path", { class: "ghost", d: pathsOf(ghost, yOf, lane.high)[0] });
+    for (const curve of own.filter((one) => !isOther(one))) {
       const [path, steps] = pathsOf(curve, yOf, lane.high);
-      // What a diagram shows besides its quantity is thin; of two cams each has its own colour.
-      if (cams.length > 1 ? curve.dash.length : curve !== own[0]) paths.unshift(makeSvg("path", { class: "other", d: path + steps }));
-      else paths.push(makeSvg("path", { class: isSecond(curve) ? "curve second" : "curve", d: path }), makeSvg("path", { class: isSecond(curve) ? "jump second" : "jump", d: steps }));
-    });
-    lane.drawn.replaceChildren(...paths);
+      drawn.take("path", { class: isSecond(curve) ? "curve second" : "curve", d: path });
+      drawn.take("path", { class: isSecond(curve) ? "jump second" : "jump", d: steps });
+    }
+    drawn.end();
+    const notes = slots(lane.labels);
+    const named = boundaries.find(({ limit }) => limit > 0) ?? boundaries[0];
+    if (named) {
+      const line = yOf(named.limit);
+      const above = named.limit > 0 && line - lane.y >= 14;
+      notes.take("text", { class: "limit-label", x: scale.left + scale.wide - 4, y: above ? line - 4 : line + 13 }, `${text("limit")} ${withUnit(Math.abs(named.limit), named.unit === "°" ? "°" : "")}`);
+    }
     const main = own[0];
     if (main) for (const { sign, place, value } of extremesOf(main, range)) {
       const [x, y] = [scale.xOf(place), yOf(value)];
-      notes.push(makeSvg("circle", { class: "extreme", cx: x, cy: y, r: 3 }));
-      const label = written("extreme-label", 0, 0, shown(value / 10 ** lane.power));
+      notes.take("circle", { class: "extreme", cx: x, cy: y, r: 3 });
+      // Next to a limit with the digits that tell them apart.
+      const held = boundaries.find(({ limit }) => Math.sign(limit) === sign)?.limit;
+      const words_ = held !== undefined && lane.power === 0 ? nextTo(held, value) : shown(value / 10 ** lane.power);
       // Above a peak and below a valley, within the lane.
-      const room = 7.5 * label.textContent.length * 0.5 + 4;
+      const room = 3.75 * words_.length + 4;
       const inside = Math.min(scale.left + scale.wide - room, Math.max(scale.left + room, x));
       const above = sign > 0 ? y - 6 : y + 14;
       const fits = above - 11 > lane.y - 8 && above < lane.y + lane.high + 4;
-      label.setAttribute("x", fits ? inside : x > scale.left + scale.wide / 2 ? x - room - 4 : x + room + 4);
-      label.setAttribute("y", fits ? above : sign > 0 ? y + 12 : y - 4);
-      notes.push(label);
+      notes.take("text", { class: "extreme-label", x: fits ? inside : x > scale.left + scale.wide / 2 ? x - room - 4 : x + room + 4, y: fits ? above : sign > 0 ? y + 12 : y - 4 }, words_);
     }
-    lane.labels.replaceChildren(...notes);
+    notes.end();
     if (lane.unit) {
       const letter_ = letterOf(lane.panel);
-      const unit = `${lane.power ? `${powerOfTen(lane.power).slice(1)} ` : ""}${main?.unit ?? ""}`;
-      lane.unit.replaceChildren();
-      if (letter_) {
+      const unit_ = `${lane.power ? `${powerOfTen(lane.power).slice(1)} ` : ""}${main?.unit ?? ""}`;
+      if (lane.said !== letter_ + unit_) {
+        lane.said = letter_ + unit_;
         const italic = makeSvg("tspan", { class: "letter" });
         italic.textContent = letter_;
-        lane.unit.append(italic, `, ${unit}`);
-      } else lane.unit.textContent = unit;
+        lane.unit.replaceChildren(...(letter_ ? [italic, `, ${unit_}`] : [unit_]));
+      }
     }
   }
 
@@ -337,7 +364,7 @@ const stack = (() => {
       choicesAnew(all, shownPanels);
     }
     lanes.forEach((lane, index) => fill(lane, curves[index]));
-    segmentsAnew(doc.last);
+    if (!isDragging) segmentsAnew(doc.last);
     draw();
   }
 

@@ -9,9 +9,9 @@ function text(name, values = {}) {
   return found.replace(/\{(\w+)\}/g, (_, key) => values[key]);
 }
 
-// The strip speaks the language of the page; the name of a check is in the table of words, or stays English.
+// The strip speaks the language of the page, and names checks as people do.
 phrase = text;
-checkName = (check) => (check.disc ? `${check.disc}: ` : "") + (languages[language].report[words(check.check)] ?? words(check.check));
+checkName = (check) => (check.disc ? `${check.disc}: ` : "") + (languages[language].page[`check_${check.check}`] ?? words(check.check));
 
 /** Words of the report in the chosen language, where it has them: as a whole, or by the patterns of lines with numbers in them. */
 function spoken(words) {
