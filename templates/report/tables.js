@@ -147,6 +147,7 @@ function rowsOf(cam, index) {
 
 /** The profile for paper: place, x and y in four columns of rows; on the screen the files have it. */
 const PROFILE_ROWS = 72;
+const PROFILE_PARTS = 4;
 function profileOf(cam) {
   const view = viewOf(cam);
   const { profile_x_mm: xs, profile_y_mm: ys } = view.columns;
@@ -158,9 +159,9 @@ function profileOf(cam) {
   const decimals = (value) => (value === null ? "–" : value.toFixed(4).replace("-", "−"));
   const rows = [];
   for (let at = 0; at <= last; at += step) if (xs[at] !== null) rows.push([shown(view.columns[view.place][at]), decimals(xs[at]), decimals(ys[at])]);
-  const each = Math.ceil(rows.length / 3);
-  const head = [[`${name}${unit ? `, ${unit}` : ""}`, "number"], ["x, mm", "number"], ["y, mm", "number"]];
-  const parts = [0, 1, 2].map((part) => rows.slice(part * each, (part + 1) * each)).filter((part) => part.length);
+  const each = Math.ceil(rows.length / PROFILE_PARTS);
+  const head = [[unit === "°" ? "θ, °" : `${name}, ${unit}`, "number"], ["x, mm", "number"], ["y, mm", "number"]];
+  const parts = Array.from({ length: PROFILE_PARTS }, (_, part) => rows.slice(part * each, (part + 1) * each)).filter((part) => part.length);
   return make("div", { className: "profile" }, make("h3", {}, "Profile"), make("div", { className: "parts" }, ...parts.map((part) => table(head, part.map((row) => ({ cells: row.map((value) => [value, "number"]) }))))));
 }
 
