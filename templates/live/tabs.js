@@ -23,6 +23,7 @@ function tabs() {
   const others = docs.filter((one) => one !== doc);
   byId("beside").replaceChildren(make("option", { value: "" }, "–"), ...others.map((one) => make("option", { value: String(docs.indexOf(one)) }, one.name)));
   byId("beside").value = besideOf && besideOf !== doc ? String(docs.indexOf(besideOf)) : "";
+  measureTop();
 }
 
 function goTo(one) {
