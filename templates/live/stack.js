@@ -208,7 +208,7 @@ const stack = (() => {
     const isSecond = ({ colour: name }) => cams.length > 1 && name === "two";
     // What a diagram shows besides its quantity is thin; of two cams each has its own colour.
     const isOther = (curve) => (cams.length > 1 ? curve.dash.length > 0 : curve !== own[0]);
-    for (const curve of own.filter(isOther)) drawn.take("path", { class: "other", d: pathsOf(curve, yOf, lane.high).join("") });
+    for (const curve of own.filter(isOther)) drawn.take("path", { class: "minor", d: pathsOf(curve, yOf, lane.high).join("") });
     for (const ghost of ghosts.slice(0, 1)) drawn.take("path", { class: "ghost", d: pathsOf(ghost, yOf, lane.high)[0] });
     for (const curve of own.filter((one) => !isOther(one))) {
       const [path, steps] = pathsOf(curve, yOf, lane.high);
@@ -340,7 +340,7 @@ const stack = (() => {
     lettersBox.setAttribute("aria-label", text("loads"));
     lettersBox.replaceChildren(...all.slice(0, 7).map((panel) => {
       const isChosen = panel.id === lanes[0]?.panel.id;
-      const button = make("button", { type: "button", "aria-pressed": String(isChosen), "aria-label": nameOf(panel) }, letterOf(panel) || nameOf(panel).slice(0, 3));
+      const button = make("button", { type: "button", "aria-pressed": String(isChosen), "aria-label": nameOf(panel) }, letterOf(panel) || nameOf(panel).split(" ")[0]);
       button.addEventListener("click", () => {
         stackChoice.only = panel.id;
         anew();
