@@ -65,7 +65,7 @@ fn other_speeds_have_the_known_figures() {
     assert!((of(row, "residual_max_n") / 854.326_708_139_651_5 - 1.0).abs() < 1e-11);
     assert!((of(row, "end_residual_n") / 854.326_708_139_651_5 - 1.0).abs() < 1e-11);
     let svg = fs::read_to_string(file(&level, "level.svg")).expect("a plot");
-    assert!(svg.contains("Residual force") && svg.contains("25 rpm"));
+    assert!(svg.contains("Largest force left over, N") && svg.contains("rpm: as cut"));
 }
 
 /// A report gives the number of cylinders, and area and volume of one and of all; together they hold the bed at the end of the stroke.

@@ -9,7 +9,7 @@ use crate::report::Speeds;
 use camgen_kernel::document::{Input, LengthOrAngle, cams};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::laws::{LAWS, Law, LawCurve, LawTask, SegmentEnd};
-use camgen_kernel::motion::program::Program;
+use camgen_kernel::motion::program::{Program, SegmentSummary};
 use camgen_kernel::motion::{Motion, Quantity};
 use camgen_kernel::numeric::parallel;
 use camgen_kernel::refusal::Refusal;
@@ -118,6 +118,13 @@ impl Rise {
         let periods = speed.zip(frequency).map(|(speed, frequency)| over / speed * frequency);
         Ok(Self { quantity: asked_quantity.or(of_file).unwrap_or(Quantity::Length), lift, over, speed, periods })
     }
+}
+
+/// The law of the largest rise of a program.
+fn own_law(program: &Program) -> Option<&'static str> {
+    let travel = |segment: &&SegmentSummary| (segment.positions.1 - segment.positions.0).abs();
+    let moves = program.segments().iter().filter(|segment| !segment.whole && travel(segment) > 0.0);
+    moves.reduce(|best, next| if travel(&next) > travel(&best) { next } else { best }).map(|segment| segment.law)
 }
 
 /// The curve of a law from rest to rest; where it has none from rest to a turn, or its straight line.
@@ -230,13 +237,14 @@ pub fn analysis(machine: Option<&Machine>, asked: &LawsOptions) -> Result<Analys
     inputs.extend((!named.is_empty()).then(|| Input::word("laws", named)));
     Ok(Analysis {
         kind: &KIND,
+        variant: "",
         machine: name.to_owned(),
         speeds: rpm.map_or(Speeds::Any(()), Speeds::One),
         inputs,
         sections: vec![report::section(&rows, rise, machine.is_some())],
         measures: Vec::new(),
         notes: machine.map(|machine| machine.idle_key_notes(KIND.keys, KIND.noun)).unwrap_or_default(),
-        picture: Picture::Curves(report::plot(name, &rows, rise)),
+        picture: Picture::Curves(report::plot(name, &rows, rise, program.and_then(own_law))),
         mechanism: None,
         document: None,
         tables: vec![("", report::table(&rows))],

@@ -28,6 +28,8 @@ pub type Listing = (&'static str, Table);
 pub struct Analysis {
     /// Its kind.
     pub kind: &'static Kind,
+    /// What distinguishes it from another run of the same command in the names of its files, such as `fixed`; empty for the usual one.
+    pub variant: &'static str,
     /// Name of the machine.
     pub machine: String,
     /// For which speeds of the main shaft.
@@ -75,7 +77,7 @@ impl Picture {
     pub fn sheet(&self, mark: &str) -> Sheet {
         match self {
             Self::Curves(curves) | Self::CurvesWithCard(curves, _) => plot::sheet(curves, mark),
-            Self::Chart(points) => chart::sheet(points),
+            Self::Chart(points) => chart::sheet(points, mark),
         }
     }
 
@@ -92,6 +94,14 @@ impl Picture {
     pub fn endings(&self) -> Vec<&'static str> {
         let card = if let Self::CurvesWithCard(_, card) = self { Some(card.ending) } else { None };
         std::iter::once("").chain(card).collect()
+    }
+}
+
+impl Analysis {
+    /// The sheets of its picture, with the command in their foot before the mark of the report.
+    #[must_use]
+    pub fn sheets(&self, mark: &str) -> Vec<(&'static str, Sheet)> {
+        self.picture.sheets(&format!("camgen {} · {mark}", self.kind.command))
     }
 }
 

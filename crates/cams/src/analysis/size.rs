@@ -6,8 +6,8 @@ use crate::body::{Body, Figures, Kind, needs_base_circle, sized_disc};
 use crate::check::outlier;
 use crate::machine::Machine;
 use crate::report::diagram::{Diagram, PlottedValue, diagram};
-use crate::report::plot::{Plot, PlotCurve, PlotPanel};
-use crate::report::{Section, Speeds, shown};
+use crate::report::plot::{PictureColour, Plot, PlotBand, PlotCurve, PlotLine, PlotPanel, PlotPoint, figure};
+use crate::report::{Section, Speeds};
 use crate::table::{ListedColumn, Table};
 use camgen_kernel::document::{Input, NamedChoice, cams};
 use camgen_kernel::follower::FollowerPlacement;
@@ -187,6 +187,7 @@ pub fn analysis(machine: &Machine, free: &[FreeDimension], rpm: Option<f64>) -> 
     let size_suffix = if of_place.is_some() { "-sizes" } else { "" };
     Ok(Analysis {
         kind: &KIND,
+        variant: "",
         machine: machine.name().to_owned(),
         speeds: rpm.map_or(Speeds::Any(()), Speeds::One),
         inputs,
@@ -291,44 +292,31 @@ fn words(disc: &Disc, size: &Size, place: Option<FollowerPlacement>) -> Vec<Text
     words
 }
 
-/// Colour of a limit among those of the curves.
-const RED: usize = 4;
-
 /// A curve of rows.
-fn curve(name: &str, colour: usize, rows: &[SizeRow], values: [fn(&SizeRow) -> f64; 2]) -> PlotCurve {
-    let points = rows.iter().map(|row| values.map(|value| value(row))).collect();
-    PlotCurve { name: name.into(), colour, bold: true, points }
+fn curve(name: &str, rows: &[SizeRow], values: [fn(&SizeRow) -> f64; 2]) -> PlotCurve {
+    PlotCurve::new(name, 0, rows.iter().map(|row| values.map(|value| value(row))).collect())
 }
 
-/// The mark of the chosen cam.
-fn circle(chosen: &SizeRow, values: [fn(&SizeRow) -> f64; 2]) -> PlotCurve {
-    curve("", 0, std::slice::from_ref(chosen), values)
+/// The mark of the chosen cam, with its figures.
+fn chosen_point(chosen: &SizeRow, values: [fn(&SizeRow) -> f64; 2], unit: &str) -> PlotPoint {
+    let at = values.map(|value| value(chosen));
+    PlotPoint { colour: PictureColour::Line(0), ..PlotPoint::ring(at, figure(at[1]) + unit) }
 }
 
-/// A figure over the base radius, with its limit where there is one, and the chosen cam.
+/// A figure over the base radius, with its limit and the chosen cam.
 fn over_base_radius(
-    (name, title): (&str, &str),
+    name: &str,
     value: fn(&SizeRow) -> f64,
     (rows, chosen): (&[SizeRow], &SizeRow),
-    limit: f64,
+    unit: &str,
+    limit: Option<PlotBand>,
 ) -> PlotPanel {
     let values: [fn(&SizeRow) -> f64; 2] = [|row| row.base_radius_mm, value];
-    let ends = rows.first().zip(rows.last()).filter(|_| limit.is_finite() && limit > 0.0);
-    let line = |(first, last): (&SizeRow, &SizeRow)| PlotCurve {
-        name: "limit".into(),
-        colour: RED,
-        bold: false,
-        points: vec![[first.base_radius_mm, limit], [last.base_radius_mm, limit]],
-    };
-    let limited = if ends.is_some() { format!("limit {}, ", shown(limit)) } else { String::new() };
-    let [at, of_chosen] = values.map(|value| shown(value(chosen)));
     PlotPanel {
-        name: format!("{title}; {limited}circle: the chosen cam, {of_chosen} at {at} mm"),
-        curves: [curve(name, 0, rows, values)]
-            .into_iter()
-            .chain(ends.map(line))
-            .chain([circle(chosen, values)])
-            .collect(),
+        points: vec![chosen_point(chosen, values, unit)],
+        lines: vec![PlotLine { at: chosen.base_radius_mm, text: "this cam".into(), dashed: false }],
+        bands: limit.into_iter().collect(),
+        ..PlotPanel::new(name, vec![curve("", rows, values)])
     }
 }
 
@@ -339,14 +327,32 @@ fn over_places(place: FollowerPlacement, rows: &[SizeRow], chosen: &SizeRow) -> 
         FollowerPlacement::Pivot { .. } => "pivot distance, mm",
     };
     let at: fn(&SizeRow) -> f64 = |row| row.place;
-    let curves = vec![
-        curve("pressure angle alone", 1, rows, [at, |row| row.by_pressure_angle_mm]),
-        curve("every limit", 0, rows, [at, |row| row.prime_radius_mm]),
-        circle(chosen, [at, |row| row.prime_radius_mm]),
-    ];
-    let [radius, at] = [chosen.prime_radius_mm, chosen.place].map(shown);
-    let name = format!("Smallest prime radius, mm; circle: the chosen cam, {radius} at {at} mm");
-    (places.to_owned(), PlotPanel { name, curves })
+    let by_angle = rows.iter().map(|row| [row.place, row.by_pressure_angle_mm]).collect();
+    let panel = PlotPanel {
+        points: vec![chosen_point(chosen, [at, |row| row.prime_radius_mm], " mm")],
+        ..PlotPanel::new(
+            "Smallest prime radius, mm",
+            vec![
+                PlotCurve::grey("pressure angle alone", by_angle),
+                curve("every limit", rows, [at, |row| row.prime_radius_mm]),
+            ],
+        )
+    };
+    (places.to_owned(), panel)
+}
+
+/// What keeps the cam from being smaller, in words; empty where no base radius is known to be the smallest.
+fn headline(disc: &Disc, smallest: Option<f64>) -> String {
+    let own = MILLIMETRES * disc.base_radius();
+    match smallest.map(|prime| MILLIMETRES * (prime - disc.curves().offset())) {
+        Some(least) if own > least * (1.0 + 1e-3) => {
+            format!("A base radius of {} mm would do: this cam has {} mm", figure(least), figure(own))
+        }
+        Some(least) if own < least * (1.0 - 1e-9) => {
+            format!("Too small by {} mm: the limits need a base radius of {} mm", figure(least - own), figure(least))
+        }
+        _ => format!("{} mm is the smallest base radius within every limit", figure(own)),
+    }
 }
 
 fn plot(disc: &Disc, by_place: Option<&(FollowerPlacement, Vec<SizeRow>)>, by_size: &[SizeRow]) -> Plot {
@@ -354,16 +360,26 @@ fn plot(disc: &Disc, by_place: Option<&(FollowerPlacement, Vec<SizeRow>)>, by_si
     let chosen = row(Some(disc), place.map_or(f64::NAN, |place| place.chosen_by(&**disc.follower())), f64::NAN);
     let limits = &disc.machine().limits;
     let [rising, falling] = limits.pressure_angles();
-    let angle = ("pressure angle", "Largest pressure angle, degrees");
-    let convex = ("convex radius", "Least convex radius of the follower's curve, mm");
-    let least = MILLIMETRES * limits.convex_radius(disc.curves().offset());
+    let usable = |limit: f64| Some(limit).filter(|limit| limit.is_finite() && *limit > 0.0);
+    let steepest = usable(rising.min(falling).to_degrees())
+        .map(|limit| PlotBand::above(limit, format!("over the limit of {}°", figure(limit))));
+    let sharpest = usable(MILLIMETRES * limits.convex_radius(disc.curves().offset()))
+        .map(|limit| PlotBand::below(limit, format!("sharper than the limit of {} mm", figure(limit))));
     let sizes = (by_size, &chosen);
+    let prime = figure(chosen.prime_radius_mm);
     Plot {
-        title: format!("{}: the smallest cam", disc.machine().name()),
+        title: headline(disc, disc.smallest_prime_radius()),
+        subtitle: format!("{}: prime radius {prime} mm; what other sizes would have", disc.machine().name()),
         places: "base radius, mm".into(),
         panels: vec![
-            over_base_radius(angle, |row| row.pressure_angle_deg, sizes, rising.min(falling).to_degrees()),
-            over_base_radius(convex, |row| row.convex_radius_mm, sizes, least),
+            over_base_radius("Largest pressure angle, degrees", |row| row.pressure_angle_deg, sizes, "°", steepest),
+            over_base_radius(
+                "Least convex radius of the follower's curve, mm",
+                |row| row.convex_radius_mm,
+                sizes,
+                " mm",
+                sharpest,
+            ),
         ],
         own: by_place.map(|(place, rows)| over_places(*place, rows, &chosen)).into_iter().collect(),
         ..Plot::default()

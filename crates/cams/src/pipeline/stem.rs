@@ -42,10 +42,12 @@ impl Cam {
 }
 
 impl Judged {
-    /// The usual start of the names of its files, MACHINE-COMMAND-SPEEDSrpm.
+    /// The usual start of the names of its files, MACHINE-COMMAND-SPEEDSrpm; a variant of a command has its name behind that of the command.
     #[must_use]
     pub fn stem(&self, machine: &str) -> String {
-        let command = self.analysis().kind.command;
+        let variant = self.analysis().variant;
+        let between = if variant.is_empty() { "" } else { "-" };
+        let command = format!("{}{between}{variant}", self.analysis().kind.command);
         let of = |speeds: &[String]| format!("{machine}-{command}-{}rpm", speeds.join("-"));
         match &self.analysis().speeds {
             Speeds::Any(()) => format!("{machine}-{command}"),

@@ -1,23 +1,20 @@
 //! A log-log chart on a sheet of paper, e.g. of computing time against residual force.
 
-use super::sheet::paper::{PAPERS, PaperSize, SheetBorder, frame_and_grid};
+use super::page::{PAGE, PicturePage};
 use super::sheet::placing::{OccupiedPaper, field_near, filling, half_field};
-use super::sheet::{STROKE, ShapeGroup, Sheet, SheetShape, TextAnchor, font, words};
+use super::sheet::{ShapeGroup, Sheet, SheetShape, TextAnchor, words};
+use super::style::{NAME, SMALL as LABEL, TEXT};
 use camgen_kernel::geometry::Entity;
 use camgen_kernel::geometry::contour::Extents;
 use nalgebra::Vector2;
 
-/// Height of the texts, of the title and of the labels, mm.
-const TEXT: f64 = 3.0;
-const TITLE: f64 = 4.5;
-const LABEL: f64 = 2.5;
 /// Radius of a point, mm.
 const POINT: f64 = 1.0;
 /// Room of a panel for the names of its lines: to the left, above, below, to the right, mm.
 const LEFT: f64 = 16.0;
 const ABOVE: f64 = 10.0;
 const BELOW: f64 = 14.0;
-const RIGHT: f64 = 8.0;
+const RIGHT: f64 = 4.0;
 /// From a point to its label in points, and how many directions are tried.
 const NEAR: [f64; 4] = [1.6, 3.0, 5.0, 8.0];
 const DIRECTIONS: u32 = 16;
@@ -63,8 +60,10 @@ pub struct ChartPanel {
 /// Panels one below the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
-    /// Head of the sheet.
+    /// The answer with its figure.
     pub title: String,
+    /// What is compared, and for what.
+    pub subtitle: String,
     /// What is shown across in every panel, with its unit.
     pub x_name: &'static str,
     /// The panels.
@@ -73,44 +72,26 @@ pub struct Chart {
 
 /// The chart on a sheet; points that are not above 0 cannot be shown and are left out.
 #[must_use]
-pub fn sheet(Chart { title, x_name, panels }: &Chart) -> Sheet {
-    let paper = PAPERS.first().copied().unwrap_or(PaperSize {
-        name: "",
-        size: Vector2::repeat(1.0),
-        lettering: &[],
-        border: SheetBorder::Iso,
-    });
-    let frame = paper.frame(Vector2::zeros());
-    let mut groups = frame_and_grid(&paper, Vector2::zeros());
-    let room = frame.size().x - 4.0 * TEXT;
-    let (lines, size) = font::fitted(title, TITLE, room, 3.0 * TITLE);
-    let mut top = frame.largest.y - 2.0 * TEXT;
-    let mut heads = Vec::new();
-    for line in lines {
-        top -= font::LEADING * size;
-        heads.push(words(Vector2::new(frame.least.x + 2.0 * TEXT, top), size, TextAnchor::Start, line));
-    }
-    groups.push(ShapeGroup { class: "facts", ..ShapeGroup::new("title", "title", heads) });
-    top -= TEXT;
+pub fn sheet(Chart { title, subtitle, x_name, panels }: &Chart, mark: &str) -> Sheet {
+    let mut page = PicturePage::new(PAGE, title, subtitle, mark);
+    let body = page.body;
+    let mut top = body.largest.y;
     let fits = |p: &&ChartPoint| p.x > 0.0 && p.y > 0.0 && (p.x * p.y).is_finite();
     let x = decades(panels.iter().flat_map(|panel| &panel.points).filter(fits).map(|p| p.x));
     #[expect(clippy::cast_precision_loss, reason = "a few panels")]
-    let each = (top - frame.least.y) / panels.len().max(1) as f64;
-    for panel in panels {
+    let each = (top - body.least.y) / panels.len().max(1) as f64;
+    for (index, panel) in panels.iter().enumerate() {
         let field = Extents {
-            least: Vector2::new(frame.least.x + LEFT, top - each + BELOW),
-            largest: Vector2::new(frame.largest.x - RIGHT, top - ABOVE),
+            least: Vector2::new(body.least.x + LEFT, top - each + BELOW),
+            largest: Vector2::new(body.largest.x - RIGHT, top - ABOVE),
         };
         let shown: Vec<&ChartPoint> = panel.points.iter().filter(fits).collect();
-        groups.extend(panel_groups(panel.y_name, x_name, &shown, x, &field));
+        // A name occurs once in a file.
+        let named = |group: ShapeGroup| ShapeGroup { id: format!("{}-{index}", group.id), ..group };
+        page.extend(panel_groups(panel.y_name, x_name, &shown, x, &field).into_iter().map(named));
         top -= each;
     }
-    for (index, group) in groups.iter_mut().enumerate().skip(3) {
-        // A name occurs once in a file.
-        group.id = format!("{}-{index}", group.id);
-    }
-    let extents = Extents { least: Vector2::zeros(), largest: paper.size };
-    Sheet { title: title.clone(), extents, stroke: STROKE, scale: 1.0, groups }
+    page.sheet()
 }
 
 /// One panel in its field.
@@ -130,17 +111,16 @@ fn panel_groups(y_name: &str, x_name: &str, shown: &[&ChartPoint], x: (f64, f64)
         taken.put(shape);
     }
     let labels = labels(shown, at, &mut taken);
-    let middle = 0.5 * (field.least.x + field.largest.x);
     let names = vec![
-        words(Vector2::new(middle, field.least.y - 3.0 * TEXT), TEXT, TextAnchor::Middle, x_name),
-        words(Vector2::new(field.least.x - LEFT + TEXT, field.largest.y + 1.2 * TEXT), TEXT, TextAnchor::Start, y_name),
+        words(Vector2::new(field.largest.x, field.least.y - 3.0 * TEXT), NAME, TextAnchor::End, x_name),
+        words(Vector2::new(field.least.x - LEFT, field.largest.y + 0.8 * TEXT), NAME, TextAnchor::Start, y_name),
     ];
     vec![
-        ShapeGroup { class: "trace-grid", ..ShapeGroup::new("grid", "grid", grid) },
+        ShapeGroup { class: "tick", ..ShapeGroup::new("grid", "grid", grid) },
         ShapeGroup { class: "other", ..ShapeGroup::new("other", "other settings", others) },
         ShapeGroup { class: "front", ..ShapeGroup::new("front", "Pareto front", front) },
         ShapeGroup { class: "facts", ..ShapeGroup::new("labels", "labels", labels) },
-        ShapeGroup { class: "facts", ..ShapeGroup::new("names", "names", names) },
+        ShapeGroup { class: "strong", ..ShapeGroup::new("names", "names", names) },
     ]
 }
 

@@ -12,12 +12,14 @@ mod finding;
 mod inputs;
 pub mod mechanism;
 pub mod motion_diagram;
+mod page;
 pub mod plot;
 mod point_measures;
 mod program_measures;
 mod rolled;
 pub mod scheme;
 pub mod sheet;
+pub mod style;
 pub mod trace;
 mod values;
 

@@ -14,7 +14,7 @@ pub struct Scheme {
 }
 
 /// The mechanism in one position.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct SchemePose {
     /// The name of the position.
     pub name: String,
@@ -22,6 +22,32 @@ pub struct SchemePose {
     pub strokes: Vec<Stroke>,
     /// Its joints, on top of the lines.
     pub joints: Vec<SchemeJoint>,
+    /// Sizes, each next to what it is of.
+    pub labels: Vec<SchemeLabel>,
+    /// Distances along the horizontal.
+    pub dimensions: Vec<SchemeDimension>,
+}
+
+/// A size next to what it is of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SchemeLabel {
+    /// The size with what it is of, such as `Ø80`.
+    pub text: String,
+    /// Where it is, mm.
+    pub at: Vector2<f64>,
+    /// The preferred direction of its text.
+    pub towards: Vector2<f64>,
+}
+
+/// A horizontal distance, dimensioned below the position or above it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SchemeDimension {
+    /// Its ends, mm.
+    pub ends: [Vector2<f64>; 2],
+    /// Its line: 1 is the first below, −1 the first above.
+    pub lane: i32,
+    /// The distance.
+    pub text: String,
 }
 
 /// What a line is.

@@ -97,11 +97,13 @@ pub fn analysis(task: &TradeTask<'_>, run: TradeRun<'_>) -> Result<Analysis, Ref
     let measured = measure::measure(laws, settings, limits, run)?;
     let (advised, chosen) = (report::advice(&measured.rows, limits), report::chosen(&measured.rows));
     let chain = chain::left_over(chosen, &task.others);
+    let title = report::headline(&measured.rows, limits);
     let advice = chain::not_the_outline(&chain).map_or(advised.clone(), |why| format!("{advised}; {why}"));
     let against = if limits.residual.is_some() { "force" } else { "gap" };
     let speed = task.rpm.map_or(String::new(), |rpm| format!(" at {} rpm", shortest(rpm)));
     let (machine, cam) = (task.machine.name(), if task.cam == "make" { "disc" } else { task.cam });
-    let title = format!("{machine}: pieces against {against} and acceleration of a {cam} cam{speed}");
+    let subtitle =
+        format!("{machine}: pieces against {against} and acceleration of a {cam} cam{speed}; the front in blue");
     let mut inputs = task.inputs.clone();
     inputs.push(Input::word("command", format!("{COMMAND} {}", task.cam)));
     inputs.extend(task.rpm.map(|rpm| Input::number("rpm", rpm)));
@@ -116,6 +118,7 @@ pub fn analysis(task: &TradeTask<'_>, run: TradeRun<'_>) -> Result<Analysis, Ref
     sections.extend(chosen.and_then(|row| row.flags.as_ref()).map(|flags| Section::new("flags", flags)));
     Ok(Analysis {
         kind: task.kind,
+        variant: "",
         machine: machine.to_owned(),
         speeds: task.rpm.map_or(Speeds::Any(()), Speeds::One),
         inputs,
@@ -125,7 +128,7 @@ pub fn analysis(task: &TradeTask<'_>, run: TradeRun<'_>) -> Result<Analysis, Ref
         notes: measured.missing,
         by: &[],
         along: "pieces",
-        picture: Picture::Chart(report::chart_of(&measured.rows, limits, title)),
+        picture: Picture::Chart(report::chart_of(&measured.rows, limits, title, subtitle)),
         mechanism: None,
         document: None,
         diagrams: &[],

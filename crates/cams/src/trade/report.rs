@@ -3,6 +3,7 @@
 use super::measure::{TradeLimits, TradeMeasurement, TradeRow};
 use crate::report::ReportLine;
 use crate::report::chart::{self, Chart, ChartPanel, ChartPoint};
+use crate::report::plot::figure;
 use crate::report::shown;
 use crate::table::{ListedColumn, Table};
 
@@ -148,9 +149,23 @@ fn or_dash(value: Option<f64>) -> String {
     value.map_or("–".to_owned(), shown)
 }
 
+/// The advice in a line, without its flags.
+pub(super) fn headline(rows: &[TradeRow], limits: TradeLimits) -> String {
+    match chosen(rows) {
+        Some(row) => {
+            let left = match (limits.residual, row.acceleration_share) {
+                (None, Some(share)) => format!("{} % error of the acceleration", figure(100.0 * share)),
+                _ => format!("{} N are left", figure(row.residual_n)),
+            };
+            format!("{} is enough: {} {}, {left}", row.setting, row.pieces, row.entity.word())
+        }
+        None => format!("No setting leaves at most {}", limits.words()),
+    }
+}
+
 /// Pieces against residual force, or the gap where there is no force to balance, and against the acceleration error, each with its Pareto
 /// front.
-pub(super) fn chart_of(rows: &[TradeRow], limits: TradeLimits, title: String) -> Chart {
+pub(super) fn chart_of(rows: &[TradeRow], limits: TradeLimits, title: String, subtitle: String) -> Chart {
     let points = |value: fn(&TradeRow) -> Option<f64>| {
         let points = rows.iter().filter_map(|row| {
             Some(ChartPoint { x: count(row.pieces), y: value(row)?, label: row.setting.clone(), best: false })
@@ -167,5 +182,5 @@ pub(super) fn chart_of(rows: &[TradeRow], limits: TradeLimits, title: String) ->
         },
         ChartPanel { y_name: "acceleration error over the largest", points: points(|row| row.acceleration_share) },
     ];
-    Chart { title, x_name: "pieces", panels }
+    Chart { title, subtitle, x_name: "pieces", panels }
 }

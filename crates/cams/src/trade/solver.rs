@@ -117,6 +117,7 @@ pub fn analysis(
     let told_flags = chosen.map(|row| format!("flags: {}", row.flags));
     Ok(Analysis {
         kind: task.kind,
+        variant: "",
         machine: task.machine.to_owned(),
         speeds: task.speeds,
         inputs,
@@ -132,7 +133,7 @@ pub fn analysis(
         tables: vec![("", Table { words: Some(("setting", names)), ..Table::listed(columns, rows) })],
         by: &[],
         along: "pieces",
-        picture: Picture::Chart(chart_of(rows, format!("{}: {about}", task.machine), about)),
+        picture: Picture::Chart(chart_of(rows, advice.clone(), format!("{}: {about}", task.machine), about)),
         mechanism: None,
         document: None,
         diagrams: &[],
@@ -158,11 +159,11 @@ fn advice(rows: &[SolverRow], chosen: Option<&SolverRow>, limit: &str, told: imp
     }
 }
 
-fn chart_of(rows: &[SolverRow], title: String, about: &'static str) -> Chart {
+fn chart_of(rows: &[SolverRow], title: String, subtitle: String, about: &'static str) -> Chart {
     let mut points: Vec<ChartPoint> = rows
         .iter()
         .map(|row| ChartPoint { x: count(row), y: row.error, label: row.setting.clone(), best: false })
         .collect();
     chart::mark_front(&mut points);
-    Chart { title, x_name: "pieces", panels: vec![ChartPanel { y_name: about, points }] }
+    Chart { title, subtitle, x_name: "pieces", panels: vec![ChartPanel { y_name: about, points }] }
 }

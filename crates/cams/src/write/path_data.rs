@@ -46,6 +46,7 @@ impl PathData {
             SheetShape::Path(points) => self.chain(points),
             SheetShape::Arc(start, end, bulge) => self.open_arc(&Segment { start: *start, end: *end, bulge: *bulge }),
             SheetShape::Triangle(corners) => self.chain(corners) + "Z",
+            SheetShape::Area(corners) => self.chain(corners) + "Z",
             SheetShape::Text { .. } => String::new(),
         }
     }

@@ -27,7 +27,7 @@ pub const FORMAT: View = View {
     of_analysis: Some(AnalysisFormat {
         endings: |analysis| analysis.picture.endings().iter().map(|ending| format!("{ending}.pdf")).collect(),
         write: |account| {
-            let sheets = account.analysis.picture.sheets(&account.report.mark());
+            let sheets = account.analysis.sheets(&account.report.mark());
             sheets.iter().map(|(_, sheet)| write(sheet, account.template)).collect()
         },
     }),

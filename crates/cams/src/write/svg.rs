@@ -27,7 +27,7 @@ pub const FORMAT: View = View {
         endings: |analysis| analysis.picture.endings().iter().map(|ending| format!("{ending}.svg")).collect(),
         write: |account| {
             let mark = account.report.mark();
-            let sheets = account.analysis.picture.sheets(&mark);
+            let sheets = account.analysis.sheets(&mark);
             sheets.iter().map(|(_, sheet)| fill(sheet, account.template, true, &mark)).collect()
         },
     }),
@@ -75,6 +75,8 @@ pub const TEMPLATE: &str = include_str!("../../templates/sheet.svg");
 
 /// Classes of the groups that show an outline: they state their scale.
 const OUTLINES: [&str; 2] = ["profile", "section"];
+/// Classes of the groups whose colour fills their shapes.
+const FILLED: [&str; 2] = ["area", "dot"];
 /// Decimals of a coordinate: a nanometre.
 const DECIMALS: usize = 6;
 
@@ -182,7 +184,11 @@ fn layer(group: &ShapeGroup, scale: f64, with_lengths: bool) -> element::Group {
         .set("inkscape:groupmode", "layer")
         .set("inkscape:label", printable(&group.label.to_string()));
     if let Some(colour) = &group.colour {
-        node = node.set("stroke", colour.as_str());
+        // Texts take `color` where their class says so.
+        node = match FILLED.contains(&group.class) {
+            true => node.set("fill", colour.as_str()),
+            false => node.set("stroke", colour.as_str()).set("color", colour.as_str()),
+        };
     }
     if OUTLINES.contains(&group.class) {
         node = node.set("data-scale", number(scale));
@@ -212,6 +218,7 @@ fn shape_element(shape: &SheetShape, with_lengths: bool) -> Box<dyn Node> {
             element::Path::new().set("d", data.open_arc(&segment)).into()
         }
         SheetShape::Triangle(corners) => element::Polygon::new().set("points", data.places(corners, " ")).into(),
+        SheetShape::Area(corners) => element::Polygon::new().set("points", data.places(corners, " ")).into(),
         SheetShape::Text { at, height, anchor, text } => {
             let anchor = match anchor {
                 TextAnchor::Start => "start",

@@ -184,13 +184,14 @@ fn of_frame(
     sections.extend(design);
     Ok(Analysis {
         kind: &KIND,
+        variant: "",
         machine: machine.name().to_owned(),
         speeds: Speeds::Any(()),
         inputs: inputs(machine, request),
         sections,
         measures: judged::measures(machine, &braking, &tensions, held.is_some()),
         notes: notes(machine),
-        picture: Picture::Curves(curves::plot(machine.name(), &braking, held)),
+        picture: Picture::Curves(curves::plot(machine.name(), machine.limits.tension_spread, &braking, held)),
         mechanism: Some(moving::mechanism(&braking)),
         document: document.or_else(|| Some(design::lines(brake).join("\n") + "\n")),
         tables: vec![("", Table::listed(&columns, &rows))],

@@ -11,6 +11,7 @@ mod tests;
 
 use crate::linkage::MachineOfLinkage;
 use crate::linkage::checks::{DEAD_POINTS, GRASHOF, LINK_RATIO, REVERSALS, ROD_ANGLE, TRANSMISSION_ANGLE};
+use crate::linkage::machine::LinkageLimits;
 use crate::linkage::synthesis;
 use crate::press::MachineOfPress;
 use crate::press::bed_motion::{self, Branch, Characteristics, DragLink, Linkage};
@@ -21,7 +22,7 @@ use camgen_cams::analysis::{Analysis, Picture};
 use camgen_cams::body::Kind;
 use camgen_cams::check::Measure;
 use camgen_cams::machine::Machine;
-use camgen_cams::report::plot::{self, Plot, PlotCurve, PlotPanel};
+use camgen_cams::report::plot::{Plot, PlotBand, PlotCurve, PlotPanel, PlotPoint, figure};
 use camgen_cams::report::{Section, Speeds, degrees, shown};
 use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::Input;
@@ -211,6 +212,7 @@ pub fn analysis(machine: &Machine, rpm: f64, goal: Option<DragLinkGoal>) -> Resu
     sections.extend(goal.and_then(|_| design(data)));
     Ok(Analysis {
         kind: &KIND,
+        variant: "",
         machine: machine.name().to_owned(),
         speeds: Speeds::One(rpm),
         inputs,
@@ -220,7 +222,15 @@ pub fn analysis(machine: &Machine, rpm: f64, goal: Option<DragLinkGoal>) -> Resu
         picture: Picture::Curves(Plot {
             own: own.into_iter().collect(),
             scheme: Some(picture::scheme(&lying)),
-            ..curves(machine.name(), data, bed, data.to_line(found.outer), &rows)
+            ..curves(&LinkageCurves {
+                machine,
+                data,
+                bed,
+                outer: data.to_line(found.outer),
+                rpm,
+                found: &linkage_figures,
+                rows: &rows,
+            })
         }),
         mechanism: Some(moving::mechanism(&lying, ROWS, speed)),
         document: described::lines(data).map(|lines| lines.join("\n") + "\n"),
@@ -369,36 +379,97 @@ fn signed_percent(share: f64) -> String {
     format!("{:+.2} %", 100.0 * share)
 }
 
-/// x, x' and x'' over a turn, then the same of the crank-slider alone, both from the outer dead point on: figure 3 of the paper.
-fn curves(machine: &str, data: &LinkageData, bed: &Bed, outer: f64, rows: &[LinkageRow]) -> Plot {
+/// What the linkage makes of the motion of the bed: its largest acceleration against that of a crank-slider alone, and the angle that limits it.
+fn headline(found: &LinkageFigures, limits: &LinkageLimits) -> String {
+    let Some(angle) = found.transmission_min_deg else {
+        let force = format!("Inertia of the bed at most {} N", figure(found.inertia_max_n));
+        return if found.rod_angle_max_deg > 0.0 {
+            format!("{force}, rod at most {}° from its line", figure(found.rod_angle_max_deg))
+        } else {
+            force
+        };
+    };
+    let limit = limits.transmission_angle.to_degrees();
+    if angle < limit {
+        return format!("Transmission angle {}°: below the least of {}°", figure(angle), figure(limit));
+    }
+    let percent = (1e3 * found.compared.c.abs()).round() / 10.0;
+    let side = if found.compared.c < 0.0 { "less" } else { "more" };
+    format!(
+        "{} % {side} force than a crank-slider alone; transmission angle {}°, at least {}° needed",
+        figure(percent),
+        figure(angle),
+        figure(limit)
+    )
+}
+
+/// What the curves are made from.
+struct LinkageCurves<'a> {
+    machine: &'a Machine,
+    data: &'a LinkageData,
+    bed: &'a Bed,
+    outer: f64,
+    rpm: f64,
+    found: &'a LinkageFigures,
+    rows: &'a [LinkageRow],
+}
+
+/// The motion of the bed over a turn, with that of a crank-slider alone in grey, and the angles with their limits.
+fn curves(of: &LinkageCurves<'_>) -> Plot {
+    let (data, rows) = (of.data, of.rows);
     let own: Vec<[f64; 6]> = rows.iter().map(|row| row.motion).collect();
     let alone: Option<Vec<[f64; 6]>> = match data.linkage {
         Linkage::SixBar(_, slider) => {
             let plain = Linkage::CrankSlider(slider);
             let [own_outer, _] = plain.dead_points();
-            let cranks = rows.iter().map(|row| row.crank.to_radians() - outer + own_outer);
-            Some(cranks.map(|crank| plain.position(crank).map(|x| bed.crank_radius * x)).collect())
+            let cranks = rows.iter().map(|row| row.crank.to_radians() - of.outer + own_outer);
+            Some(cranks.map(|crank| plain.position(crank).map(|x| of.bed.crank_radius * x)).collect())
         }
         _ => None,
     };
     let mut panels = Vec::new();
-    for (order, name) in
-        ["Position of the bed, mm", "Velocity, mm/rad", "Acceleration, mm/rad²"].into_iter().enumerate()
+    for (order, name) in ["Position of the bed, mm", "Velocity of the bed, mm/rad", "Acceleration of the bed, mm/rad²"]
+        .into_iter()
+        .enumerate()
     {
         let points = by_crank(rows, &own, order);
-        let mut curves = vec![PlotCurve { name: "bed".into(), colour: 0, bold: true, points }];
-        curves.extend(alone.as_ref().map(|alone| {
-            let points = by_crank(rows, alone, order);
-            PlotCurve { name: "crank-slider".into(), colour: plot::GREY, bold: false, points }
-        }));
-        panels.push(PlotPanel { name: name.into(), curves });
+        let mut curves: Vec<PlotCurve> = Vec::new();
+        if let Some(alone) = &alone {
+            curves.push(PlotCurve::grey("crank-slider", by_crank(rows, alone, order)));
+        }
+        let extremes = if order == 2 { extremes(&points) } else { Vec::new() };
+        curves.push(PlotCurve::new(if alone.is_some() { "this linkage" } else { "" }, 0, points));
+        panels.push(PlotPanel { points: extremes, ..PlotPanel::new(name, curves) });
     }
+    let limits = of.machine.linkage_limits();
+    if of.found.transmission_min_deg.is_some() {
+        let limit = limits.transmission_angle.to_degrees();
+        let points = rows.iter().map(|row| [row.crank, row.transmission]).collect();
+        panels.push(PlotPanel {
+            bands: vec![PlotBand::below(limit, format!("below the least angle of {}°", figure(limit)))],
+            ..PlotPanel::new("Transmission angle of the drag link, degrees", vec![PlotCurve::new("", 0, points)])
+        });
+    }
+    let speed = if of.rpm.is_finite() { format!(", {} rpm", figure(of.rpm)) } else { String::new() };
     Plot {
-        title: format!("{machine}: the bed over a turn of the driving crank"),
+        title: headline(of.found, &limits),
+        subtitle: format!(
+            "{}{speed}: the bed over a turn of the driving crank, stroke {} mm",
+            of.machine.name(),
+            figure(of.found.stroke_mm)
+        ),
         places: "crank angle from the line of the slider, degrees".into(),
         panels,
         ..Plot::default()
     }
+}
+
+/// The largest and the least point of a curve, labelled.
+fn extremes(points: &[[f64; 2]]) -> Vec<PlotPoint> {
+    let best = |sign: f64| {
+        points.iter().copied().reduce(|best, next| if sign * next[1] > sign * best[1] { next } else { best })
+    };
+    [best(1.0), best(-1.0)].into_iter().flatten().map(|at| PlotPoint::dot(at, 0, figure(at[1]))).collect()
 }
 
 /// A derivative of the motion, mm, over the crank angle of the rows.

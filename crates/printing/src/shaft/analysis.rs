@@ -205,6 +205,7 @@ pub fn analysis(machine: &ShaftMachine, asked: &ShaftOptions) -> Result<Analysis
     tables.extend(found.under.as_ref().map(|under| ("-lift", under.table(asked.samples))));
     Ok(Analysis {
         kind: &KIND,
+        variant: "",
         machine: machine.name().to_owned(),
         speeds: speed_of(&found),
         inputs: inputs(machine, asked),

@@ -7,7 +7,7 @@ pub mod measured;
 use super::{Analysis, Picture};
 use crate::body::{Body, Cut, Kind};
 use crate::check::{Check, CheckExplanation, CheckScope, Measure};
-use crate::report::plot::{Plot, PlotCurve, PlotPanel};
+use crate::report::plot::{Plot, PlotBand, PlotCurve, PlotPanel, PlotPoint, figure};
 use crate::report::{Bound, Place, Section, Verdict, sha256, shown};
 use crate::table::{ListedColumn, Table};
 use camgen_kernel::document::{Input, cams};
@@ -131,6 +131,7 @@ pub fn analysis(
     inputs.push(Input::word("fit", word(options.fit)));
     Ok(Analysis {
         kind: &KIND,
+        variant: "",
         machine: body.machine().name().to_owned(),
         speeds: body.speeds(),
         inputs,
@@ -139,7 +140,7 @@ pub fn analysis(
         tables: vec![("", Table::listed(COLUMNS, &rows))],
         by: &[],
         along: "polar_deg",
-        picture: Picture::Curves(plot(body, &rows, &waves)),
+        picture: Picture::Curves(plot(body, &rows, &moved, &waves)),
         mechanism: None,
         document: None,
         diagrams: &[],
@@ -153,6 +154,8 @@ const OFF: f64 = 0.02;
 const BETTER: f64 = 0.2;
 /// Largest number of points compared.
 const LOOKED: usize = 720;
+/// Micrometres in a millimetre.
+const MICROMETRES: f64 = 1e3;
 /// Millimetres in an inch.
 const INCH: f64 = 25.4;
 
@@ -371,32 +374,69 @@ fn words(body: &dyn Body, found: &Comparison) -> Vec<Text> {
     words
 }
 
-fn plot(body: &dyn Body, rows: &[PointRow], waves: &[[f64; 2]]) -> Plot {
-    let curve = |name: &str, colour: usize, value: fn(&PointRow) -> f64| PlotCurve {
-        name: name.into(),
-        colour,
-        bold: colour == 0,
-        points: rows.iter().map(|row| [polar(row.place.foot).to_degrees(), MILLIMETRES * value(row)]).collect(),
+/// Whether the measured cam lies within the tolerance, with the figure and the place of the largest deviation, µm and degrees.
+fn headline(worst: [f64; 2], half_zone: Option<f64>) -> String {
+    let [at, value] = worst;
+    let side = if value > 0.0 { "too much metal" } else { "too little metal" };
+    let (size, at) = (figure(value.abs()), figure(at));
+    match half_zone {
+        Some(half) if value.abs() > half => {
+            format!("Out of tolerance: {size} µm {side} at {at}°, {} µm allowed", figure(half))
+        }
+        Some(half) => format!("Within tolerance: at most {size} µm of {} µm, {side} at {at}°", figure(half)),
+        None => format!("At most {size} µm off: {side} at {at}°"),
+    }
+}
+
+fn plot(body: &dyn Body, rows: &[PointRow], moved: &MeasuredMove, waves: &[[f64; 2]]) -> Plot {
+    let points = |value: fn(&PointRow) -> f64| {
+        rows.iter().map(|row| [polar(row.place.foot).to_degrees(), MICROMETRES * value(row)]).collect::<Vec<_>>()
+    };
+    let fitted = points(|row| row.place.deviation);
+    let worst = fitted.iter().copied().reduce(|best, next| if next[1].abs() > best[1].abs() { next } else { best });
+    let worst = worst.unwrap_or([0.0; 2]);
+    let half_zone = body.machine().title.profile_tolerance.map(|zone| 0.5 * 1e6 * zone);
+    let limit = |half: f64| {
+        [
+            PlotBand::above(half, format!("too much metal: over {} µm", figure(half))),
+            PlotBand::below(-half, format!("too little metal: below −{} µm", figure(half))),
+        ]
     };
     let deviations = PlotPanel {
-        name: "Deviation along the normal, µm, positive where there is too much metal".into(),
-        curves: vec![curve("as measured", 8, |row| row.raw), curve("fitted", 0, |row| row.place.deviation)],
+        points: vec![PlotPoint::dot(worst, 0, format!("{} µm at {}°", figure(worst[1]), figure(worst[0])))],
+        bands: half_zone.into_iter().flat_map(limit).collect(),
+        height: 1.5,
+        ..PlotPanel::new(
+            "Deviation along the normal, µm: positive with too much metal",
+            vec![PlotCurve::grey("as measured", points(|row| row.raw)), PlotCurve::new("fitted", 0, fitted)],
+        )
     };
-    let lift =
-        PlotPanel { name: "Error of the lift, µm".into(), curves: vec![curve("lift", 1, |row| row.place.lift)] };
+    let lift = PlotPanel::new("Error of the lift, µm", vec![PlotCurve::new("", 0, points(|row| row.place.lift))]);
     let orders = waves.iter().enumerate().skip(1);
     #[expect(clippy::cast_precision_loss, reason = "a few dozen orders")]
-    let amplitudes = orders.map(|(order, wave)| [order as f64, MILLIMETRES * amplitude(wave)]).collect::<Vec<_>>();
+    let amplitudes = orders.map(|(order, wave)| [order as f64, MICROMETRES * amplitude(wave)]).collect::<Vec<_>>();
+    let largest = amplitudes.iter().copied().reduce(|best, next| if next[1] > best[1] { next } else { best });
     let spectrum = PlotPanel {
-        name: "Waviness: amplitude of each order, µm".into(),
-        curves: vec![PlotCurve { name: "amplitude".into(), colour: 0, bold: true, points: amplitudes }],
+        points: largest
+            .map(|at| PlotPoint::dot(at, 0, format!("order {}: {} µm", figure(at[0]), figure(at[1]))))
+            .into_iter()
+            .collect(),
+        ..PlotPanel::new("Waviness: amplitude of each order, µm", vec![PlotCurve::new("", 0, amplitudes)])
     };
+    let turn = (moved.turn.to_degrees() + 180.0).rem_euclid(360.0) - 180.0;
+    let shift = format!("{} and {} mm", figure(moved.shift.x), figure(moved.shift.y));
     Plot {
-        title: format!("{}: the measured cam", body.machine().name()),
+        title: headline(worst, half_zone),
+        subtitle: format!(
+            "{}: {} measured points, turned by {}° and shifted by {shift} to fit",
+            body.machine().name(),
+            rows.len(),
+            figure(turn)
+        ),
         places: "polar angle on the part, degrees".into(),
         panels: vec![deviations, lift],
         own: if waves.is_empty() { Vec::new() } else { vec![("order".into(), spectrum)] },
-        scheme: None,
+        ..Plot::default()
     }
 }
 

@@ -220,6 +220,7 @@ pub fn analysis(source: &ImportSource, options: &ImportOptions) -> Result<Analys
     inputs.push(Input::word("laws", laws(options).iter().map(|law| law.name).collect::<Vec<_>>().join(", ")));
     Ok(Analysis {
         kind: &KIND,
+        variant: "",
         machine: options.name.clone(),
         speeds: options.rpm.map_or(Speeds::Any(()), Speeds::One),
         inputs,

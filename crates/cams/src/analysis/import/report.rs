@@ -7,7 +7,7 @@ use super::motion::{FoundMotion, MOST_STRETCHES};
 use super::positions::Positions;
 use super::spline::position;
 use crate::check::Measure;
-use crate::report::plot::{GREY, Plot, PlotCurve, PlotPanel};
+use crate::report::plot::{CurveStroke, Plot, PlotCurve, PlotPanel, PlotPoint, figure};
 use crate::report::{Place, Section, shown};
 use crate::table::{ListedColumn, Table};
 use camgen_kernel::follower::Follower;
@@ -382,39 +382,44 @@ impl Imported {
         let mut order: Vec<usize> = (0..self.rows.len()).collect();
         let angle = |at: usize| self.rows.angle(at).rem_euclid(self.rows.fill).to_degrees();
         order.sort_by(|a, b| angle(*a).total_cmp(&angle(*b)));
-        let curve = |name: &str, colour: usize, bold: bool, value: &dyn Fn(usize) -> f64| PlotCurve {
-            name: name.into(),
-            colour,
-            bold,
-            points: order.iter().map(|at| [angle(*at), value(*at)]).collect(),
-        };
+        let points = |value: &dyn Fn(usize) -> f64| order.iter().map(|at| [angle(*at), value(*at)]).collect::<Vec<_>>();
         let design = |at: usize| self.design.get(at).copied().unwrap_or([f64::NAN; 3]);
-        let lift = PlotPanel {
-            name: format!("Position, {unit}: imported, of the design, and imported with its residual × 500"),
-            curves: vec![
-                curve("imported", GREY, true, &|at| self.rows.value(at) / size),
-                curve("design", 0, false, &|at| design(at)[0] / size),
-                curve("residual × 500", 1, false, &|at| (design(at)[0] - ENLARGED * self.residual(at)) / size),
+        let enlarged = points(&|at| (design(at)[0] - ENLARGED * self.residual(at)) / size);
+        let lift = PlotPanel::new(
+            format!("Position, {unit}"),
+            vec![
+                PlotCurve::grey("imported", points(&|at| self.rows.value(at) / size)),
+                PlotCurve::new("design", 0, points(&|at| design(at)[0] / size)).stroked(CurveStroke::Thin),
+                PlotCurve::new(format!("error × {ENLARGED}"), 1, enlarged).stroked(CurveStroke::Dashed),
             ],
-        };
+        );
         let swings = self.rows.quantity == Quantity::Angle;
-        let (fine, of_fine) = if swings { ("deg", size) } else { ("µm", 1e-6) };
+        let (fine, of_fine) = if swings { ("degrees", size) } else { ("µm", 1e-6) };
+        let residuals = points(&|at| self.residual(at) / of_fine);
+        let worst = residuals.iter().copied().reduce(|a, b| if b[1].abs() > a[1].abs() { b } else { a });
+        let worst_text = |at: [f64; 2]| format!("{} {fine} at {}°", figure(at[1]), figure(at[0]));
         let residual = PlotPanel {
-            name: format!("Residual, design less imported, {fine}"),
-            curves: vec![curve("residual", 1, false, &|at| self.residual(at) / of_fine)],
+            points: worst.map(|at| PlotPoint::dot(at, 1, worst_text(at))).into_iter().collect(),
+            ..PlotPanel::new(
+                format!("Error of the fit, design less imported, {fine}"),
+                vec![PlotCurve::new("", 1, residuals)],
+            )
         };
         let rate = if swings { 1.0 } else { size };
         let per = if swings { "rad/rad²" } else { "mm/rad²" };
-        let acceleration = PlotPanel {
-            name: format!("Acceleration of the design, {per}"),
-            curves: vec![curve("acceleration", 0, false, &|at| design(at)[2] / rate)],
-        };
+        let acceleration = PlotPanel::new(
+            format!("Acceleration of the design, {per}"),
+            vec![PlotCurve::new("", 0, points(&|at| design(at)[2] / rate))],
+        );
         Plot {
-            title: format!("{name}: imported from a {}", self.form.trim_end_matches('s')),
+            title: format!(
+                "The design is {} off at most",
+                worst.map_or_else(String::new, |at| format!("{} {fine}", figure(at[1].abs())))
+            ),
+            subtitle: format!("{name}: imported from a {}", self.form.trim_end_matches('s')),
             places: "cam angle, degrees".into(),
             panels: vec![lift, residual, acceleration],
-            own: Vec::new(),
-            scheme: None,
+            ..Plot::default()
         }
     }
 }

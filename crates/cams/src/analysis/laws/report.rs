@@ -2,7 +2,7 @@
 
 use super::{LawRow, Rise, mm};
 use crate::report::ReportLine;
-use crate::report::plot::{Plot, PlotCurve, PlotPanel};
+use crate::report::plot::{Plot, PlotCurve, PlotPanel, PlotPoint, SmallPlot, SmallPlots, figure};
 use crate::report::{Section, shown};
 use crate::table::Table;
 use camgen_kernel::motion::Quantity;
@@ -232,8 +232,7 @@ fn words(rows: &[LawRow], rise: Rise, with_file: bool, known: &[LawColumn]) -> V
     let heads: Vec<String> = chosen.iter().map(|(head, ..)| format!("{head:>9}")).collect();
     lines.push(ReportLine::row(format!("{:<21}{}", "law", heads.join(""))));
     lines.extend(rows.iter().map(|row| {
-        let values: Vec<String> =
-            chosen.iter().map(|(_, (_, value), _)| format!("{:>9}", figure(value(row)))).collect();
+        let values: Vec<String> = chosen.iter().map(|(_, (_, value), _)| format!("{:>9}", cell(value(row)))).collect();
         ReportLine::row(format!("{:<21}{}", row.law.name, values.join("")))
     }));
     lines.extend(chosen.iter().map(|(head, _, meaning)| ReportLine::row(format!("{head:<9}{meaning}"))));
@@ -247,7 +246,7 @@ fn words(rows: &[LawRow], rise: Rise, with_file: bool, known: &[LawColumn]) -> V
 }
 
 /// At most five digits.
-fn figure(value: f64) -> String {
+fn cell(value: f64) -> String {
     if value.is_nan() {
         "–".into()
     } else if value.is_infinite() {
@@ -266,41 +265,164 @@ fn figure(value: f64) -> String {
     }
 }
 
-/// Most laws that are drawn, and places of each of their parts.
-const DRAWN: usize = 8;
+/// Most laws whose curves are drawn in common plots, most small plots, and places of each part of a law.
+const IN_COMMON: usize = 4;
+const DRAWN: usize = 18;
 const PLACES: u32 = 72;
 
-pub(super) fn plot(name: &str, rows: &[LawRow], rise: Rise) -> Plot {
-    let over = rise.over.to_degrees();
-    let curve = |colour: usize, row: &LawRow, order: usize| {
-        let points = (0..row.curve.parts()).flat_map(|part| {
-            let (low, high) = row.curve.range_of(part);
-            (0..=PLACES).map(move |place| {
-                let x = low + (high - low) * f64::from(place) / f64::from(PLACES);
-                let value = row.curve.values_at(part, x).get(order).copied().unwrap_or(0.0);
-                [over * x, value]
-            })
+/// The order of a derivative of a law over the segment, over the angle in degrees, times a factor.
+fn points(row: &LawRow, over: f64, order: usize, factor: f64) -> Vec<[f64; 2]> {
+    let mut points = Vec::new();
+    for part in 0..row.curve.parts() {
+        let (low, high) = row.curve.range_of(part);
+        for place in 0..=PLACES {
+            let x = low + (high - low) * f64::from(place) / f64::from(PLACES);
+            let value = row.curve.values_at(part, x).get(order).copied().unwrap_or(0.0);
+            points.push([over * x, factor * value]);
+        }
+    }
+    points
+}
+
+/// The acceleration in a unit for people: its factor and unit.
+fn acceleration(rise: Rise) -> (f64, &'static str) {
+    let by_angle = rise.lift / (rise.over * rise.over);
+    match (rise.speed, rise.quantity) {
+        (Some(speed), Quantity::Length) => (by_angle * speed * speed, "m/s²"),
+        (Some(speed), Quantity::Angle) => (by_angle * speed * speed, "rad/s²"),
+        (None, _) => (1.0, "h/β²"),
+    }
+}
+
+fn torque(row: &LawRow) -> f64 {
+    of_cam(row, |cam| cam.torque)
+}
+
+/// Which law has what a designer looks for, with its figures; `own` is the law of the design.
+fn headline(rows: &[LawRow], own: Option<&LawRow>, (factor, unit): (f64, &str)) -> String {
+    let peak = |row: &LawRow| factor * coefficient(row, 1);
+    let smooth = || rows.iter().filter(|row| coefficient(row, 2).is_finite());
+    let Some(own) = own else {
+        let best = smooth().min_by(|a, b| peak(a).total_cmp(&peak(b))).or(rows.first());
+        return best.map_or_else(String::new, |row| {
+            let peak = figure(peak(row));
+            format!("{} has the least peak acceleration: {peak} {unit}", row.law.name)
         });
-        PlotCurve { name: row.law.name.into(), colour, bold: false, points: points.collect() }
     };
-    let panel = |name: &str, order: usize| PlotPanel {
-        name: name.into(),
-        curves: rows.iter().take(DRAWN).enumerate().map(|(colour, row)| curve(colour, row, order)).collect(),
+    let lower = || smooth().filter(|row| peak(row) < peak(own) * (1.0 - 1e-9));
+    let share =
+        |row: &LawRow, value: &dyn Fn(&LawRow) -> f64| figure((100.0 * (1.0 - value(row) / value(own))).round());
+    if !torque(own).is_finite() {
+        return match lower().min_by(|a, b| peak(a).total_cmp(&peak(b))) {
+            Some(row) => {
+                format!("{}: {} % less peak acceleration than {}", row.law.name, share(row, &peak), own.law.name)
+            }
+            None => format!("{}: no smooth law has a lower peak acceleration", own.law.name),
+        };
+    }
+    match lower().filter(|row| torque(row) < torque(own)).min_by(|a, b| torque(a).total_cmp(&torque(b))) {
+        Some(row) => format!(
+            "{}: {} % less torque and {} % less peak acceleration than {}",
+            row.law.name,
+            share(row, &torque),
+            share(row, &peak),
+            own.law.name
+        ),
+        None => format!(
+            "{}: of the laws up to its {} {unit} it needs the least torque, {} N·m",
+            own.law.name,
+            figure(peak(own)),
+            figure(torque(own))
+        ),
+    }
+}
+
+/// What the laws move, and how their plots differ.
+fn conditions(name: &str, rise: Rise) -> String {
+    let lift = if rise.quantity == Quantity::Length {
+        format!("{} mm", figure(mm(rise.lift)))
+    } else {
+        format!("{}°", figure(rise.lift.to_degrees()))
     };
-    let which = match rows.len() {
-        1 => "one law".to_owned(),
-        all if all > DRAWN => format!("the first {DRAWN} of {all} laws"),
-        all => format!("{all} laws"),
+    let speed = rise.speed.map_or_else(String::new, |speed| format!(" at {} rpm", figure(units::rpm(speed))));
+    format!("{name}: {lift} in {}° of the cam{speed}", figure(rise.over.to_degrees()))
+}
+
+/// A law among others.
+fn small_plot(row: &LawRow, rise: Rise, own: Option<&LawRow>, factor: f64) -> SmallPlot {
+    let points = points(row, rise.over.to_degrees(), 2, factor);
+    let largest = |best: [f64; 2], next: [f64; 2]| if next[1] > best[1] * (1.0 + 1e-9) { next } else { best };
+    let peak = points.iter().copied().reduce(largest).map(|at| PlotPoint::dot(at, 0, figure(at[1])));
+    let cam = row.cam.as_ref();
+    let torque_text = cam.filter(|cam| cam.torque.is_finite()).map(|cam| format!("{} N·m", figure(cam.torque)));
+    let is_better = own.is_some_and(|own| torque(row) < torque(own) * (1.0 - 1e-9));
+    let jump = cam.filter(|cam| cam.jump.is_finite());
+    let note = match jump {
+        Some(cam) => format!("lifts off at {} rpm", figure(units::rpm(cam.jump).round())),
+        None => format!("Cv {}, Cj {}", figure(coefficient(row, 0)), figure(coefficient(row, 2))),
     };
+    SmallPlot {
+        name: row.law.name.into(),
+        points,
+        peak,
+        figure: (torque_text.unwrap_or_default(), is_better),
+        note,
+        is_own: own.is_some_and(|own| own.law.name == row.law.name),
+    }
+}
+
+/// The laws in their order, `own` is the law of the design: up to four in common plots, more as small plots of the acceleration on one scale.
+pub(super) fn plot(name: &str, rows: &[LawRow], rise: Rise, own: Option<&str>) -> Plot {
+    let over = rise.over.to_degrees();
+    let own = own.and_then(|own| rows.iter().find(|row| row.law.name == own));
+    let (factor, unit) = acceleration(rise);
+    let title = headline(rows, own, (factor, unit));
+    let conditions = conditions(name, rise);
+    if rows.len() <= IN_COMMON {
+        let panel = |name: &str, order: usize| {
+            let curves = rows
+                .iter()
+                .enumerate()
+                .map(|(colour, row)| PlotCurve::new(row.law.name, colour, points(row, over, order, 1.0)));
+            PlotPanel::new(name, curves.collect())
+        };
+        return Plot {
+            title,
+            subtitle: format!("{conditions}; h the travel, β the angle of the segment"),
+            places: "cam angle, degrees".into(),
+            panels: vec![
+                panel("Lift over h", 0),
+                panel("Velocity over h/β: its peak is Cv", 1),
+                panel("Acceleration over h/β²: its peak is Ca", 2),
+                panel("Jerk over h/β³: its peak is Cj", 3),
+            ],
+            ..Plot::default()
+        };
+    }
+    let is_smooth = |row: &&LawRow| coefficient(row, 2).is_finite();
+    let smooth: Vec<&LawRow> = rows.iter().filter(is_smooth).collect();
+    let drawn = smooth.iter().take(DRAWN);
+    let stepped: Vec<&str> = rows.iter().filter(|row| !is_smooth(row)).map(|row| row.law.name).collect();
+    let more: Vec<&str> = smooth.iter().skip(DRAWN).map(|row| row.law.name).collect();
+    let mut left_out = Vec::new();
+    if !stepped.is_empty() {
+        left_out.push(format!("left out, with a step of acceleration or velocity: {}", stepped.join(", ")));
+    }
+    if !more.is_empty() {
+        left_out.push(format!("no room: {}", more.join(", ")));
+    }
+    let grey = own.map_or_else(String::new, |own| format!("; grey: {}, the design's own", own.law.name));
+    let blue =
+        own.filter(|own| torque(own).is_finite()).map_or("", |_| "; torque in blue where it is below the design's");
     Plot {
-        title: format!("{name}: {which}"),
-        places: "cam angle, degrees".into(),
-        panels: vec![
-            panel("Lift over the travel h", 0),
-            panel("Velocity over h/β, β the angle of the segment: its peak is Cv", 1),
-            panel("Acceleration over h/β²: its peak is Ca", 2),
-            panel("Jerk over h/β³: its peak is Cj", 3),
-        ],
+        title,
+        subtitle: format!("{conditions}{grey}{blue}"),
+        small: Some(SmallPlots {
+            name: format!("Acceleration over the segment, {unit}"),
+            plots: drawn.map(|row| small_plot(row, rise, own, factor)).collect(),
+            in_a_row: 0,
+            left_out: left_out.join("; "),
+        }),
         ..Plot::default()
     }
 }

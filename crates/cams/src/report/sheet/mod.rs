@@ -49,6 +49,8 @@ pub enum SheetShape {
     Arc(Vector2<f64>, Vector2<f64>, f64),
     /// A filled triangle.
     Triangle([Vector2<f64>; 3]),
+    /// A filled polygon in the colour of its group.
+    Area(Vec<Vector2<f64>>),
     /// A text of a height, mm.
     Text {
         /// Its place, on the base line.
@@ -121,6 +123,7 @@ impl SheetShape {
             SheetShape::Path(points) => SheetShape::Path(points.iter().map(|point| point * scale).collect()),
             SheetShape::Arc(a, b, bulge) => SheetShape::Arc(a * scale, b * scale, *bulge),
             SheetShape::Triangle(corners) => SheetShape::Triangle(corners.map(|corner| corner * scale)),
+            SheetShape::Area(corners) => SheetShape::Area(corners.iter().map(|corner| corner * scale).collect()),
             SheetShape::Text { at, height, anchor, text } => {
                 SheetShape::Text { at: at * scale, height: height * scale, anchor: *anchor, text: text.clone() }
             }

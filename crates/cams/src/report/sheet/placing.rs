@@ -107,7 +107,8 @@ impl OccupiedPaper {
                 // A leader through the head of an arrow looks like that of the arrow.
                 self.fill(&Extents { least: a.inf(b).inf(c), largest: a.sup(b).sup(c) });
             }
-            SheetShape::Text { .. } => {}
+            // Lines and texts lie on an area.
+            SheetShape::Area(_) | SheetShape::Text { .. } => {}
         }
     }
 

@@ -4,22 +4,26 @@ use super::marks::label;
 use super::paper::REDUCTIONS;
 use super::placing::OccupiedPaper;
 use super::{ShapeGroup, SheetShape, TextAnchor, font, rounded, words};
-use crate::report::scheme::{Scheme, SchemeJoint, SchemePose, Stroke, StrokeKind};
+use crate::report::scheme::{Scheme, SchemeDimension, SchemeJoint, SchemeLabel, SchemePose, Stroke, StrokeKind};
 use crate::report::trace::round_step;
 use camgen_kernel::geometry::Entity;
 use camgen_kernel::geometry::contour::Extents;
 use nalgebra::Vector2;
 
 /// Height of the texts, and of the line above a position, mm.
-const TEXT: f64 = 2.8;
-const HEAD: f64 = 4.0;
+const TEXT: f64 = 3.4;
+const HEAD: f64 = 5.0;
 /// Size of the letters over the lettering of an A4.
-const LETTERING: f64 = 0.9;
+const LETTERING: f64 = 1.05;
 /// Room to the sides of a position, and above and below it, mm: letters also find room between the lines.
 const MARGIN: [f64; 2] = [2.5, 1.2];
 /// Radius of a joint, and of the ring about a fixed one, mm.
 const JOINT: f64 = 0.7;
 const RING: f64 = 1.3;
+/// Distance of two dimension lines, the room for sizes about a position, and length and width of the heads of arrows, mm.
+const LANE: f64 = 6.5;
+const LABELS: f64 = 6.0;
+const ARROW: [f64; 2] = [2.2, 0.7];
 /// Enlargements of ISO 5455 before its reductions: a length on the sheet is a true length over this.
 const ENLARGEMENTS: [f64; 5] = [0.02, 0.05, 0.1, 0.2, 0.5];
 /// Least number of rulers that would fit in a row, and half the height of the ends of one, mm.
@@ -39,15 +43,20 @@ pub(in crate::report) fn draw(
     let (count, poses) = (lines.len() as f64, scheme.poses.len().max(1) as f64);
     // The ruler is below the positions, and the notes are below the ruler.
     let each = (field.size().y - (count * font::LEADING + 2.5) * TEXT) / poses;
-    let room = Vector2::new(field.size().x, each - HEAD) - 2.0 * Vector2::from(MARGIN);
+    let lanes = || scheme.poses.iter().flat_map(|pose| &pose.dimensions).map(|dimension| f64::from(dimension.lane));
+    let (below, above) = (lanes().fold(0.0, f64::max), lanes().map(|lane| -lane).fold(0.0, f64::max));
+    let sizes = if scheme.poses.iter().any(|pose| !pose.labels.is_empty()) { 2.0 * LABELS } else { 0.0 };
+    let margin = 2.0 * Vector2::from(MARGIN) + Vector2::new(sizes, sizes + (below + above) * LANE);
+    let room = Vector2::new(field.size().x, each - HEAD) - margin;
     let reduction = reduction(covered.size(), room);
     let mut groups = Vec::new();
     let mut top = field.largest.y;
     for (index, pose) in scheme.poses.iter().enumerate() {
         let cell =
             Extents { least: Vector2::new(field.least.x, top - each), largest: Vector2::new(field.largest.x, top) };
-        let middle = 0.5 * (cell.least + cell.largest) - Vector2::new(0.0, 0.5 * HEAD);
+        let middle = 0.5 * (cell.least + cell.largest) - Vector2::new(0.0, 0.5 * (HEAD + (above - below) * LANE));
         let at = |point: Vector2<f64>| middle + (point - 0.5 * (covered.least + covered.largest)) / reduction;
+        groups.extend(dimensions(&pose.dimensions, index, &covered, &at));
         groups.extend(of_pose(pose, index, &cell, &at, &colour));
         top -= each;
     }
@@ -104,6 +113,42 @@ fn ruler(field: &Extents, reduction: f64) -> ShapeGroup {
     ShapeGroup { class: "dimension", ..ShapeGroup::new("ruler", "ruler", shapes) }
 }
 
+/// The dimension lines of a position: below and above what all positions cover.
+fn dimensions(
+    all: &[SchemeDimension],
+    index: usize,
+    covered: &Extents,
+    at: &impl Fn(Vector2<f64>) -> Vector2<f64>,
+) -> Option<ShapeGroup> {
+    let mut shapes = Vec::new();
+    let (low, high) = (at(covered.least).y, at(covered.largest).y);
+    for dimension in all {
+        let lane = f64::from(dimension.lane);
+        let y = if lane > 0.0 { low - lane * LANE } else { high - lane * LANE };
+        let ends = dimension.ends.map(&at);
+        let [a, b] = if ends[0].x <= ends[1].x { ends } else { [ends[1], ends[0]] };
+        let beyond = if lane > 0.0 { -1.0 } else { 1.0 };
+        for end in [a, b] {
+            let start = Vector2::new(end.x, end.y + beyond);
+            shapes.push(SheetShape::Line(start, Vector2::new(end.x, y + beyond)));
+        }
+        let width = b.x - a.x;
+        shapes.push(SheetShape::Line(Vector2::new(a.x, y), Vector2::new(b.x, y)));
+        // Arrows that have no room point from outside.
+        let way = if width > 3.0 * ARROW[0] { 1.0 } else { -1.0 };
+        for (x, side) in [(a.x, way), (b.x, -way)] {
+            let back = x + side * ARROW[0];
+            let corner = |up: f64| Vector2::new(back, y + up * 0.5 * ARROW[1]);
+            shapes.push(SheetShape::Triangle([Vector2::new(x, y), corner(1.0), corner(-1.0)]));
+        }
+        let (text, size) =
+            font::fitted_in_one(&dimension.text, TEXT, (width - 1.0).max(0.6 * font::width(&dimension.text, TEXT)));
+        shapes.push(words(Vector2::new(0.5 * (a.x + b.x), y + 0.35 * TEXT), size, TextAnchor::Middle, text));
+    }
+    (!shapes.is_empty())
+        .then(|| ShapeGroup { id: format!("dimensions-{index}"), ..ShapeGroup::new("dimension", "dimensions", shapes) })
+}
+
 /// The mechanism in one position in its cell.
 fn of_pose(
     pose: &SchemePose,
@@ -137,6 +182,11 @@ fn of_pose(
     let letter = |joint: &SchemeJoint| label(&mut taken, LETTERING, at(joint.at), joint.towards, joint.letter);
     let mut letters: Vec<SheetShape> = pose.joints.iter().flat_map(letter).collect();
     letters.push(head);
+    let size = |sized: &SchemeLabel| label(&mut taken, LETTERING, at(sized.at), sized.towards, &sized.text);
+    let sizes: Vec<SheetShape> = pose.labels.iter().flat_map(size).collect();
+    if !sizes.is_empty() {
+        groups.push(ShapeGroup { id: format!("sizes-{index}"), ..ShapeGroup::new("dimension", "sizes", sizes) });
+    }
     groups.push(ShapeGroup { class: "facts", ..ShapeGroup::new("letters", "letters of the joints", letters) });
     if let Some(last) = groups.last_mut() {
         last.id = format!("letters-{index}");

@@ -186,6 +186,7 @@ impl SheetShape {
                 Some(segment.extents())
             }
             SheetShape::Triangle(corners) => of(corners),
+            SheetShape::Area(corners) => of(corners),
             SheetShape::Text { .. } => None,
         }
     }

@@ -5,7 +5,7 @@ use crate::brake::checks::{BELT_RANGE, WEB_STRESS};
 use crate::brake::mechanics::ends::{Regulation, RollEnds};
 use camgen_cams::analysis::Picture;
 use camgen_cams::check::Measure;
-use camgen_cams::report::plot::Plot;
+use camgen_cams::report::plot::{Plot, figure};
 use camgen_cams::report::{Section, Speeds};
 use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::Input;
@@ -68,6 +68,7 @@ pub(super) fn analysis(machine: &BrakeMachine, ends: &RollEnds) -> Result<Analys
     sections.extend(sections::web(data, None));
     Ok(Analysis {
         kind: &KIND,
+        variant: "",
         machine: machine.name().to_owned(),
         speeds: Speeds::Any(()),
         inputs,
@@ -75,7 +76,12 @@ pub(super) fn analysis(machine: &BrakeMachine, ends: &RollEnds) -> Result<Analys
         measures: measures(machine, &regulation),
         notes: vec!["without [brake.frame] only the paper's equations (7) to (10) are evaluated".into()],
         picture: Picture::Curves(Plot {
-            title: format!("{}: the two ends of the roll by equations (7) to (10)", machine.name()),
+            title: format!(
+                "The belt's grip K falls from {} on the full roll to {} on the run-down one",
+                figure(figures.k_full.max(figures.k_run_down)),
+                figure(figures.k_full.min(figures.k_run_down))
+            ),
+            subtitle: format!("{}: the two ends of the roll by equations (7) to (10)", machine.name()),
             own: vec![
                 curves::coefficient(data.friction, &ends.wraps()),
                 curves::by_belt_speed(data, figures.tension_in_truth_n),

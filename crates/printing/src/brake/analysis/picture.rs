@@ -2,8 +2,8 @@
 
 use super::braking::LoadedBrake;
 use crate::brake::mechanics::{FramePose, RollRotation};
-use camgen_cams::report::scheme::{self, Scheme, SchemeJoint, Stroke, StrokeKind};
-use camgen_cams::report::shown;
+use camgen_cams::report::plot::figure;
+use camgen_cams::report::scheme::{Scheme, SchemeJoint, SchemeLabel, SchemePose, Stroke, StrokeKind};
 use camgen_kernel::geometry::MILLIMETRES;
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
@@ -84,23 +84,53 @@ fn circle(name: &'static str, kind: StrokeKind, centre: Vector2<f64>, radius: f6
 
 /// The brake at both ends of the roll.
 pub(super) fn scheme(braking: &LoadedBrake<'_>) -> Scheme {
-    let names = ["full roll", "run-down roll"];
-    let stands = braking.ends.iter().zip(names).map(|(pose, name)| {
+    let names = ["Full roll", "Run-down roll"];
+    let stands = braking.ends.iter().zip(names).enumerate().map(|(index, (pose, name))| {
         let text = format!(
-            "{name}: {} mm, frame turned by {}°, wrap {}°, {} N",
-            shown(MILLIMETRES * pose.radius),
-            shown(pose.theta.to_degrees() + 0.0),
-            shown(pose.wrap.to_degrees()),
-            shown(braking.tension(pose))
+            "{name}: frame turned by {}°, wrap {}°, tension {} N",
+            figure(pose.theta.to_degrees() + 0.0),
+            figure(pose.wrap.to_degrees()),
+            figure(braking.tension(pose))
         );
-        drawn_pose(text, &BrakeOutline::new(braking, pose))
+        let outline = BrakeOutline::new(braking, pose);
+        let drawn = drawn_pose(text, &outline);
+        let mut labels = vec![roll_label(&outline)];
+        if index == 0 {
+            labels.extend(frame_labels(&outline));
+        }
+        SchemePose { labels, ..drawn }
     });
     let tight = if braking.brake.rotation() == RollRotation::Clockwise { "left" } else { "right" };
+    let frame = braking.brake.frame();
+    let [x, y] = frame.pivot.map(|value| figure(MILLIMETRES * value));
     let notes = vec![
-        "Blue: the inner run of the belt; brown: the frame with pivot O, pulleys and its centre of gravity c.".into(),
-        format!("The {tight} span is the tight one."),
+        "Blue: the inner run of the belt; gold: the frame with pivot O, pulleys p1 and p2, and its centre of gravity c."
+            .into(),
+        format!("The {tight} span is the tight one. Sizes in mm; O at {x}, {y} from the roll's axis."),
     ];
     Scheme { poses: stands.collect(), notes }
+}
+
+/// The radius of the roll.
+fn roll_label(outline: &BrakeOutline) -> SchemeLabel {
+    let down = Vector2::new(0.6, -0.8);
+    SchemeLabel { text: format!("R{}", figure(outline.roll)), at: outline.roll * down, towards: down }
+}
+
+/// The sizes of the frame: its arms and pulleys.
+fn frame_labels(outline: &BrakeOutline) -> Vec<SchemeLabel> {
+    let BrakeOutline { pivot, right, left, centre, pulley, .. } = *outline;
+    let arm = |name: &str, end: Vector2<f64>| SchemeLabel {
+        text: format!("O{name} {}", figure((end - pivot).norm())),
+        at: 0.5 * (pivot + end),
+        towards: Vector2::new((end - pivot).y, (pivot - end).x),
+    };
+    let diameter = SchemeLabel {
+        text: format!("Ø{}", figure(2.0 * pulley)),
+        at: right + Vector2::new(pulley, 0.0),
+        towards: Vector2::new(1.0, 0.0),
+    };
+    vec![diameter, arm("p1", right), arm("p2", left), arm("c", centre)]
 }
 
 fn link(name: &'static str, colour: usize, points: &[Vector2<f64>]) -> Stroke {
@@ -111,7 +141,7 @@ fn joint(letter: &'static str, at: Vector2<f64>, fixed: bool, towards: Vector2<f
     SchemeJoint { letter, at, fixed, towards }
 }
 
-fn drawn_pose(name: String, lying: &BrakeOutline) -> scheme::SchemePose {
+fn drawn_pose(name: String, lying: &BrakeOutline) -> SchemePose {
     let BrakeOutline { pivot, right, left, centre, .. } = *lying;
     let strokes = vec![
         circle("roll", StrokeKind::Body, Vector2::zeros(), lying.roll),
@@ -127,5 +157,5 @@ fn drawn_pose(name: String, lying: &BrakeOutline) -> scheme::SchemePose {
         joint("c", centre, false, Vector2::new(0.0, 1.0)),
         joint("O", pivot, true, Vector2::new(-1.0, -1.0)),
     ];
-    scheme::SchemePose { name, strokes, joints }
+    SchemePose { name, strokes, joints, ..SchemePose::default() }
 }

@@ -1,8 +1,7 @@
 //! K_c over the base of a drag link, its other links as they are: figure 2 of the paper.
 
 use crate::press::bed_motion::{self, DragLink, Linkage, Slider};
-use camgen_cams::report::plot::{self, PlotCurve, PlotPanel};
-use camgen_cams::report::shown;
+use camgen_cams::report::plot::{PlotCurve, PlotPanel, PlotPoint, figure};
 use camgen_cams::report::trace::round_step;
 
 /// Share of the base at which the drag link no longer turns up to which the curve goes: there K_c goes to 0 or beyond bounds.
@@ -29,12 +28,15 @@ pub(super) fn diagram(link: DragLink, slider: Slider) -> (String, PlotPanel) {
     let end = points.last().map_or(0.0, |[base, _]| *base);
     let own = ratio(link, slider, link.base);
     let level = vec![[0.0, 1.0], [end, 1.0]];
-    let curves = vec![
-        PlotCurve { name: "K_c = 1".into(), colour: plot::GREY, bold: false, points: level },
-        PlotCurve { name: "K_c".into(), colour: 0, bold: true, points },
-        PlotCurve { name: "this design".into(), colour: 1, bold: true, points: vec![[link.base, own]] },
-    ];
-    let (base, found) = (shown(link.base), shown(own));
-    let name = format!("K_c over the base, the other links as they are; ring: this design, λ1 = {base}, K_c = {found}");
-    ("base of the drag link over its driving crank, λ1".into(), PlotPanel { name, curves })
+    let panel = PlotPanel {
+        points: vec![PlotPoint::ring(
+            [link.base, own],
+            format!("this design: λ1 = {}, K_c = {}", figure(link.base), figure(own)),
+        )],
+        ..PlotPanel::new(
+            "K_c, largest acceleration at the outer end over that at the inner one, for other bases",
+            vec![PlotCurve::grey("equal at both ends", level), PlotCurve::new("", 0, points)],
+        )
+    };
+    ("base of the drag link over its driving crank, λ1".into(), panel)
 }

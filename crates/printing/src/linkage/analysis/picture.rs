@@ -4,7 +4,8 @@ use super::least_transmission;
 use crate::press::bed_motion::{Linkage, Pose};
 use crate::press::buffer::Bed;
 use crate::press::machine::LinkageData;
-use camgen_cams::report::scheme::{Scheme, SchemeJoint, SchemePose, Stroke, StrokeKind};
+use camgen_cams::report::plot::figure;
+use camgen_cams::report::scheme::{Scheme, SchemeDimension, SchemeJoint, SchemeLabel, SchemePose, Stroke, StrokeKind};
 use camgen_cams::report::{degrees, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::Extents;
@@ -135,6 +136,11 @@ pub(super) fn scheme(lying: &LinkagePicture<'_>) -> Scheme {
         let crank = shown(degrees(data.to_line(*theta)));
         stand(lying, format!("{name}: driving crank at {crank}°"), &lying.places(*theta))
     });
+    let mut poses: Vec<SchemePose> = stands.collect();
+    if let Some(first) = poses.first_mut() {
+        first.labels = lengths(lying, &lying.places(outer));
+        first.dimensions = stroke_dimension(lying);
+    }
     let mut notes = vec![match data.linkage {
         Linkage::SixBar(..) => "O1A drives; AB coupler, O2B with O2C driven crank, CD rod; dashed: paths of A, B, C.",
         Linkage::CrankSlider(_) => "O2C drives; CD rod; dashed: path of C.",
@@ -142,7 +148,38 @@ pub(super) fn scheme(lying: &LinkagePicture<'_>) -> Scheme {
     }];
     let assumed = lying.assumed();
     notes.extend(assumed.as_deref());
-    Scheme { poses: stands.collect(), notes: notes.into_iter().map(str::to_owned).collect() }
+    Scheme { poses, notes: notes.into_iter().map(str::to_owned).collect() }
+}
+
+/// The lengths of the links, next to their middles.
+fn lengths(lying: &LinkagePicture<'_>, places: &Places) -> Vec<SchemeLabel> {
+    let (o2, c, d) = (Vector2::zeros(), places.crank, places.slider);
+    let mut all = Vec::new();
+    let mut link = |name: &str, a: Vector2<f64>, b: Vector2<f64>, share: f64, towards: [f64; 2]| {
+        let length = (b - a).norm();
+        if length > 1e-6 {
+            let text = format!("{name} {}", figure(length));
+            all.push(SchemeLabel { text, at: a + share * (b - a), towards: Vector2::from(towards) });
+        }
+    };
+    link("O2C", o2, c, 0.5, [0.2, -1.0]);
+    if lying.data.linkage != Linkage::Yoke {
+        link("CD", c, d, 0.5, [0.2, -1.0]);
+    }
+    if let Some([o1, a, b]) = places.drag_link {
+        link("O1A", o1, a, 0.5, [-0.3, 1.0]);
+        link("AB", a, b, 0.5, [0.0, 1.0]);
+        link("O2B", o2, b, 0.5, [-1.0, 0.3]);
+        link("O1O2", o1, o2, 0.5, [-0.5, -1.0]);
+    }
+    all
+}
+
+/// The stroke between the dead points, below the position.
+fn stroke_dimension(lying: &LinkagePicture<'_>) -> Vec<SchemeDimension> {
+    let [outer, inner] = lying.data.linkage.dead_points().map(|theta| lying.places(theta).slider);
+    let text = format!("stroke {}", figure((outer - inner).norm()));
+    vec![SchemeDimension { ends: [inner, outer], lane: 1, text }]
 }
 
 fn stroke(name: &'static str, kind: StrokeKind, points: &[Vector2<f64>]) -> Stroke {
@@ -180,5 +217,5 @@ fn stand(lying: &LinkagePicture<'_>, name: String, places: &Places) -> SchemePos
         strokes.push(stroke("driving crank", StrokeKind::Link(DRIVING), &[o2, c]));
     }
     joints.push(joint("O2", o2, true, Vector2::new(1.0, -1.0)));
-    SchemePose { name, strokes, joints }
+    SchemePose { name, strokes, joints, ..SchemePose::default() }
 }

@@ -4,14 +4,16 @@ use crate::press::buffer::bottom_law::column_for;
 use crate::press::buffer::crank_law::CrankLaw;
 use crate::press::buffer::regime::Reset;
 use crate::press::checks::air::ADDED_VOLUME;
+use crate::press::checks::column;
 use crate::press::load::ColumnAtSpeed;
+use crate::press::machine::PressCams;
 use crate::press::scatter::fault::FrozenBuffer;
 use crate::press::scatter::reset::ScrewRule;
 use crate::press::scatter::settings::FixedBottom;
 use camgen_cams::analysis::PLACES;
 use camgen_cams::check::Measure;
-use camgen_cams::report::plot::{PlotCurve, PlotPanel};
-use camgen_cams::report::shown;
+use camgen_cams::machine::Machine;
+use camgen_cams::report::plot::{PlotBand, PlotCurve, PlotPanel, figure};
 use camgen_cams::table::ListedColumn;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::refusal::WorkBound;
@@ -142,28 +144,70 @@ pub(super) fn unsigned_zero(value: f64, decimals: usize) -> String {
         .map_or(text.clone(), str::to_owned)
 }
 
-/// The forces of both and the residual, a curve for each speed.
-pub(super) fn force_panels(all: &[ForcePlace], along: &CurveAxis) -> Vec<PlotPanel> {
-    let inertia = force_curves(all, along, false, |place| place.inertia);
-    let forces = [inertia, force_curves(all, along, true, |place| place.air)].concat();
-    let residuals = force_curves(all, along, true, |place| place.residual);
-    vec![
-        PlotPanel { name: "Force, N: inertia of the bed (thin), air of both cylinders (bold)".into(), curves: forces },
-        PlotPanel { name: "Residual force, inertia less air, N".into(), curves: residuals },
-    ]
+/// Speeds whose residual force is drawn.
+const DRAWN: usize = 4;
+
+/// The residual force over the reversal, a curve for each of a few speeds: the first, the last, and those between.
+pub(super) fn residual_panel(all: &[ForcePlace], along: &CurveAxis) -> PlotPanel {
+    let speeds: Vec<&[ForcePlace]> = all.chunks(PLACES as usize + 1).collect();
+    let chosen = speeds.len().min(DRAWN);
+    let mut curves = Vec::new();
+    for index in 0..chosen {
+        let at = if chosen > 1 { index * (speeds.len() - 1) / (chosen - 1) } else { 0 };
+        let Some(places) = speeds.get(at) else { continue };
+        let name = places.first().map_or_else(String::new, |place| format!("{} rpm", figure(place.rpm)));
+        let points = places.iter().map(|place| [(along.value)(place), place.residual]).collect();
+        curves.push(PlotCurve::new(name, index, points));
+    }
+    PlotPanel::new("Residual force over the stroke, inertia less air, N", curves)
 }
 
-/// A curve of a force for each speed; bold ones have a name.
-fn force_curves(all: &[ForcePlace], along: &CurveAxis, bold: bool, value: fn(&ForcePlace) -> f64) -> Vec<PlotCurve> {
-    let mut curves = Vec::new();
-    for (colour, places) in all.chunks(PLACES as usize + 1).enumerate() {
-        let named = places.first().filter(|_| bold);
-        curves.push(PlotCurve {
-            name: named.map_or_else(String::new, |place| format!("{} rpm", shown(place.rpm))),
-            colour,
-            bold,
-            points: places.iter().map(|place| [(along.value)(place), value(place)]).collect(),
-        });
+/// Speeds of a picture over that of the cam or the design, and steps between them.
+const SWEPT: [f64; 2] = [0.35, 1.15];
+const STEPS: u32 = 60;
+
+/// Round speeds about one, and about those that were asked for, rpm.
+pub(super) fn swept_speeds(about: f64, asked: &[f64]) -> Vec<f64> {
+    let asked = || asked.iter().copied().filter(|rpm| *rpm > 0.0 && rpm.is_finite());
+    let low = asked().fold((SWEPT[0] * about).floor().max(0.1 * about), f64::min);
+    let high = asked().fold((SWEPT[1] * about).round().max(about), f64::max);
+    (0..=STEPS).map(|step| low + (high - low) * f64::from(step) / f64::from(STEPS)).collect()
+}
+
+/// What a rule for the screw does, in a few words.
+pub(super) fn rule_words(reset: Reset) -> &'static str {
+    match reset {
+        Reset::End => "rule “end”: no force is left at the end of the stroke",
+        Reset::Half => "rule “half”: half of the largest force is moved to the end of the stroke",
+        Reset::Level => "rule “level”: the largest force is as small as the screw can make it",
     }
-    curves
+}
+
+/// A figure of a table to set a press by: whole, that a column has one place of its point; a small one keeps its digits.
+pub(super) fn whole(value: f64) -> String {
+    figure(if value.abs() < 10.0 { value } else { value.round() })
+}
+
+/// Columns that a press has no room for, mm, with the reason.
+pub(super) fn too_long(machine: &Machine) -> PlotBand {
+    let given = PressCams::of(machine).largest_column;
+    let limit = MILLIMETRES * given.unwrap_or(column::CUSTOMARY);
+    let reason = match given {
+        Some(_) => format!("longer than limits.column, {} mm", figure(limit)),
+        None => format!("over the customary {} mm: no such cylinder", figure(limit)),
+    };
+    PlotBand::above(limit, reason)
+}
+
+/// Columns far beyond the limit would flatten the others.
+const CUT_OFF: f64 = 1.15;
+
+/// A curve of columns, as far as it is near the limit.
+pub(super) fn columns_curve(
+    name: &str,
+    colour: usize,
+    columns: impl Iterator<Item = [f64; 2]>,
+    limit: f64,
+) -> PlotCurve {
+    PlotCurve::new(name, colour, columns.filter(|[_, column]| *column <= CUT_OFF * limit).collect())
 }

@@ -7,7 +7,7 @@ use crate::press::machine::{DriveData, DriveMachine};
 use crate::press::report::CylinderMeasures;
 use camgen_cams::analysis::{Analysis, Picture};
 use camgen_cams::body::Kind;
-use camgen_cams::report::plot::{Plot, PlotCurve, PlotPanel};
+use camgen_cams::report::plot::{Plot, PlotCurve, PlotLine, PlotPanel, PlotPoint, figure};
 use camgen_cams::report::{Section, Speeds, shown};
 use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::{Input, NamedChoice};
@@ -171,6 +171,7 @@ pub fn analysis(machine: &DriveMachine, solver: DriveSolver, step: f64) -> Resul
     let table = Table::listed(COLUMNS, &rows).without_unknown(&["motor_rpm", "torque_nm"]);
     Ok(Analysis {
         kind: &KIND,
+        variant: "",
         machine: machine.name().to_owned(),
         speeds: Speeds::Any(()),
         inputs,
@@ -181,7 +182,7 @@ pub fn analysis(machine: &DriveMachine, solver: DriveSolver, step: f64) -> Resul
                 .noted(open.map(|why| why.to_string())),
         ],
         notes: Vec::new(),
-        picture: Picture::Curves(plot(machine, &fine, &nodes)),
+        picture: Picture::Curves(plot(machine, &drive_figures, &fine, &nodes)),
         mechanism: None,
         document: None,
         tables: vec![("", table)],
@@ -431,41 +432,64 @@ fn describe(drive_figures: &DriveFigures) -> Vec<Text> {
     lines
 }
 
-fn by_crank(name: &str, rows: &[DriveRow], value: fn(&DriveRow) -> f64) -> PlotCurve {
-    let points = rows.iter().map(|row| [row.crank.to_degrees(), value(row)]).collect();
-    PlotCurve { name: name.into(), colour: 0, bold: true, points }
+fn by_crank(rows: &[DriveRow], value: fn(&DriveRow) -> f64) -> Vec<[f64; 2]> {
+    rows.iter().map(|row| [row.crank.to_degrees(), value(row)]).collect()
 }
 
-fn plot(machine: &DriveMachine, fine: &[DriveRow], nodes: &[SectionEnd]) -> Plot {
+/// How far the crank slows down, or that the bed does not come to rest.
+fn headline(found: &DriveFigures) -> String {
+    match (found.omega_least_rad_per_s, found.speed_drop) {
+        (Some(least), Some(drop)) => {
+            format!("The crank slows to {} rad/s: {} % below its speed before", figure(least), figure(100.0 * drop))
+        }
+        _ => format!(
+            "The bed does not come to rest: the air takes up {} % of its energy",
+            figure(100.0 * found.work_over_energy)
+        ),
+    }
+}
+
+fn plot(machine: &DriveMachine, found: &DriveFigures, fine: &[DriveRow], nodes: &[SectionEnd]) -> Plot {
     let lead = machine.data.lead_angle;
-    let by_sections = PlotCurve {
-        name: "by sections".into(),
-        colour: 1,
-        bold: false,
-        points: nodes
-            .iter()
-            .filter_map(|node| {
-                let crank = if node.phase == Phase::Lead { node.angle } else { lead + node.angle };
-                Some([crank.to_degrees(), node.speed.omega()?])
-            })
-            .collect(),
-    };
+    let by_sections = nodes.iter().filter_map(|node| {
+        let crank = if node.phase == Phase::Lead { node.angle } else { lead + node.angle };
+        Some([crank.to_degrees(), node.speed.omega()?])
+    });
+    let engages = |text: &str| vec![PlotLine { at: lead.to_degrees(), text: text.into(), dashed: true }];
+    let omega = by_crank(fine, |row| row.omega);
+    let least = omega.iter().copied().reduce(|best, next| if next[1] < best[1] { next } else { best });
     let mut panels = vec![
         PlotPanel {
-            name: "Speed of the crank, rad/s".into(),
-            curves: vec![by_crank("by energy", fine, |row| row.omega), by_sections],
+            points: least
+                .map(|at| PlotPoint::dot(at, 0, format!("{} at {}°", figure(at[1]), figure(at[0]))))
+                .into_iter()
+                .collect(),
+            lines: engages("the crank begins to move the bed"),
+            height: 1.4,
+            ..PlotPanel::new(
+                "Speed of the crank, rad/s",
+                vec![PlotCurve::grey("by sections", by_sections.collect()), PlotCurve::new("by energy", 0, omega)],
+            )
         },
-        PlotPanel { name: "Speed of the bed, m/s".into(), curves: vec![by_crank("bed", fine, |row| row.velocity)] },
-        PlotPanel { name: "Force of the buffers, N".into(), curves: vec![by_crank("air", fine, |row| row.force)] },
+        PlotPanel {
+            lines: engages(""),
+            ..PlotPanel::new("Speed of the bed, m/s", vec![PlotCurve::new("", 0, by_crank(fine, |row| row.velocity))])
+        },
+        PlotPanel {
+            lines: engages(""),
+            ..PlotPanel::new("Force of the buffers, N", vec![PlotCurve::new("", 0, by_crank(fine, |row| row.force))])
+        },
     ];
     if machine.data.inertia.is_some() {
+        let torque = by_crank(fine, |row| row.torque.unwrap_or(f64::NAN));
         panels.push(PlotPanel {
-            name: "Torque for the inertia of the drive, N·m".into(),
-            curves: vec![by_crank("drive", fine, |row| row.torque.unwrap_or(f64::NAN))],
+            lines: engages(""),
+            ..PlotPanel::new("Torque for the inertia of the drive, N·m", vec![PlotCurve::new("", 0, torque)])
         });
     }
     Plot {
-        title: format!("{}: the drive through a reversal", machine.name()),
+        title: headline(found),
+        subtitle: format!("{}: the drive through a reversal of the bed", machine.name()),
         places: "crank angle from the start of braking, degrees".into(),
         panels,
         ..Plot::default()

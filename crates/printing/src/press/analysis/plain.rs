@@ -2,7 +2,8 @@
 //! 4 and 9.
 
 use super::at_speeds::{
-    CURVES, ColumnReset, CurveAxis, ForcePlace, SPEEDS, column_by, columns_of, force_panels, unsigned_zero, volume,
+    CURVES, ColumnReset, CurveAxis, ForcePlace, SPEEDS, column_by, columns_curve, columns_of, residual_panel,
+    rule_words, swept_speeds, too_long, unsigned_zero, volume, whole,
 };
 use super::regimes::KIND;
 use super::trial_bottoms::{self, TrialRow};
@@ -19,7 +20,9 @@ use crate::press::scatter::settings::extremes_of_fixed;
 use camgen_cams::analysis::{Analysis, Listing, Picture, places};
 use camgen_cams::machine::{Machine, idle_key_note};
 use camgen_cams::report::ReportLine;
-use camgen_cams::report::plot::{Plot, PlotCurve, PlotPanel};
+use camgen_cams::report::plot::{
+    Plot, PlotCurve, PlotLine, PlotPanel, PlotPoint, SideRow, SideTable, SmallPlot, SmallPlots, figure,
+};
 use camgen_cams::report::{Section, Speeds, shown};
 use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::{Input, NamedChoice};
@@ -174,6 +177,7 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
     let words = describe(&section);
     Ok(Analysis {
         kind: &KIND,
+        variant: "fixed",
         machine: machine.name().to_owned(),
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
@@ -184,7 +188,7 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
             }))
             .collect(),
         notes: notes(machine),
-        picture: Picture::Curves(picture(machine.name(), &curves, &family_curves, &trials)),
+        picture: Picture::Curves(picture(machine, press, (&rows, reset), &curves, (&family, &family_curves), &trials)),
         mechanism: None,
         document: None,
         tables: tables_of(&rows, &curves, &family, &family_curves, &trials),
@@ -359,27 +363,107 @@ fn describe(found: &PlainBuffers<'_>) -> Vec<ReportLine> {
     lines
 }
 
-/// The forces at each speed, and figure 4: the bottom for each end pressure.
-fn picture(machine: &str, curves: &[ForcePlace], family: &[FamilyPlace], trials: &[TrialRow]) -> Plot {
-    let by_pressure = family.chunk_by(|a, b| a.end_pressure == b.end_pressure).enumerate();
-    let bottoms = by_pressure.map(|(colour, rows)| PlotCurve {
-        name: rows
-            .first()
-            .map_or_else(String::new, |row| format!("p_end {} at", shown(row.end_pressure / TECHNICAL_ATMOSPHERE))),
-        colour,
-        bold: true,
-        points: rows.iter().map(|row| [MILLIMETRES * row.x, MILLIMETRES * row.dx]).collect(),
-    });
-    let bottoms = PlotPanel {
-        name: "Δx of a cam with the returning column, mm, for each end pressure".into(),
-        curves: bottoms.collect(),
+/// Force and column over the speed, the bottom for each end pressure, and figure 9.
+fn picture(
+    machine: &Machine,
+    press: &Press,
+    (rows, reset): (&[PlainRow], Reset),
+    curves: &[ForcePlace],
+    (pressures, family): (&[FamilyRow], &[FamilyPlace]),
+    trials: &[TrialRow],
+) -> Plot {
+    let cylinder = press.cylinder();
+    let asked: Vec<f64> = rows.iter().map(|row| row.rpm).collect();
+    let swept: Vec<PlainRow> =
+        swept_speeds(press.design_rpm, &asked).into_iter().map(|rpm| at_speed(press, &cylinder, rpm, reset)).collect();
+    let own = at_speed(press, &cylinder, press.design_rpm, reset);
+    let design = |text: String| vec![PlotLine { at: press.design_rpm, text, dashed: false }];
+    let left = PlotPanel {
+        points: vec![PlotPoint::dot([own.rpm, own.residual_max_n], 0, format!("{} N", figure(own.residual_max_n)))],
+        lines: design(format!("{} rpm: design speed", figure(own.rpm))),
+        height: 1.2,
+        ..PlotPanel::new(
+            "Largest force left over, N",
+            vec![PlotCurve::new("", 0, swept.iter().map(|row| [row.rpm, row.residual_max_n]).collect())],
+        )
     };
+    let too_long = too_long(machine);
+    let limit = too_long.from;
+    let columns = swept.iter().map(|row| [row.rpm, row.column_length_mm]);
+    let column = PlotPanel {
+        points: vec![PlotPoint::dot(
+            [own.rpm, own.column_length_mm],
+            0,
+            format!("{} mm", figure(own.column_length_mm)),
+        )],
+        lines: design(String::new()),
+        bands: vec![too_long],
+        ..PlotPanel::new("Column to set by the screw, mm", vec![columns_curve("", 0, columns, limit)])
+    };
+    let residual = residual_panel(curves, &CurveAxis::OVERRUN);
+    let mut panels = vec![(CurveAxis::OVERRUN.words.to_owned(), residual)];
+    panels.extend(trial_bottoms::panel(trials));
     Plot {
-        title: format!("{machine}: plain buffers without a cam"),
-        places: CurveAxis::OVERRUN.words.into(),
-        panels: force_panels(curves, &CurveAxis::OVERRUN).into_iter().chain([bottoms]).collect(),
-        own: trial_bottoms::panel(trials).into_iter().collect(),
+        title: headline(&swept, &own),
+        subtitle: format!(
+            "{}: buffers without a cam, screw reset for each speed ({})",
+            machine.name(),
+            rule_words(reset)
+        ),
+        places: "speed of the press, rpm".into(),
+        panels: vec![left, column],
+        small: Some(by_pressure(press, pressures, family)),
+        own: panels,
+        table: Some(SideTable {
+            title: "Set the screw".into(),
+            heads: vec!["rpm".into(), "column, mm".into(), "left, N".into()],
+            rows: rows
+                .iter()
+                .step_by(rows.len().div_ceil(SET).max(1))
+                .map(|row| SideRow {
+                    cells: vec![figure(row.rpm), whole(row.column_length_mm), whole(row.residual_max_n)],
+                    tint: None,
+                })
+                .collect(),
+            notes: vec!["fixed bottoms, no cam".into()],
+        }),
         ..Plot::default()
+    }
+}
+
+/// Speeds of the table next to the plots at the most.
+const SET: usize = 14;
+
+/// What a fixed bottom leaves at the design speed and at the slowest.
+fn headline(swept: &[PlainRow], own: &PlainRow) -> String {
+    let design = format!("A fixed bottom leaves {} N at {} rpm", figure(own.residual_max_n), figure(own.rpm));
+    let slow = swept.first().filter(|slow| slow.rpm < own.rpm);
+    slow.map_or(design.clone(), |slow| {
+        format!("{design}, {} N at {} rpm", figure(slow.residual_max_n), figure(slow.rpm))
+    })
+}
+
+/// Figure 4: the bottom of a cam that balances the cylinders of each end pressure.
+fn by_pressure(press: &Press, pressures: &[FamilyRow], family: &[FamilyPlace]) -> SmallPlots {
+    let plots = family.chunk_by(|a, b| a.end_pressure == b.end_pressure).zip(pressures);
+    let plots = plots.map(|(places, row)| {
+        let points: Vec<[f64; 2]> =
+            places.iter().map(|place| [MILLIMETRES * place.x, MILLIMETRES * place.dx]).collect();
+        SmallPlot {
+            name: format!("{} at", figure(row.end_pressure_pa / TECHNICAL_ATMOSPHERE)),
+            peak: Some(PlotPoint::dot([row.dx_max_at_x_mm, row.dx_max_mm], 0, figure(row.dx_max_mm))),
+            points,
+            figure: (format!("Ø{}", figure(row.cylinders.bore_mm)), false),
+            note: format!("{} N", figure(row.residual_max_n)),
+            is_own: (row.end_pressure_pa / press.end_pressure - 1.0).abs() <= SAME,
+        }
+    });
+    SmallPlots {
+        name: "Stroke Δx of a cam over the overrun for each end pressure, mm; below: bore, mm, and force left by a fixed bottom"
+            .into(),
+        plots: plots.collect(),
+        in_a_row: family.len(),
+        left_out: String::new(),
     }
 }
 

@@ -1,14 +1,14 @@
 //! One cam at other speeds: the column is reset, or air is added, and a residual force is left. Equations (14) and (15), figure 5.
 
 use super::at_speeds::{
-    ColumnReset, CurveAxis, FixedSetting, ForcePlace, SPEEDS, columns_of, force_panels, left_by_reset, unsigned_zero,
-    volume,
+    ColumnReset, CurveAxis, FixedSetting, ForcePlace, SPEEDS, columns_curve, columns_of, left_by_reset, residual_panel,
+    rule_words, swept_speeds, too_long, unsigned_zero, volume, whole,
 };
 use crate::press::MachineOfPress;
 use crate::press::balance::reversal_of_bed;
-use crate::press::buffer::CYLINDERS;
 use crate::press::buffer::crank_law::CrankLaw;
 use crate::press::buffer::regime::{self, Regime, Reset};
+use crate::press::buffer::{CYLINDERS, Cylinder};
 use crate::press::cams;
 use crate::press::checks::column;
 use crate::press::checks::fixed_bottom::{Rivals, over_speeds};
@@ -22,11 +22,14 @@ use camgen_cams::analysis::{Analysis, Picture, places};
 use camgen_cams::body::Kind;
 use camgen_cams::machine::{Machine, idle_key_note};
 use camgen_cams::report::ReportLine;
-use camgen_cams::report::plot::Plot;
-use camgen_cams::report::{Section, Speeds, shown};
+use camgen_cams::report::plot::{
+    PictureColour, Plot, PlotBand, PlotCurve, PlotLine, PlotPanel, PlotPoint, SideRow, SideTable, figure,
+};
+use camgen_cams::report::{Section, Speeds};
 use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::{Input, NamedChoice};
 use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::numeric::{parallel, root};
 use camgen_kernel::refusal::Refusal;
 use camgen_kernel::text::{Length, text};
 use camgen_kernel::units::TECHNICAL_ATMOSPHERE;
@@ -136,6 +139,7 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
         cylinders: CylinderMeasures::new(cylinder.piston_area),
         speeds: &rows,
     };
+    let rivals_of_picture = RegimeRivals { press, design: &design, cylinder, reset };
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs(KIND.keys));
     inputs.extend([
@@ -145,6 +149,7 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
     ]);
     Ok(Analysis {
         kind: &KIND,
+        variant: "",
         machine: machine.name().to_owned(),
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
@@ -156,7 +161,7 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
             .chain(column::measure(&columns_of(&resets), machine, |press, rpm| Some(press.bottom_law(rpm).column())))
             .collect(),
         notes: notes(machine),
-        picture: Picture::Curves(plot(machine.name(), cam_rpm, &curves, &along)),
+        picture: Picture::Curves(plot(machine, cam_rpm, &rivals_of_picture, &rows, &curves)),
         mechanism: None,
         document: None,
         tables: vec![("", Table::listed(COLUMNS, &rows)), ("-curves", Table::listed(along.list, &curves))],
@@ -287,12 +292,187 @@ fn describe(regimes: &Regimes<'_>) -> Vec<ReportLine> {
     lines
 }
 
-/// Figure 5 of the paper, with the residual below.
-fn plot(machine: &str, cam_rpm: f64, all: &[ForcePlace], along: &CurveAxis) -> Plot {
+/// The cam and a fixed bottom at a speed, each with its own reset.
+#[derive(Debug, Clone, Copy)]
+struct RivalSettings {
+    rpm: f64,
+    /// Largest residual force, N, and column, mm: of the cam, and of the fixed bottom.
+    left: [f64; 2],
+    column: [f64; 2],
+}
+
+impl RivalSettings {
+    fn fixed_is_better(&self) -> bool {
+        self.left[1] < self.left[0]
+    }
+}
+
+/// A cam and its rival, to be set for any speed.
+struct RegimeRivals<'a> {
+    press: &'a Press,
+    design: &'a CrankLaw,
+    cylinder: Cylinder,
+    reset: Reset,
+}
+
+impl RegimeRivals<'_> {
+    fn at(&self, rpm: f64) -> RivalSettings {
+        let cam = regime::reset(self.design, &self.cylinder, rpm, self.reset);
+        let fixed = left_by_reset(&FrozenBuffer::of_law(&self.press.bottom_law(rpm), &self.cylinder), self.reset);
+        RivalSettings {
+            rpm,
+            left: [cam.residual.abs(), fixed.residual],
+            column: [MILLIMETRES * cam.column, MILLIMETRES * fixed.column],
+        }
+    }
+
+    /// The speeds between two at which both have the same residual force.
+    fn crossings(&self, swept: &[RivalSettings]) -> Vec<RivalSettings> {
+        let more = |rpm: f64| self.at(rpm).left;
+        let between = swept.iter().zip(swept.iter().skip(1));
+        between
+            .filter(|(a, b)| a.fixed_is_better() != b.fixed_is_better())
+            .filter_map(|(a, b)| {
+                let difference = |rpm: f64| {
+                    let [cam, fixed] = more(rpm);
+                    cam - fixed
+                };
+                Some(self.at(root::bracketed(difference, a.rpm, b.rpm, 1e-4).ok()?))
+            })
+            .collect()
+    }
+}
+
+/// At which speeds the cam is worth it.
+fn headline(swept: &[RivalSettings], crossings: &[RivalSettings]) -> String {
+    let first_is_fixed = swept.first().is_some_and(RivalSettings::fixed_is_better);
+    match (first_is_fixed, crossings) {
+        (true, []) => "A fixed bottom leaves less force than the cam at every speed".into(),
+        (false, []) => match swept {
+            [first, .., last] => format!(
+                "From {} to {} rpm the cam leaves less force than a fixed bottom",
+                figure(first.rpm),
+                figure(last.rpm)
+            ),
+            _ => "The cam leaves less force than a fixed bottom".into(),
+        },
+        (true, [at]) => format!("Best below {} rpm: a fixed bottom; above it the cam", three(at.rpm)),
+        (false, [at]) => format!("Best above {} rpm: a fixed bottom; below it the cam", three(at.rpm)),
+        (true, [low, high, ..]) => {
+            format!("Best from {} to {} rpm: the cam; else a fixed bottom", three(low.rpm), three(high.rpm))
+        }
+        (false, [low, high, ..]) => {
+            format!("Best from {} to {} rpm: a fixed bottom; else the cam", three(low.rpm), three(high.rpm))
+        }
+    }
+}
+
+/// A speed that is read off, to a tenth.
+fn three(rpm: f64) -> String {
+    figure((10.0 * rpm).round() / 10.0)
+}
+
+/// Speeds of the table next to the plots at the most.
+const SET: usize = 14;
+
+/// What to set for the speeds that were asked for, by the better of both.
+fn table(rows: &[SpeedRow]) -> SideTable {
+    let every = rows.len().div_ceil(SET).max(1);
+    let row = |row: &SpeedRow| {
+        let is_fixed = row.fixed_residual_max_n < row.residual_max_n;
+        let (column, left) = if is_fixed {
+            (row.fixed_column_length_mm, row.fixed_residual_max_n)
+        } else {
+            (row.column_length_mm, row.residual_max_n)
+        };
+        SideRow {
+            cells: vec![figure(row.rpm), whole(column), whole(left)],
+            tint: is_fixed.then_some(PictureColour::Line(FIXED)),
+        }
+    };
+    let tinted = rows.iter().any(|row| row.fixed_residual_max_n < row.residual_max_n);
+    SideTable {
+        title: "Set the screw".into(),
+        heads: vec!["rpm".into(), "column, mm".into(), "left, N".into()],
+        rows: rows.iter().step_by(every).map(row).collect(),
+        notes: tinted.then(|| "tinted: a fixed bottom, the cam taken out".to_owned()).into_iter().collect(),
+    }
+}
+
+/// Colours of the cam and of a fixed bottom.
+const CAM: usize = 0;
+const FIXED: usize = 1;
+
+/// Both over the speed: the force that is left, the column to set, and where in the stroke the force is left.
+fn plot(machine: &Machine, cam_rpm: f64, rivals: &RegimeRivals<'_>, rows: &[SpeedRow], curves: &[ForcePlace]) -> Plot {
+    let along = CurveAxis::for_bed(rivals.design);
+    let asked: Vec<f64> = rows.iter().map(|row| row.rpm).collect();
+    let swept = parallel::map(&swept_speeds(cam_rpm, &asked), |rpm| rivals.at(*rpm));
+    let crossings = rivals.crossings(&swept);
+    let lines = || {
+        let borders = crossings.iter().map(|at| PlotLine { at: at.rpm, text: String::new(), dashed: true });
+        borders.chain([PlotLine { at: cam_rpm, text: String::new(), dashed: false }]).collect::<Vec<_>>()
+    };
+    let own = rivals.at(cam_rpm);
+    let mut ends = vec![swept.first().map_or(0.0, |first| first.rpm)];
+    ends.extend(crossings.iter().map(|at| at.rpm));
+    ends.extend(swept.last().map(|last| last.rpm));
+    let first_is_fixed = swept.first().is_some_and(RivalSettings::fixed_is_better);
+    let bands =
+        ends.iter().zip(ends.iter().skip(1)).enumerate().filter(|(index, _)| (index % 2 == 0) == first_is_fixed);
+    let bands = bands.map(|(_, (low, high))| PlotBand::better(*low, *high, FIXED, "fixed bottom is better"));
+    let by_speed = |which: usize, value: fn(&RivalSettings) -> [f64; 2]| {
+        swept.iter().map(|at| [at.rpm, value(at).get(which).copied().unwrap_or(f64::NAN)]).collect::<Vec<_>>()
+    };
+    let mut points: Vec<PlotPoint> = crossings
+        .iter()
+        .map(|at| {
+            PlotPoint::ring([at.rpm, at.left[0]], format!("{} rpm: both leave {} N", three(at.rpm), figure(at.left[0])))
+        })
+        .collect();
+    points.push(PlotPoint::dot([cam_rpm, own.left[1]], FIXED, format!("{} N", figure(own.left[1]))));
+    points.push(PlotPoint::dot([cam_rpm, own.left[0]], CAM, format!("{} N", figure(own.left[0]))));
+    let mut cut = lines();
+    if let Some(last) = cut.last_mut() {
+        last.text = format!("{} rpm: as cut", figure(cam_rpm));
+    }
+    let left = PlotPanel {
+        points,
+        lines: cut,
+        bands: bands.collect(),
+        height: 2.0,
+        ..PlotPanel::new(
+            "Largest force left over, N",
+            vec![
+                PlotCurve::new("fixed bottom", FIXED, by_speed(1, |at| at.left)),
+                PlotCurve::new("this cam", CAM, by_speed(0, |at| at.left)),
+            ],
+        )
+    };
+    let too_long = too_long(machine);
+    let limit = too_long.from;
+    let columns = |name, which: usize| columns_curve(name, which, by_speed(which, |at| at.column).into_iter(), limit);
+    let column = PlotPanel {
+        lines: lines(),
+        bands: vec![too_long],
+        height: 1.2,
+        ..PlotPanel::new(
+            "Column to set by the screw, mm",
+            vec![columns("fixed bottom", FIXED), columns("this cam", CAM)],
+        )
+    };
     Plot {
-        title: format!("{machine}: the cam for {} rpm at other speeds, column reset", shown(cam_rpm)),
-        places: along.words.into(),
-        panels: force_panels(all, along),
+        title: headline(&swept, &crossings),
+        subtitle: format!(
+            "{}: cam cut for {} rpm, screw reset for each speed ({})",
+            machine.name(),
+            figure(cam_rpm),
+            rule_words(rivals.reset)
+        ),
+        places: "speed of the press, rpm".into(),
+        panels: vec![left, column],
+        own: vec![(along.words.into(), residual_panel(curves, &along))],
+        table: Some(table(rows)),
         ..Plot::default()
     }
 }

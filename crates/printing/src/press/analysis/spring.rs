@@ -14,7 +14,7 @@ use camgen_cams::body::Kind;
 use camgen_cams::check::Measure;
 use camgen_cams::machine::Machine;
 use camgen_cams::report::ReportLine;
-use camgen_cams::report::plot::{self, Plot, PlotCurve, PlotPanel};
+use camgen_cams::report::plot::{Plot, PlotCurve, PlotPanel, figure};
 use camgen_cams::report::{Section, Speeds, shown};
 use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::Input;
@@ -160,6 +160,7 @@ pub fn analysis(
     inputs.extend(residual.map(|residual| Input::quantity("residual", residual, ("N", 1.0))));
     Ok(Analysis {
         kind: &KIND,
+        variant: "",
         machine: machine.name().to_owned(),
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
@@ -168,7 +169,13 @@ pub fn analysis(
             .collect(),
         measures: measures(machine, &sets, bodies.as_ref()),
         notes: machine.idle_key_notes(KIND.keys, KIND.noun),
-        picture: Picture::Curves(curves_of(machine.name(), &sets, &curves)),
+        picture: Picture::Curves(curves_of(
+            machine.name(),
+            press.design_rpm,
+            springs.residual_fixed_bottom_max_n,
+            &sets,
+            &curves,
+        )),
         mechanism: None,
         document: None,
         tables: std::iter::once(("", Table::listed(COLUMNS, &rows)))
@@ -412,11 +419,28 @@ fn describe(springs: &Springs<'_>, press: &Press) -> Vec<ReportLine> {
     lines
 }
 
-/// Figure 11 of the paper, with the residual below.
-fn curves_of(machine: &str, sets: &[SpringAtSpeed], rows: &[SpringRow]) -> Plot {
+/// Springs whose curves are drawn.
+const DRAWN: usize = 4;
+
+/// What the best spring leaves, against a fixed bottom at the same speed, N.
+fn headline(sets: &[SpringAtSpeed], fixed: f64, design_rpm: f64) -> String {
+    let left = |set: &SpringAtSpeed| set.spring.residual.abs();
+    let own = sets.iter().filter(|set| (set.rpm - design_rpm).abs() < 1e-9 * design_rpm);
+    let Some(best) = own.min_by(|a, b| left(a).total_cmp(&left(b))).or(sets.first()) else { return String::new() };
+    let stiffness = figure(best.spring.stiffness / MILLIMETRES);
+    let spring = format!("A spring of {stiffness} N/mm leaves {} N at {} rpm", figure(left(best)), figure(best.rpm));
+    if (best.rpm - design_rpm).abs() < 1e-9 * design_rpm {
+        format!("{spring}, a fixed bottom {} N", figure(fixed))
+    } else {
+        spring
+    }
+}
+
+/// The residual force of the springs, and figure 11 of the paper.
+fn curves_of(machine: &str, design_rpm: f64, fixed: f64, sets: &[SpringAtSpeed], rows: &[SpringRow]) -> Plot {
     let of_sets: Vec<&[SpringRow]> = rows.chunks(PLACES as usize + 1).collect();
     let by_crank = rows.first().is_some_and(|row| row.crank.is_finite());
-    let mut speeds: Vec<&[SpringRow]> = of_sets.clone();
+    let mut speeds: Vec<&[SpringRow]> = of_sets.iter().copied().take(DRAWN).collect();
     speeds.sort_by(|a, b| speed_of(a).total_cmp(&speed_of(b)));
     speeds.dedup_by(|a, b| speed_of(a) == speed_of(b));
     let mut forces = Vec::new();
@@ -424,25 +448,29 @@ fn curves_of(machine: &str, sets: &[SpringAtSpeed], rows: &[SpringRow]) -> Plot 
         let all = points(rows, |row| row.inertia);
         // Under a yoke it is a straight line.
         let ends = [all.first(), all.last()].into_iter().flatten().copied().collect();
-        forces.push(PlotCurve {
-            name: format!("inertia, {} rpm", shown(speed_of(rows))),
-            colour: plot::GREY,
-            bold: false,
-            points: if by_crank { all } else { ends },
-        });
+        let name = format!("inertia, {} rpm", figure(speed_of(rows)));
+        forces.push(PlotCurve::grey(name, if by_crank { all } else { ends }));
     }
-    forces.extend(curve_of_each(sets, &of_sets, |row| row.air));
+    // Their names stand in the panel above.
+    forces.extend(
+        curve_of_each(sets, &of_sets, |row| row.air)
+            .into_iter()
+            .map(|curve| PlotCurve { name: String::new(), ..curve }),
+    );
     let residuals = curve_of_each(sets, &of_sets, |row| row.residual);
     let along = if by_crank { "crank angle from the start of the reversal, degrees" } else { CurveAxis::OVERRUN.words };
+    let not_drawn = sets.len().saturating_sub(DRAWN);
+    let more = if not_drawn > 0 { format!("; {not_drawn} more in the table") } else { String::new() };
     Plot {
-        title: format!("{machine}: buffers on springs"),
+        title: headline(sets, fixed, design_rpm),
+        subtitle: format!("{machine}: buffers on springs{more}"),
         places: along.into(),
         panels: vec![
-            PlotPanel {
-                name: "Force, N: inertia of the bed (thin), air of both cylinders (bold)".into(),
-                curves: forces,
-            },
-            PlotPanel { name: "Residual force, inertia less air, N".into(), curves: residuals },
+            PlotPanel { height: 1.4, ..PlotPanel::new("Residual force, inertia less air, N", residuals) },
+            PlotPanel::new(
+                "Force of the air in both cylinders, in the colours of the springs, and inertia of the bed, N",
+                forces,
+            ),
         ],
         ..Plot::default()
     }
@@ -460,9 +488,9 @@ fn points(rows: &[SpringRow], value: fn(&SpringRow) -> f64) -> Vec<[f64; 2]> {
 
 fn curve_of_each(sets: &[SpringAtSpeed], of_sets: &[&[SpringRow]], value: fn(&SpringRow) -> f64) -> Vec<PlotCurve> {
     let mut curves = Vec::new();
-    for (colour, (set, rows)) in sets.iter().zip(of_sets).enumerate() {
-        let name = format!("{:.2} N/mm, {} rpm", set.spring.stiffness / MILLIMETRES, shown(set.rpm));
-        curves.push(PlotCurve { name, colour, bold: true, points: points(rows, value) });
+    for (colour, (set, rows)) in sets.iter().zip(of_sets).take(DRAWN).enumerate() {
+        let name = format!("{} N/mm, {} rpm", figure(set.spring.stiffness / MILLIMETRES), figure(set.rpm));
+        curves.push(PlotCurve::new(name, colour, points(rows, value)));
     }
     curves
 }

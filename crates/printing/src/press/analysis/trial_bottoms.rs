@@ -7,7 +7,7 @@ use crate::press::machine::{PressCams, exact_on};
 use crate::press::motion::equation_18::{BedDirection, ExactOn, Solver};
 use crate::press::wedge::{LAW_TOLERANCE, Wedge};
 use camgen_cams::machine::Machine;
-use camgen_cams::report::plot::{PlotCurve, PlotPanel};
+use camgen_cams::report::plot::{CurveStroke, PlotCurve, PlotPanel, figure};
 use camgen_cams::table::ListedColumn;
 use camgen_kernel::geometry::MILLIMETRES;
 
@@ -72,21 +72,11 @@ pub(super) fn panel(rows: &[TrialRow]) -> Option<(String, PlotPanel)> {
         let x = rows.first().map_or(f64::NAN, |row| MILLIMETRES * row.x);
         let right = rows.iter().map(|row| [MILLIMETRES * row.off, row.right]).collect();
         let left = rows.iter().map(|row| [MILLIMETRES * row.off, row.left]).collect();
-        curves.push(PlotCurve {
-            name: format!("x = {} mm", camgen_kernel::text::shown(x)),
-            colour,
-            bold: true,
-            points: right,
-        });
-        curves.push(PlotCurve { name: String::new(), colour, bold: false, points: left });
+        curves.push(PlotCurve::new(format!("x = {} mm", figure(x)), colour, right));
+        curves.push(PlotCurve { stroke: CurveStroke::Dashed, ..PlotCurve::new("", colour, left) });
     }
-    let name = "Equation (18) at four places of the bed, N: right side (bold) and left side (thin); they meet where the bottom balances";
-    (!curves.is_empty()).then(|| {
-        (
-            "trial position Δx of the bottom less the one that balances, mm".into(),
-            PlotPanel { name: name.into(), curves },
-        )
-    })
+    let name = "Both sides of equation (18), N; left side dashed";
+    (!curves.is_empty()).then(|| ("trial Δx less the one that balances, mm".into(), PlotPanel::new(name, curves)))
 }
 
 #[cfg(test)]

@@ -175,6 +175,7 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
         column.into_iter().chain(measures_of(&report, typed.fault.variable(), useful, sampling.rule)).collect();
     Ok(Analysis {
         kind: &KIND,
+        variant: "",
         machine: machine.name().to_owned(),
         speeds: Speeds::One(rpm),
         inputs: inputs(machine, rpm, &typed, sampling),
@@ -182,7 +183,14 @@ pub fn analysis(machine: &Machine, rpm: f64, faults: &[String], sampling: &Sampl
         measures,
         notes: machine.idle_key_notes(KIND.keys, KIND.noun),
         picture: Picture::CurvesWithCard(
-            plot::plot(machine.name(), rpm, &places, &settings, &samples, &percentiles, sampling.rule),
+            plot::plot(&plot::ScatterFigures {
+                machine: machine.name(),
+                rpm,
+                ranked: report.bands.ranked(),
+                percentiles: &percentiles,
+                samples: sampling.samples,
+                rule: sampling.rule,
+            }),
             card::settings_card(press, machine.name(), &report),
         ),
         mechanism: None,

@@ -114,7 +114,7 @@ pub fn analysis(machine: &ShaftMachine, clock: &dyn Fn() -> Duration) -> Result<
     let shaft =
         Shaft::new(own.segments().to_vec(), own.supports().to_vec(), discs, Beam::Euler).map_err(Refusal::of)?;
     let (truth, rows) = measure(&shaft, clock)?;
-    let title = format!("{}: time against the error of the first critical speed", machine.name());
+    let subtitle = format!("{}: time against the error of the first critical speed", machine.name());
     let mut inputs = machine.inputs().to_vec();
     inputs.push(Input::word("command", "trade shaft"));
     let advice = advice(&rows);
@@ -123,6 +123,7 @@ pub fn analysis(machine: &ShaftMachine, clock: &dyn Fn() -> Duration) -> Result<
         [("pieces", pieces), ("n1_rpm", |row| row.n1_rpm), ("error", |row| row.error), ("time_us", |row| row.time_us)];
     Ok(Analysis {
         kind: &KIND,
+        variant: "",
         machine: machine.name().to_owned(),
         speeds: Speeds::Any(()),
         inputs,
@@ -136,7 +137,7 @@ pub fn analysis(machine: &ShaftMachine, clock: &dyn Fn() -> Duration) -> Result<
         tables: vec![("", Table { words: Some(("setting", names)), ..Table::listed(&columns, &rows) })],
         by: &[],
         along: "time_us",
-        picture: Picture::Chart(chart_of(&rows, title)),
+        picture: Picture::Chart(chart_of(&rows, advice.clone(), subtitle)),
         mechanism: None,
         document: None,
         diagrams: &[],
@@ -212,12 +213,12 @@ fn describe(truth: f64, rows: &[ShaftTradeRow], advice: &str) -> Vec<ReportLine>
 }
 
 /// Time against error; what is exact to rounding cannot be shown on its scale.
-fn chart_of(rows: &[ShaftTradeRow], title: String) -> Chart {
+fn chart_of(rows: &[ShaftTradeRow], title: String, subtitle: String) -> Chart {
     let mut points: Vec<ChartPoint> = rows
         .iter()
         .map(|row| ChartPoint { x: row.time_us, y: row.error, label: row.setting.clone(), best: false })
         .collect();
     chart::mark_front(&mut points);
     let panels = vec![ChartPanel { y_name: "error of the first critical speed", points }];
-    Chart { title, x_name: "time, µs", panels }
+    Chart { title, subtitle, x_name: "time, µs", panels }
 }
