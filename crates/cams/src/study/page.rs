@@ -105,6 +105,7 @@ fn label(column: &str) -> String {
     let parts: Vec<&str> = path.split('.').collect();
     if let ["checks", check, figure, ..] = parts.as_slice() {
         let unit = checks().find(|known| known.name == *check).map_or("", |known| known.unit);
+        let unit = if unit == "deg" { "°" } else { unit };
         let unit =
             if *figure == "value" && unit != "1" && !unit.is_empty() { format!(", {unit}") } else { String::new() };
         let figure = if *figure == "value" { String::new() } else { format!(", {}", figure.replace('_', " ")) };
@@ -174,7 +175,7 @@ mod tests {
             ("set.cam.base_radius_mm", "Base radius (varied), mm"),
             ("cam.base_radius_mm", "Base radius, mm"),
             ("set.follower.swinging-roller.radius_mm", "Swinging roller radius (varied), mm"),
-            ("checks.pressure_angle.value", "Pressure angle, deg"),
+            ("checks.pressure_angle.value", "Pressure angle, °"),
             ("checks.contact_stress.value", "Contact stress, MPa"),
             ("checks.contact_stress.verdict", "Contact stress, verdict"),
             ("passed", "Passed"),

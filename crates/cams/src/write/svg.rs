@@ -185,9 +185,10 @@ fn layer(group: &ShapeGroup, scale: f64, with_lengths: bool) -> element::Group {
         .set("inkscape:label", printable(&group.label.to_string()));
     if let Some(colour) = &group.colour {
         // Texts take `color` where their class says so.
-        node = match FILLED.contains(&group.class) {
-            true => node.set("fill", colour.as_str()),
-            false => node.set("stroke", colour.as_str()).set("color", colour.as_str()),
+        node = if FILLED.contains(&group.class) {
+            node.set("fill", colour.as_str())
+        } else {
+            node.set("stroke", colour.as_str()).set("color", colour.as_str())
         };
     }
     if OUTLINES.contains(&group.class) {
