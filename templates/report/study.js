@@ -8,7 +8,7 @@ const element = (tag, text, parent) => {
   parent?.append(made);
   return made;
 };
-const shown = (value) => (value === null || value === undefined ? "" : Number(value.toPrecision(6)).toString());
+const shown = (value) => (value === null || value === undefined ? "" : Number(value.toPrecision(4)).toString());
 
 const rows = document.getElementById("rows");
 const kept = study.kind === "pareto" ? `, ${study.columns[0]?.front.length ?? 0} of them beaten by no other` : "";

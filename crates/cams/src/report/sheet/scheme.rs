@@ -14,7 +14,7 @@ use nalgebra::Vector2;
 const TEXT: f64 = 3.4;
 const HEAD: f64 = 5.0;
 /// Size of the letters over the lettering of an A4.
-const LETTERING: f64 = 1.05;
+const LETTERING: f64 = 0.9;
 /// Room to the sides of a position, and above and below it, mm: letters also find room between the lines.
 const MARGIN: [f64; 2] = [2.5, 1.2];
 /// Radius of a joint, and of the ring about a fixed one, mm.
@@ -56,8 +56,10 @@ pub(in crate::report) fn draw(
             Extents { least: Vector2::new(field.least.x, top - each), largest: Vector2::new(field.largest.x, top) };
         let middle = 0.5 * (cell.least + cell.largest) - Vector2::new(0.0, 0.5 * (HEAD + (above - below) * LANE));
         let at = |point: Vector2<f64>| middle + (point - 0.5 * (covered.least + covered.largest)) / reduction;
-        groups.extend(dimensions(&pose.dimensions, index, &covered, &at));
-        groups.extend(of_pose(pose, index, &cell, &at, &colour));
+        let sizes = dimensions(&pose.dimensions, index, &covered, &at);
+        let letters_keep_clear = sizes.iter().flat_map(|group| group.shapes.clone()).collect::<Vec<_>>();
+        groups.extend(sizes);
+        groups.extend(of_pose(pose, index, &cell, &letters_keep_clear, &at, &colour));
         top -= each;
     }
     groups.push(ruler(&Extents { largest: Vector2::new(field.largest.x, top), ..*field }, reduction));
@@ -154,6 +156,7 @@ fn of_pose(
     pose: &SchemePose,
     index: usize,
     cell: &Extents,
+    before: &[SheetShape],
     at: &impl Fn(Vector2<f64>) -> Vector2<f64>,
     colour: &impl Fn(usize) -> &'static str,
 ) -> Vec<ShapeGroup> {
@@ -176,6 +179,7 @@ fn of_pose(
     groups.push(ShapeGroup { id: format!("joints-{index}"), ..ShapeGroup::new("joint", "joints", discs) });
     let mut taken = OccupiedPaper::none(*cell);
     taken.put(&head);
+    before.iter().for_each(|shape| taken.put(shape));
     for shape in groups.iter().flat_map(|group| &group.shapes) {
         taken.put(shape);
     }
