@@ -424,7 +424,9 @@ fn below_each_other(page: &mut PicturePage, plot: &Plot, field: Extents) {
     for row in rows {
         let part = next(around_of(row, room) + each * tallest_of(row));
         if !in_pairs {
-            row.iter().for_each(|panel| panel.draw(page, &part, sides));
+            for panel in row {
+                panel.draw(page, &part, sides);
+            }
             continue;
         }
         let width = 0.5 * (part.size().x - GAP * room);

@@ -108,7 +108,8 @@ pub(super) fn draw(page: &mut PicturePage, chart: &SmallPlots, part: &Extents) {
 /// Name, peak and figures of a plot.
 fn texts(page: &mut PicturePage, plot: &SmallPlot, field: &Extents, at: impl Fn([f64; 2]) -> Vector2<f64>) {
     let (k, size, small) = (page.k, TEXT * page.k, SMALL * page.k);
-    let (name, name_size) = font::fitted_in_one(&plot.name, size, field.size().x);
+    let beside = plot.peak.as_ref().map_or(0.0, |peak| font::width(&peak.text, size) + k);
+    let (name, name_size) = font::fitted_in_one(&plot.name, size, field.size().x - beside);
     let above = Vector2::new(field.least.x, field.largest.y + 0.45 * size);
     page.add("strong", &plot.name, None, vec![words(above, name_size, TextAnchor::Start, name)]);
     let base = field.least.y - 1.35 * size;
@@ -131,13 +132,7 @@ fn texts(page: &mut PicturePage, plot: &SmallPlot, field: &Extents, at: impl Fn(
     let place = at(peak.at);
     let dot = SheetShape::Entity(Entity::Circle(place, DOT * k));
     page.add("dot", &plot.name, Some(peak.colour.line()), vec![dot]);
-    // Above the peak, within the plot.
-    let half = 0.5 * font::width(&peak.text, size) + 0.5 * k;
-    let x = place.x.clamp(field.least.x + half, (field.largest.x - half).max(field.least.x + half));
-    let up = if peak.at[1] < 0.0 { -1.25 * size } else { 0.5 * size };
-    page.label(
-        peak.colour,
-        &plot.name,
-        vec![words(Vector2::new(x, place.y + up), size, TextAnchor::Middle, peak.text.as_str())],
-    );
+    // Above the plot at its right, where no curve is.
+    let at = Vector2::new(field.largest.x, field.largest.y + 0.45 * size);
+    page.label(peak.colour, &plot.name, vec![words(at, size, TextAnchor::End, peak.text.as_str())]);
 }

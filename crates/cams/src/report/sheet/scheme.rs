@@ -179,7 +179,9 @@ fn of_pose(
     groups.push(ShapeGroup { id: format!("joints-{index}"), ..ShapeGroup::new("joint", "joints", discs) });
     let mut taken = OccupiedPaper::none(*cell);
     taken.put(&head);
-    before.iter().for_each(|shape| taken.put(shape));
+    for shape in before {
+        taken.put(shape);
+    }
     for shape in groups.iter().flat_map(|group| &group.shapes) {
         taken.put(shape);
     }

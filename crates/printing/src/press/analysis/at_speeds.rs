@@ -206,8 +206,8 @@ const CUT_OFF: f64 = 1.15;
 pub(super) fn columns_curve(
     name: &str,
     colour: usize,
-    columns: impl Iterator<Item = [f64; 2]>,
+    points: impl Iterator<Item = [f64; 2]>,
     limit: f64,
 ) -> PlotCurve {
-    PlotCurve::new(name, colour, columns.filter(|[_, column]| *column <= CUT_OFF * limit).collect())
+    PlotCurve::new(name, colour, points.filter(|[_, column]| *column <= CUT_OFF * limit).collect())
 }
