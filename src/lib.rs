@@ -196,7 +196,7 @@ pub use camgen_cams::{
     ExpectedFile, FileKind, FileSet, Finding, FlatFaceFollower, GuideData, Judged, Keyway, KnifeEdgeFollower,
     LazyReport, Machine, MachineError, Material, Output, Part, Place, PlaceChoice, Proven, ProvenAssembly, Report,
     Request, Rolled, RollerFollower, Section, Spec, Speeds, SpringData, SwingingFaceFollower, SwingingRollerFollower,
-    Table, Title, Verdict, Version, VibrationData, Writing,
+    Table, Title, TriedChanges, Verdict, Version, VibrationData, Writing,
 };
 
 #[cfg(feature = "printing")]

@@ -62,7 +62,7 @@ pub use machine::{GuideData, Keyway, Machine, MachineError, Material, SpringData
 pub use pipeline::{
     ArmSide, Assembly, AssemblyDrawing, AssemblyReport, Builder, Cam, Drawing, Error, ExpectedFile, FileKind, FileSet,
     FlatFaceFollower, Judged, KnifeEdgeFollower, Output, PlaceChoice, Proven, ProvenAssembly, RollerFollower, Spec,
-    SwingingFaceFollower, SwingingRollerFollower, Writing,
+    SwingingFaceFollower, SwingingRollerFollower, TriedChanges, Writing,
 };
 #[doc(inline)]
 pub use report::{Finding, LazyReport, Place, Report, Rolled, Section, Speeds, Verdict};

@@ -224,6 +224,7 @@ pub fn analysis(machine: Option<&Machine>, asked: &LawsOptions) -> Result<Analys
         let cam = machine.zip(program).and_then(|(machine, program)| of_cam(machine, program, law, rpm));
         row(law, rise, cam)
     });
+    let own = program.and_then(own_law);
     let sorted_by = report::sort(&mut rows, asked.sort.as_deref())?;
     let name = machine.map_or("laws", Machine::name);
     let mut inputs = vec![Input::word("command", KIND.command)];
@@ -241,10 +242,10 @@ pub fn analysis(machine: Option<&Machine>, asked: &LawsOptions) -> Result<Analys
         machine: name.to_owned(),
         speeds: rpm.map_or(Speeds::Any(()), Speeds::One),
         inputs,
-        sections: vec![report::section(&rows, rise, machine.is_some())],
+        sections: vec![report::section(&rows, rise, machine.is_some(), own)],
         measures: Vec::new(),
         notes: machine.map(|machine| machine.idle_key_notes(KIND.keys, KIND.noun)).unwrap_or_default(),
-        picture: Picture::Curves(report::plot(name, &rows, rise, program.and_then(own_law))),
+        picture: Picture::Curves(report::plot(name, &rows, rise, own)),
         mechanism: None,
         document: None,
         tables: vec![("", report::table(&rows))],

@@ -7,7 +7,7 @@ use crate::check::outlier;
 use crate::machine::Machine;
 use crate::report::diagram::{Diagram, PlottedValue, diagram};
 use crate::report::plot::{PictureColour, Plot, PlotBand, PlotCurve, PlotLine, PlotPanel, PlotPoint, figure};
-use crate::report::{Section, Speeds};
+use crate::report::{Fact, Section, Speeds, Topic};
 use crate::table::{ListedColumn, Table};
 use camgen_kernel::document::{Input, NamedChoice, cams};
 use camgen_kernel::follower::FollowerPlacement;
@@ -191,7 +191,11 @@ pub fn analysis(machine: &Machine, free: &[FreeDimension], rpm: Option<f64>) -> 
         machine: machine.name().to_owned(),
         speeds: rpm.map_or(Speeds::Any(()), Speeds::One),
         inputs,
-        sections: vec![Section::new(KIND.command, &size).with_words(words(&disc, &size, place))],
+        sections: vec![summarised(
+            &disc,
+            &size,
+            Section::new(KIND.command, &size).with_words(words(&disc, &size, place)),
+        )],
         measures: outlier.into_iter().collect(),
         notes: machine.idle_key_notes(KIND.keys, KIND.noun),
         picture: Picture::Curves(plot(&disc, by_place.as_ref(), &by_size)),
@@ -265,6 +269,42 @@ fn sizes(disc: &Disc) -> Vec<SizeRow> {
     let bases = between(from * smallest, to * smallest);
     let place = disc.follower().place().map_or(f64::NAN, |place| place.chosen_by(&**disc.follower()));
     parallel::map(&bases, |base| row(disc.of_prime_radius(base + disc.curves().offset()).as_ref(), place, f64::NAN))
+}
+
+/// The smallest cam, what keeps it from being smaller, and the place of the follower that would allow the smallest one.
+fn summarised(disc: &Disc, size: &Size, section: Section) -> Section {
+    let smallest = size
+        .figures
+        .smallest_base_radius_mm
+        .map(|radius| text!("the smallest base radius that keeps every limit is {}", Length::mm(radius).brief()));
+    let chosen = text!(
+        "base R{}, prime R{}",
+        Length::mm(size.base_radius_mm).nominal(),
+        Length::mm(size.prime_radius_mm).nominal()
+    );
+    let place = [("offset", size.figures.offset_mm), ("pivot distance", size.figures.pivot_distance_mm)];
+    let place = place.into_iter().find_map(|(name, mm)| Some(text!("{} {}", name, Length::mm(mm?).nominal())));
+    let binding = size.figures.binding.map(|limit| {
+        let at = size.figures.binding_cam_deg.map(|at| format!(" at {at:.1}°"));
+        text!("{}{}", limit.replace('_', " "), at.unwrap_or_default())
+    });
+    let best = size.least_by_pressure_angle.as_ref().map(|best| {
+        let name = if best.offset_mm.is_some() { "offset" } else { "pivot distance" };
+        let choice = best.offset_mm.or(best.pivot_distance_mm).unwrap_or(f64::NAN);
+        text!(
+            "{} {} would do with prime R{} by the pressure angle alone",
+            name,
+            Length::mm(choice).brief(),
+            Length::mm(best.prime_radius_mm).brief()
+        )
+    });
+    let answer = smallest.unwrap_or_else(|| text!("no base radius keeps every limit of {}", disc.machine().name()));
+    let facts = [
+        Some(Fact::new(Topic::SIZE, chosen.and(", ", place))),
+        binding.map(|binding| Fact::new(Topic::new(20, "bound by"), binding)),
+        best.map(|best| Fact::new(Topic::new(30, "elsewhere"), best)),
+    ];
+    section.with_answer(answer).with_facts(facts.into_iter().flatten())
 }
 
 fn words(disc: &Disc, size: &Size, place: Option<FollowerPlacement>) -> Vec<Text> {

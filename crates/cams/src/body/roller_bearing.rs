@@ -6,10 +6,10 @@
 
 use crate::check::{Check, CheckExplanation, CheckScope, Measure, Measures, Subject};
 use crate::machine::{BearingData, Machine};
-use crate::report::{Bound, Section, Verdict, degrees, shown};
+use crate::report::{Bound, Fact, Section, Topic, Verdict, degrees, shown};
 use camgen_kernel::numeric::quadrature;
 use camgen_kernel::profile::Worst;
-use camgen_kernel::text::text;
+use camgen_kernel::text::{KeyChange, Remedy, Value, text};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -172,7 +172,9 @@ impl RollerBearing<'_> {
         let kept = limit.is_none_or(|limit| life >= limit);
         let needed = limit.filter(|_| !kept).map(|limit| {
             let rating = self.bearing.dynamic_rating * libm::pow(limit / life, 1.0 / self.bearing.exponent);
-            text!("a dynamic_rating of {} kN would keep it", shown((rating / 10.0).ceil() / 100.0))
+            let key = format!("{}.bearing.dynamic_rating", self.machine.follower.path);
+            let change = KeyChange::new(key, format!("{} kN", shown((rating / 10.0).ceil() / 100.0)));
+            text!("{} would keep it", Remedy::new([change]))
         });
         let note = text!("equivalent load {} N", shown(duty.equivalent_load)).and("; ", needed.unwrap_or_default());
         LIFE.measure(life, limit).noted(note)
@@ -208,5 +210,8 @@ pub(super) fn section(found: &RollerBearing<'_>) -> Option<Section> {
         let (share, at) = (shown(worst.value), degrees(worst.at.rem_euclid(TAU)));
         format!("to follow the cam the roller needs up to {share} of the friction, at {at:.3}°")
     }));
-    Some(Section::new("roller_bearing", &section).with_words(words))
+    let life = section.life_h.map(|life| text!("life L10 {}", Value::brief(life, "h")));
+    let speed = section.largest_rpm.map(|rpm| text!("up to {}", Value::brief(rpm, "rpm")));
+    let facts = [life, speed].into_iter().flatten().map(|text| Fact::new(Topic::ROLLER, text));
+    Some(Section::new("roller_bearing", &section).with_words(words).with_facts(facts))
 }

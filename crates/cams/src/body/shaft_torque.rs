@@ -1,9 +1,10 @@
 //! Torque and power of a camshaft over a turn, and the flywheel that evens its speed.
 
 use crate::machine::Machine;
-use crate::report::{Section, degrees, shown};
+use crate::report::{Fact, Section, Topic, degrees, shown};
 use camgen_kernel::numeric::{quadrature, root};
 use camgen_kernel::profile::Worst;
+use camgen_kernel::text::{Value, text};
 use camgen_kernel::units;
 use serde::Serialize;
 
@@ -155,7 +156,28 @@ impl DynamicsFigures<'_> {
             jump_rpm: jump.map(|jump| units::rpm(jump.value)),
             jump_at_deg: jump.map(|jump| degrees(jump.at)),
         };
-        Section::new("dynamics", &figures).with_words(self.words(&figures))
+        Section::new("dynamics", &figures).with_words(self.words(&figures)).with_facts(self.facts(&figures))
+    }
+
+    fn facts(&self, figures: &DynamicsSection) -> Vec<Fact> {
+        let mut facts = Vec::new();
+        if let Some((most, least)) = figures.contact_force_max_n.zip(figures.contact_force_min_n) {
+            let low = Value::brief_number(least);
+            let text = if least > 0.0 || self.is_closed {
+                text!("{} to {} along the normal", low, Value::brief(most, "N"))
+            } else {
+                text!("up to {} along the normal; the follower leaves the cam", Value::brief(most, "N"))
+            };
+            facts.push(Fact::new(Topic::FORCE, text));
+        }
+        if let Some(torque) = &self.torque {
+            let range =
+                text!("{} to {}", Value::brief_number(torque.least.value), Value::brief(torque.largest.value, "N·m"));
+            let power = figures.power_max_w.map(|most| text!("peak {}", Value::brief(most, "W")));
+            let range = range.and(", ", power).and("; ", "friction is not counted");
+            facts.push(Fact::new(Topic::TORQUE, range));
+        }
+        facts
     }
 
     fn words(&self, figures: &DynamicsSection) -> Vec<String> {

@@ -2,12 +2,12 @@
 
 use super::force_closure::WITHOUT_INERTIA;
 use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
-use crate::machine::{CamMaterial, Machine, Material, customary_stress_of, stress_at_rest};
-use crate::report::{Bound, Verdict, shown};
+use crate::machine::{CamMaterial, Machine, customary_stress_of, stress_at_rest};
+use crate::report::{Bound, Topic, Verdict, shown};
 use camgen_kernel::document::cams::GROOVE;
 use camgen_kernel::follower::Element;
 use camgen_kernel::profile::Worst;
-use camgen_kernel::text::{Remedy, Text, text};
+use camgen_kernel::text::{DIGITS, Remedy, Text, Value, nominal, text};
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -75,8 +75,16 @@ pub fn measure(
         (_, false, true) => Verdict::Warn,
         _ => Verdict::of(kept),
     };
+    let assumed = match (machine.limits.contact_stress, machine.cam.material) {
+        (None, Some(material)) => material.assumed_state(),
+        _ => None,
+    };
+    let of_limit = Value::from(nominal(1e-6 * limit, DIGITS));
+    let fact = text!("{} of {}", Value::brief(1e-6 * worst.value, "MPa"), of_limit)
+        .and(": ", assumed.as_ref().map(|state| text!("{} is assumed", state)));
     let measure = CHECK.measure(1e-6 * worst.value, Some(1e-6 * limit)).judged(verdict);
-    measure.noted(notes).at(subject, &worst)
+    let assumed = assumed.map_or_else(Text::default, Text::from);
+    measure.noted(notes).at(subject, &worst).with_fact(Topic::STRESS, fact).assuming(assumed)
 }
 
 /// The largest pressure with which the check does not fail, Pa; `None` where neither a limit nor a material is given.
@@ -107,12 +115,7 @@ fn missing(contact: ContactKind, subject: &Subject<'_>) -> &'static str {
 
 /// The customary limit of a material in a kind of contact.
 fn words(material: &CamMaterial, contact: ContactKind) -> String {
-    let name = match material.class {
-        Material::Steel => "hardened steel",
-        Material::CastIron => "cast iron",
-        Material::Bronze => "bronze",
-        Material::Aluminium => "aluminium",
-    };
+    let name = material.class.customary_state();
     let limit = material.limit_words().unwrap_or_else(|| format!("the customary limit of {name}"));
     let under = match contact {
         ContactKind::Line => return format!("{limit} along a line"),

@@ -45,7 +45,7 @@ pub fn measure(least: Option<Worst>, holding: impl FnOnce() -> Option<KeyChange>
     };
     let note = (!kept).then(|| {
         let remedy = Remedy::new([holding().unwrap_or_else(own)]);
-        text!("the {} leaves the cam; {} would hold it", part, remedy)
+        text!("the {} leaves the cam", part).and("; ", text!("{} would hold it", remedy))
     });
     let without_inertia = kept && subject.lacks_inertia();
     let note = note.or_else(|| without_inertia.then(|| Text::from(WITHOUT_INERTIA)));

@@ -1,9 +1,9 @@
 //! Whether the cam runs slower than the speed at which its follower leaves it.
 
 use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
-use crate::report::{Bound, Verdict, shown};
+use crate::report::{Bound, Topic, Verdict, shown};
 use camgen_kernel::profile::Worst;
-use camgen_kernel::text::{KeyChange, Remedy, text};
+use camgen_kernel::text::{KeyChange, Remedy, Text, Value, text};
 use camgen_kernel::units;
 
 /// The check.
@@ -46,5 +46,15 @@ pub fn measure(
         (Some(_), true) => Some("the follower does not leave the cam at any speed".into()),
         (None, true) => Some("without motion.rpm or --rpm there is no limit".into()),
     };
-    CHECK.measure(units::rpm(jump.value), limit).judged(verdict).noted(note).at(subject, &jump)
+    let holds = match subject.speed {
+        _ if !jump.value.is_finite() => Text::from("the follower stays on the cam at any speed"),
+        Some(speed) => text!(
+            "holds up to {}, {} times the speed",
+            Value::brief(units::rpm(jump.value), "rpm"),
+            Value::brief_number(jump.value / speed)
+        ),
+        None => text!("holds up to {}", Value::brief(units::rpm(jump.value), "rpm")),
+    };
+    let measure = CHECK.measure(units::rpm(jump.value), limit).judged(verdict).noted(note).at(subject, &jump);
+    measure.with_fact(Topic::SPRING, holds)
 }

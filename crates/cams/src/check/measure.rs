@@ -2,7 +2,7 @@
 
 use super::Check;
 use crate::machine::Machine;
-use crate::report::{Bound, Finding, Place, Rolled, Verdict};
+use crate::report::{Bound, Fact, Finding, Place, Rolled, Topic, Verdict};
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::profile::{Curves, Worst};
 use camgen_kernel::text::Text;
@@ -20,8 +20,12 @@ pub struct Measure {
     pub place: Place,
     /// A note on it, and a change that would keep the limit.
     pub note: Option<Text>,
-    /// Whether data are missing that the check needs.
-    pub is_unknown: bool,
+    /// What a summary says of it among its facts.
+    pub fact: Option<Fact>,
+    /// What its verdict rests on without having been given.
+    pub assumes: Option<Text>,
+    /// The data that the check needs and that are missing: why it was not run.
+    pub missing: Option<String>,
     /// The verdict of a check that does not judge by its bound alone.
     pub verdict: Option<Verdict>,
 }
@@ -52,6 +56,18 @@ impl Measure {
         Self { note: Some(note.into()).filter(|note| !note.is_empty()), ..self }
     }
 
+    /// With a line of a summary.
+    #[must_use]
+    pub fn with_fact(self, topic: Topic, text: impl Into<Text>) -> Self {
+        Self { fact: Some(Fact::new(topic, text)), ..self }
+    }
+
+    /// With what its verdict rests on without having been given.
+    #[must_use]
+    pub fn assuming(self, assumed: impl Into<Text>) -> Self {
+        Self { assumes: Some(assumed.into()).filter(|assumed| !assumed.is_empty()), ..self }
+    }
+
     /// At a place.
     #[must_use]
     pub fn placed(self, place: Place) -> Self {
@@ -79,7 +95,14 @@ impl Measure {
         };
         let by_bound = || self.limit.map_or(Verdict::Info, |limit| Verdict::of(kept(limit)));
         let found = self.check.found(value, self.limit, self.verdict.unwrap_or_else(by_bound));
-        Finding { place: self.place, note: self.note.clone(), is_unknown: self.is_unknown, ..found }
+        Finding {
+            place: self.place,
+            note: self.note.clone(),
+            fact: self.fact.clone(),
+            assumes: self.assumes.clone(),
+            missing: self.missing.clone(),
+            ..found
+        }
     }
 }
 

@@ -43,6 +43,14 @@ pub enum CheckScope {
     Analysis,
 }
 
+impl CheckScope {
+    /// Whether it looks at what was written, whose tolerances are filled on purpose, and not at the cam that was designed.
+    #[must_use]
+    pub fn is_as_cut(self) -> bool {
+        matches!(self, Self::Outline | Self::File | Self::ToolFile)
+    }
+}
+
 /// What a user should know of a check in addition to its meaning.
 #[derive(Debug, Clone, Copy)]
 pub struct CheckExplanation {
@@ -96,14 +104,24 @@ impl Check {
     /// A measure of it, judged by its bound where there is a limit, at no particular place.
     #[must_use]
     pub fn measure(&'static self, value: f64, limit: Option<f64>) -> Measure {
-        Measure { check: self, value, limit, place: Place::default(), note: None, verdict: None, is_unknown: false }
+        Measure {
+            check: self,
+            value,
+            limit,
+            place: Place::default(),
+            note: None,
+            fact: None,
+            assumes: None,
+            verdict: None,
+            missing: None,
+        }
     }
 
     /// A measure that could not be taken because data are missing.
     #[must_use]
     pub fn unknown(&'static self, why: &str) -> Measure {
         let note = Some(not_run(why));
-        Measure { note, is_unknown: true, ..self.measure(f64::NAN, None).judged(Verdict::Info) }
+        Measure { note, missing: Some(why.to_owned()), ..self.measure(f64::NAN, None).judged(Verdict::Info) }
     }
 
     /// A finding of this check at no particular place.
@@ -117,8 +135,11 @@ impl Check {
             unit: self.unit.into(),
             place: Place::default(),
             verdict,
-            is_unknown: false,
+            missing: None,
             about: Some(self.about),
+            is_as_cut: self.on.is_as_cut(),
+            fact: None,
+            assumes: None,
             note: None,
         }
     }
@@ -126,6 +147,6 @@ impl Check {
     /// A check that could not be run because data are missing.
     #[must_use]
     pub fn not_run(&self, why: &str) -> Finding {
-        Finding { note: Some(not_run(why)), is_unknown: true, ..self.found(f64::NAN, None, Verdict::Info) }
+        Finding { note: Some(not_run(why)), missing: Some(why.to_owned()), ..self.found(f64::NAN, None, Verdict::Info) }
     }
 }

@@ -1,7 +1,8 @@
 //! The size of the part: what can be cut and built in.
 
 use super::{AsWritten, Check, CheckExplanation, CheckScope, Measure, Subject};
-use crate::report::Bound;
+use crate::report::{Bound, Topic};
+use camgen_kernel::text::{Length, text};
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -23,5 +24,7 @@ pub fn measure(written: &AsWritten<'_>, blank: f64, subject: &Subject<'_>) -> Op
     let limits = subject.machine.limits;
     let limit = 1e3 * limits.largest_size();
     let note = limits.size.is_none().then_some("the customary limit");
-    Some(CHECK.measure(written.size_mm?.max(blank), Some(limit)).noted(note))
+    let largest = written.size_mm?.max(blank);
+    let measure = CHECK.measure(largest, Some(limit)).noted(note);
+    Some(measure.with_fact(Topic::SIZE, text!("largest {}", Length::mm(largest).nominal())))
 }

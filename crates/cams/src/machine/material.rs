@@ -30,6 +30,17 @@ impl Material {
         CLASSES.iter().find(|(_, class)| *class == self).map_or("", |(name, _)| name)
     }
 
+    /// The state in which its customary limit of contact stress holds.
+    #[must_use]
+    pub fn customary_state(self) -> &'static str {
+        match self {
+            Material::Steel => "hardened steel",
+            Material::CastIron => "cast iron",
+            Material::Bronze => "bronze",
+            Material::Aluminium => "aluminium",
+        }
+    }
+
     /// E, Pa, customary values.
     #[must_use]
     pub fn modulus(self) -> f64 {
@@ -233,6 +244,21 @@ impl CamMaterial {
             Source::Grade(grade) => grade.limit().map(|(limit, _)| limit),
             Source::Class | Source::Other => None,
         })
+    }
+
+    /// The state of the material that its customary limit is for, which nobody has stated: "hardened steel". `None` where the file gives the
+    /// limit, or where none is known.
+    #[must_use]
+    pub fn assumed_state(&self) -> Option<String> {
+        match (self.limit, self.source) {
+            (None, Source::Class) => Some(self.class.customary_state().to_owned()),
+            (None, Source::Grade(grade)) => {
+                let state = grade.limit().map(|(_, state)| state);
+                let state = state.unwrap_or_else(|| self.class.customary_state().to_owned());
+                Some(format!("{}, {state},", grade.names.first().unwrap_or(&"")))
+            }
+            (Some(_), _) | (None, Source::Other) => None,
+        }
     }
 
     /// Whether more than its name is known.

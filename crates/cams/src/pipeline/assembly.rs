@@ -207,7 +207,7 @@ impl ProvenAssembly {
         self.joint_report.as_deref()
     }
 
-    fn all(&self) -> impl Iterator<Item = &Proven> {
+    pub(super) fn all(&self) -> impl Iterator<Item = &Proven> {
         std::iter::once(&self.first).chain(self.others.iter().map(|(_, cam)| cam))
     }
 

@@ -17,6 +17,7 @@ mod inputs;
 mod judged;
 mod pair;
 mod proven;
+mod remedy;
 mod spec;
 mod stem;
 
@@ -33,6 +34,7 @@ pub use file_kind::FileKind;
 pub use file_set::{FileSet, Output, Writing};
 pub use judged::Judged;
 pub use proven::Proven;
+pub use remedy::TriedChanges;
 pub use spec::Spec;
 pub use spec::{SolvedBodies, WantedCams};
 

@@ -1,9 +1,10 @@
 //! The result of a check, and where.
 
+use super::fact::Fact;
 use super::shown;
-use camgen_kernel::text::{Length, LengthKind, Text, Value, text};
+use camgen_kernel::text::{DIGITS, Length, LengthKind, Remedy, Text, Value, nominal, significant_beside, text};
 use camgen_kernel::units::LengthUnit;
-use serde::ser::Serializer;
+use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Deserializer, Serialize};
 use std::borrow::Cow;
 
@@ -142,7 +143,11 @@ pub struct ShownValue {
 impl std::fmt::Display for ShownValue {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.number)?;
-        if self.unit.is_empty() { Ok(()) } else { write!(f, " {}", self.unit) }
+        match &*self.unit {
+            "" => Ok(()),
+            "°" => f.write_str("°"),
+            unit => write!(f, " {unit}"),
+        }
     }
 }
 
@@ -150,17 +155,17 @@ impl std::fmt::Display for ShownValue {
 const ROUNDING: f64 = 1e-6;
 
 /// The result of a check.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Finding {
     /// Name of the check.
     pub check: Cow<'static, str>,
     /// The value that was found; not finite when there is nothing to measure (no concave part, for example), which JSON writes as null.
-    #[serde(serialize_with = "finite", deserialize_with = "or_nan")]
+    #[serde(deserialize_with = "or_nan")]
     pub value: f64,
     /// Its limit, if it has one.
     pub limit: Option<f64>,
     /// On which side of it the value must be.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub bound: Option<Bound>,
     /// Unit of both.
     pub unit: Cow<'static, str>,
@@ -169,18 +174,150 @@ pub struct Finding {
     pub place: Place,
     /// The verdict.
     pub verdict: Verdict,
-    /// Whether data are missing that the check needs, where the finding was not read from a report.
+    /// The data that the check needs and that are missing, where the finding was not read from a report: why it was not run.
     #[serde(skip)]
-    pub is_unknown: bool,
+    pub missing: Option<String>,
     /// What the check means, where the finding was not read from a report.
     #[serde(skip)]
     pub about: Option<&'static str>,
+    /// Whether it is about the outline as it was written, whose tolerance is filled on purpose, and not about the cam that was designed.
+    #[serde(skip)]
+    pub is_as_cut: bool,
+    /// What a summary says of it among its facts, where the finding was not read from a report.
+    #[serde(skip)]
+    pub fact: Option<Fact>,
+    /// What the verdict rests on without having been given.
+    #[serde(default, deserialize_with = "as_words")]
+    pub assumes: Option<Text>,
     /// A remedy, or what the figure means.
-    #[serde(default, skip_serializing_if = "Option::is_none", serialize_with = "words", deserialize_with = "as_words")]
+    #[serde(default, deserialize_with = "as_words")]
     pub note: Option<Text>,
 }
 
+/// For programs: texts in millimetres, and what follows from the figures.
+impl Serialize for Finding {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("check", &self.check)?;
+        // JSON has no infinity.
+        map.serialize_entry("value", &Some(self.value).filter(|value| value.is_finite()))?;
+        map.serialize_entry("limit", &self.limit)?;
+        if let Some(bound) = &self.bound {
+            map.serialize_entry("bound", bound)?;
+        }
+        map.serialize_entry("unit", &self.unit)?;
+        map.serialize_entry("cam_deg", &self.place.cam_deg)?;
+        if let Some(x) = &self.place.x_mm {
+            map.serialize_entry("x_mm", x)?;
+        }
+        map.serialize_entry("verdict", &self.verdict)?;
+        if let Some(note) = &self.note {
+            map.serialize_entry("note", &note.to_string())?;
+        }
+        if let Some(margin) = self.margin() {
+            map.serialize_entry("margin", &margin)?;
+        }
+        if let Some(assumed) = &self.assumes {
+            map.serialize_entry("assumes", &assumed.to_string())?;
+        }
+        let remedies: Vec<RemedyWritten> = self.remedies().into_iter().filter_map(RemedyWritten::of).collect();
+        if !remedies.is_empty() {
+            map.serialize_entry("remedies", &remedies)?;
+        }
+        map.end()
+    }
+}
+
+/// A remedy for programs: a key and its value, and further ones where all of them are needed.
+#[derive(Serialize)]
+struct RemedyWritten<'a> {
+    key: &'a str,
+    value: &'a str,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    with: Vec<RemedyWritten<'a>>,
+}
+
+impl<'a> RemedyWritten<'a> {
+    fn of(remedy: &'a Remedy) -> Option<Self> {
+        let mut changes =
+            remedy.changes.iter().map(|change| Self { key: &change.key, value: &change.value, with: Vec::new() });
+        let first = changes.next()?;
+        Some(Self { with: changes.collect(), ..first })
+    }
+}
+
 impl Finding {
+    /// The share of its limit that the value uses: value over limit where the limit is the largest value, limit over value where it is the
+    /// smallest. `None` where such a share says nothing: without a limit, beside a limit of 0, for what must be exact, and for counts.
+    #[must_use]
+    pub fn margin(&self) -> Option<f64> {
+        let limit = self.limit.filter(|limit| *limit > 0.0 && self.value.is_finite() && !self.is_count())?;
+        match self.bound? {
+            Bound::AtMost => Some(self.value.max(0.0) / limit),
+            Bound::AtLeast if self.value > 0.0 => Some(limit / self.value),
+            Bound::AtLeast | Bound::Above | Bound::Exactly => None,
+        }
+    }
+
+    /// Whether value and limit are numbers of things, such as derivatives without a jump.
+    fn is_count(&self) -> bool {
+        let is_whole = |value: f64| value.fract() == 0.0;
+        matches!(&*self.unit, "" | "1") && is_whole(self.value) && self.limit.is_none_or(is_whole)
+    }
+
+    /// The changes of a machine file in its note.
+    #[must_use]
+    pub fn remedies(&self) -> Vec<&Remedy> {
+        self.note.as_ref().map_or_else(Vec::new, Text::remedies)
+    }
+
+    /// The name of the check in words: "pressure angle", "convex radius".
+    #[must_use]
+    pub fn title(&self) -> String {
+        let words = self.check.replace('_', " ");
+        words.strip_prefix("min ").map_or_else(|| words.clone(), str::to_owned)
+    }
+
+    /// The value as a summary shows it: four significant digits, and more where they would read as the limit; shares in percent.
+    #[must_use]
+    pub fn brief_value(&self, units: LengthUnit) -> ShownValue {
+        let value = self.readable();
+        if !value.is_finite() {
+            return ShownValue { number: "–".into(), unit: "".into() };
+        }
+        let (scale, unit) = self.brief_unit(units);
+        let limit = self.limit.filter(|limit| limit.is_finite());
+        let number = match limit {
+            _ if self.is_count() => nominal(value, DIGITS),
+            Some(limit) => significant_beside(scale * value, scale * limit, DIGITS),
+            None => significant_beside(scale * value, f64::NAN, DIGITS),
+        };
+        ShownValue { number, unit }
+    }
+
+    /// The limit as a summary shows it beside the value, without its side; `None` without a limit.
+    #[must_use]
+    pub fn brief_limit(&self, units: LengthUnit) -> Option<ShownValue> {
+        let (scale, unit) = self.brief_unit(units);
+        Some(ShownValue { number: nominal(scale * self.limit?, DIGITS), unit })
+    }
+
+    /// What a summary multiplies value and limit by, and the unit that they then have.
+    fn brief_unit(&self, units: LengthUnit) -> (f64, Cow<'static, str>) {
+        const SMALL_MM: f64 = 0.1;
+        let is_small = self.limit.unwrap_or(self.value).abs() < SMALL_MM && self.value.abs() < SMALL_MM;
+        match &*self.unit {
+            "" | "1" if self.is_as_cut && !self.is_count() => (100.0, "%".into()),
+            "" | "1" => (1.0, "".into()),
+            "deg" => (1.0, "°".into()),
+            "mm" if units == LengthUnit::Millimetre && is_small && self.limit != Some(0.0) => (1e3, "µm".into()),
+            unit => match LengthKind::of_symbol(unit) {
+                Some(kind) => (kind.scale(units), kind.symbol(units).into()),
+                None => (1.0, self.unit.clone()),
+            },
+        }
+    }
+
     /// The value for a reader, whom a remainder of rounding does not help.
     #[must_use]
     pub(crate) fn readable(&self) -> f64 {
@@ -260,18 +397,6 @@ pub fn passed(findings: &[Finding]) -> bool {
     findings.iter().all(|finding| finding.verdict != Verdict::Fail)
 }
 
-/// JSON has no infinity.
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde requires")]
-fn finite<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-    if value.is_finite() { serializer.serialize_f64(*value) } else { serializer.serialize_none() }
-}
-
-/// A text for programs, in millimetres.
-#[expect(clippy::ref_option, reason = "the signature that serde requires")]
-fn words<S: Serializer>(text: &Option<Text>, serializer: S) -> Result<S::Ok, S::Error> {
-    text.as_ref().map(Text::to_string).serialize(serializer)
-}
-
 fn as_words<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Text>, D::Error> {
     Ok(Option::<String>::deserialize(deserializer)?.map(Text::from))
 }
@@ -294,10 +419,34 @@ mod tests {
             unit: "1".into(),
             place,
             verdict,
-            is_unknown: false,
+            missing: None,
             about: None,
+            is_as_cut: false,
+            fact: None,
+            assumes: None,
             note: None,
         }
+    }
+
+    /// The margin is the used share of a limit, and 0 or a count has none.
+    #[test]
+    fn margins_are_the_share_of_the_limit_that_is_used() {
+        let of = |value: f64, limit: f64, bound, unit: &'static str| {
+            let unit = unit.into();
+            Finding { value, limit: Some(limit), bound: Some(bound), unit, ..finding("pressure_angle", Verdict::Pass) }
+        };
+        assert_eq!(of(27.0, 30.0, Bound::AtMost, "deg").margin(), Some(0.9));
+        assert_eq!(of(80.0, 60.0, Bound::AtLeast, "mm").margin(), Some(0.75));
+        assert_eq!(of(3.0, 0.0, Bound::Above, "N").margin(), None);
+        assert_eq!(of(2.0, 1.0, Bound::AtLeast, "1").margin(), None);
+        assert_eq!(of(-2.0, 1.0, Bound::AtLeast, "mm").margin(), None);
+        let near = of(29.995_7, 30.0, Bound::AtMost, "deg");
+        let mm = LengthUnit::Millimetre;
+        assert_eq!(near.brief_value(mm).to_string(), "29.996°");
+        assert_eq!(near.brief_limit(mm).expect("a limit").to_string(), "30°");
+        let outline = of(0.004_873, 0.005, Bound::AtMost, "mm");
+        assert_eq!(outline.brief_value(mm).to_string(), "4.873 µm");
+        assert_eq!(outline.brief_limit(LengthUnit::Inch).expect("a limit").to_string(), "196.9·10⁻⁶ in");
     }
 
     /// A warning is shown before what passed and after what failed, and does not refuse the cam.

@@ -8,6 +8,7 @@ mod as_cut_error;
 pub mod card;
 pub mod chart;
 pub mod diagram;
+mod fact;
 mod finding;
 mod inputs;
 pub mod mechanism;
@@ -20,16 +21,19 @@ mod rolled;
 pub mod scheme;
 pub mod sheet;
 pub mod style;
+mod summary;
 pub mod trace;
 mod values;
 
 pub use as_cut_error::AsCutError;
 pub use camgen_kernel::text::{shown, to_type};
+pub use fact::{Fact, Topic};
 pub use finding::{Bound, Finding, Place, ShownValue, Verdict, degrees, failed, passed, worst_first};
 pub use inputs::{Inputs, hexadecimal, sha256};
 pub use point_measures::PointMeasures;
 pub use program_measures::ProgramMeasures;
 pub use rolled::Rolled;
+pub use summary::{FileVerdict, Summary, SummaryColumn, SummaryTable, length_cell, number_cell};
 pub use values::{CamMeasures, OutlineMeasures, Weight, lobes_words};
 
 use camgen_kernel::text::Text;
@@ -121,6 +125,12 @@ pub struct Section {
     pub words: Vec<ReportLine>,
     /// The few figures for the review sheet.
     pub figures: Vec<Text>,
+    /// What a summary says of it.
+    pub facts: Vec<Fact>,
+    /// The answer of an analysis, for the verdict of a summary.
+    pub answer: Option<Text>,
+    /// A table of a summary.
+    pub table: Option<SummaryTable>,
 }
 
 impl Section {
@@ -129,7 +139,15 @@ impl Section {
     pub fn new(key: &'static str, value: &impl Serialize) -> Self {
         // Only maps with keys that are not text fail, and a report has no such map.
         let value = serde_json::to_value(value).unwrap_or(Value::Null);
-        Self { key: key.into(), value, words: Vec::new(), figures: Vec::new() }
+        Self {
+            key: key.into(),
+            value,
+            words: Vec::new(),
+            figures: Vec::new(),
+            facts: Vec::new(),
+            answer: None,
+            table: None,
+        }
     }
 
     /// With words for people.
@@ -142,6 +160,34 @@ impl Section {
     #[must_use]
     pub fn with_figures<T: Into<Text>>(self, figures: Vec<T>) -> Self {
         Self { figures: figures.into_iter().map(Into::into).collect(), ..self }
+    }
+}
+
+impl Section {
+    /// With a line of a summary.
+    #[must_use]
+    pub fn with_fact(mut self, topic: Topic, text: impl Into<Text>) -> Self {
+        self.facts.push(Fact::new(topic, text));
+        self
+    }
+
+    /// With the answer of an analysis.
+    #[must_use]
+    pub fn with_answer(self, answer: impl Into<Text>) -> Self {
+        Self { answer: Some(answer.into()), ..self }
+    }
+
+    /// With a table of a summary.
+    #[must_use]
+    pub fn with_table(self, table: SummaryTable) -> Self {
+        Self { table: Some(table), ..self }
+    }
+
+    /// With lines of a summary.
+    #[must_use]
+    pub fn with_facts(mut self, facts: impl IntoIterator<Item = Fact>) -> Self {
+        self.facts.extend(facts);
+        self
     }
 }
 
@@ -318,7 +364,15 @@ impl<'de> Visitor<'de> for ReportVisitor {
                 "files" => report.files = map.next_value()?,
                 _ => {
                     let value = map.next_value()?;
-                    report.sections.push(Section { key: key.into(), value, words: Vec::new(), figures: Vec::new() });
+                    report.sections.push(Section {
+                        key: key.into(),
+                        value,
+                        words: Vec::new(),
+                        figures: Vec::new(),
+                        facts: Vec::new(),
+                        answer: None,
+                        table: None,
+                    });
                 }
             }
         }
@@ -352,8 +406,11 @@ mod tests {
                 unit: "mm".into(),
                 place: Place::default(),
                 verdict: Verdict::Pass,
-                is_unknown: false,
+                missing: None,
                 about: None,
+                is_as_cut: false,
+                fact: None,
+                assumes: None,
                 note: None,
             }],
             notes: vec!["`cam.balance` has no effect on a conoid".into()],

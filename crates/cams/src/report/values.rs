@@ -1,8 +1,8 @@
 //! The values that parts of a cam contribute to a report, with their words.
 
-use super::Section;
 use super::shown;
-use camgen_kernel::text::{Length, LengthKind, Text, text};
+use super::{Fact, Section, Topic};
+use camgen_kernel::text::{DIGITS, Length, LengthKind, Text, Value, nominal, text};
 use serde::{Deserialize, Serialize};
 
 /// The words for a cam of several lobes.
@@ -66,6 +66,12 @@ impl Weight {
         Some(text!("area {}, {}{}", Length::new(self.area_mm2?, &LengthKind::MM2), mass, unbalance))
     }
 
+    /// The mass, for a summary.
+    #[must_use]
+    pub fn fact(&self) -> Option<Fact> {
+        self.mass_kg.map(|mass| Fact::new(Topic::SIZE, Value::brief(mass, "kg")))
+    }
+
     /// The mass, for the sheet.
     #[must_use]
     pub fn figure(&self) -> Option<Text> {
@@ -99,7 +105,23 @@ impl CamMeasures {
         figures.push(self.lift());
         figures.extend(lobes.map(Text::from));
         figures.extend(self.weight.figure());
-        Section::new("cam", self).with_words(words).with_figures(figures)
+        Section::new("cam", self).with_words(words).with_figures(figures).with_facts(self.facts())
+    }
+
+    fn facts(&self) -> Vec<Fact> {
+        let base = self.base_radius_mm.map(|radius| text!("base R{}", Length::mm(radius).nominal()));
+        let roller = self.roller_radius_mm.map(|radius| text!("roller Ø{}", Length::mm(2.0 * radius).nominal()));
+        let lobes = self.lobes.filter(|lobes| *lobes > 1).map(|lobes| text!("{} equal lobes", lobes));
+        let lift = match (self.max_lift_mm, self.max_lift_deg) {
+            (_, Some(degrees)) => text!("{}°", nominal(degrees, DIGITS)),
+            (lift, None) => Value::from(Length::mm(lift.unwrap_or(f64::NAN)).brief()).into(),
+        };
+        let face = self.face_mm.map(|[least, most]| {
+            text!("touches the face from {} to {}", Length::mm(least).bare().brief(), Length::mm(most).brief())
+        });
+        let size = [base, roller, lobes].into_iter().flatten().map(|text| Fact::new(Topic::SIZE, text));
+        let lift = [Some(lift), face].into_iter().flatten().map(|text| Fact::new(Topic::LIFT, text));
+        size.chain(self.weight.fact()).chain(lift).collect()
     }
 
     fn lift(&self) -> Text {

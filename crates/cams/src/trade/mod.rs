@@ -15,7 +15,7 @@ use crate::analysis::{Analysis, Picture};
 use crate::body::{Kind, needs_base_circle};
 use crate::machine::Machine;
 use crate::pipeline::Spec;
-use crate::report::{Section, Speeds};
+use crate::report::{Fact, Section, Speeds, Topic};
 use crate::write::number::shortest;
 use camgen_kernel::document::{Input, cams};
 use camgen_kernel::refusal::Refusal;
@@ -87,6 +87,9 @@ pub fn of_program(
     analysis(&TradeTask { kind: &KIND, cam, machine, rpm, settings, limits, inputs, others }, run)
 }
 
+/// The flags that ask for the advised setting.
+const FLAGS: Topic = Topic::new(10, "flags");
+
 /// Measures a task.
 ///
 /// # Errors
@@ -112,9 +115,16 @@ pub fn analysis(task: &TradeTask<'_>, run: TradeRun<'_>) -> Result<Analysis, Ref
     sections.extend(limit("residual_limit_n", limits.residual));
     sections.extend(limit("acceleration_limit", limits.acceleration));
     sections.push(Section::new("rounds", &measured.rounds));
-    sections.push(Section::new("rows", &measured.rows).with_words(report::words(&measured)));
+    let summary = report::summary_table(&measured.rows);
+    sections.push(Section::new("rows", &measured.rows).with_words(report::words(&measured)).with_table(summary));
     sections.push(Section::new("chain", &chain).with_words(chain.iter().map(LeftOver::words).collect()));
-    sections.push(Section::new("advice", &advice).with_words(report::advice_words(&advice, chosen)));
+    let flags = chosen.and_then(|row| row.flags.clone()).map(|flags| Fact::new(FLAGS, flags));
+    sections.push(
+        Section::new("advice", &advice)
+            .with_words(report::advice_words(&advice, chosen))
+            .with_answer(advised)
+            .with_facts(flags),
+    );
     sections.extend(chosen.and_then(|row| row.flags.as_ref()).map(|flags| Section::new("flags", flags)));
     Ok(Analysis {
         kind: task.kind,

@@ -4,8 +4,9 @@ use super::measure::{TradeLimits, TradeMeasurement, TradeRow};
 use crate::report::ReportLine;
 use crate::report::chart::{self, Chart, ChartPanel, ChartPoint};
 use crate::report::plot::figure;
-use crate::report::shown;
+use crate::report::{SummaryColumn, SummaryTable, length_cell, number_cell, shown};
 use crate::table::{ListedColumn, Table};
+use camgen_kernel::text::{LengthKind, Text, text};
 
 /// The setting that is advised, where one keeps the limits.
 pub(super) fn chosen(rows: &[TradeRow]) -> Option<&TradeRow> {
@@ -93,6 +94,41 @@ const COLUMNS: [ListedColumn<TradeRow>; 24] = [
 pub(super) fn table(rows: &[TradeRow]) -> Table {
     let names = rows.iter().map(|row| row.setting.clone()).collect();
     Table { words: Some(("setting", names)), ..Table::listed(&COLUMNS, rows) }
+}
+
+/// Settings of a summary.
+const MOST_SUMMARISED: usize = 12;
+
+/// What each setting costs and leaves, for a summary.
+pub(super) fn summary_table(rows: &[TradeRow]) -> SummaryTable {
+    let cell = |value: Option<f64>| value.filter(|value| value.is_finite()).map_or("–".into(), number_cell);
+    let row = |row: &TradeRow| {
+        vec![
+            Text::from(row.setting.clone()),
+            text!("{} {}", row.pieces, row.entity.word()),
+            length_cell(row.deviation_mm),
+            cell(Some(row.residual_n)),
+            cell(row.acceleration_share.map(|share| 100.0 * share)),
+            number_cell(1e-3 * row.total_us),
+        ]
+    };
+    // Those that keep the limits, and those with a name: a screen has no room for all.
+    let listed: Vec<&TradeRow> = rows.iter().filter(|row| row.rank.is_some() || row.setting.ends_with(')')).collect();
+    let shown: Vec<&TradeRow> = listed.into_iter().take(MOST_SUMMARISED).collect();
+    let more = rows.len() - shown.len();
+    SummaryTable {
+        heads: vec![
+            SummaryColumn::words("setting"),
+            SummaryColumn::words("pieces"),
+            SummaryColumn::lengths("off", &LengthKind::MM),
+            SummaryColumn::numbers("left over", "N"),
+            SummaryColumn::numbers("accel.", "% off"),
+            SummaryColumn::numbers("time", "ms"),
+        ],
+        rows: shown.iter().map(|shown| row(shown)).collect(),
+        marked: shown.iter().position(|row| row.rank == Some(1)),
+        rest: Some(text!("{} more (-v); time of this computer", more)),
+    }
 }
 
 /// Width of the names of settings.

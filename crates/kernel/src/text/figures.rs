@@ -33,14 +33,63 @@ pub fn shown(value: f64) -> String {
 fn exponent(value: f64) -> String {
     let text = format!("{value:.1e}");
     let (digits, power) = text.split_once('e').unwrap_or((&text, ""));
-    let raised = |c: char| match c {
+    format!("{digits}·10{}", raised(power))
+}
+
+/// A whole number as an exponent.
+fn raised(power: &str) -> String {
+    let raised_digit = |c: char| match c {
         '-' => '⁻',
         '1' => '¹',
         '2' => '²',
         '3' => '³',
         digit => digit.to_digit(10).and_then(|digit| char::from_u32(0x2070 + digit)).unwrap_or(digit),
     };
-    format!("{digits}·10{}", power.chars().map(raised).collect::<String>())
+    power.chars().map(raised_digit).collect()
+}
+
+/// Values from here on are written with a power of ten, those below the other one as well.
+const LARGEST_PLAIN: f64 = 1e4;
+const SMALLEST_PLAIN: f64 = 1e-3;
+
+/// A figure of a summary: so many significant digits, trailing zeros among them, "82.42", "1186", "194.0·10³", and a true minus. What is only
+/// rounding is 0.
+#[must_use]
+pub fn significant(value: f64, digits: usize) -> String {
+    let size = value.abs();
+    if !value.is_finite() {
+        return if value.is_nan() { "–".into() } else { if value > 0.0 { "∞" } else { "−∞" }.into() };
+    } else if size < ROUNDING {
+        return "0".into();
+    }
+    // The power of ten of the first digit, once rounded: 9.9996 has that of 10.
+    let text = format!("{size:.*e}", digits.saturating_sub(1));
+    let power: i32 = text.split_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or(0);
+    let rounded_up = size.max(libm::pow(10.0, f64::from(power)));
+    // Powers of 1000, so that the unit can be said with a prefix.
+    let shift = if (SMALLEST_PLAIN..LARGEST_PLAIN).contains(&rounded_up) { 0 } else { power.div_euclid(3) * 3 };
+    let decimals = i32::try_from(digits).unwrap_or(i32::MAX).saturating_sub(1).saturating_sub(power - shift).max(0);
+    let number = format!("{:.*}", usize::try_from(decimals).unwrap_or(0), size / libm::pow(10.0, f64::from(shift)));
+    let sign = if value < 0.0 { "−" } else { "" };
+    if shift == 0 { format!("{sign}{number}") } else { format!("{sign}{number}·10{}", raised(&shift.to_string())) }
+}
+
+/// A figure of a summary that was chosen and not calculated, such as a diameter: as [`significant`] without trailing zeros, "69", "21.5".
+#[must_use]
+pub fn nominal(value: f64, digits: usize) -> String {
+    let text = significant(value, digits);
+    let (number, power) = text.split_once('·').map_or((&*text, None), |(number, power)| (number, Some(power)));
+    let number = if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number };
+    power.map_or_else(|| number.to_owned(), |power| format!("{number}·{power}"))
+}
+
+/// A figure of a summary with as many digits more as it takes to tell it from a limit that it differs from.
+#[must_use]
+pub fn significant_beside(value: f64, limit: f64, digits: usize) -> String {
+    let most = digits + 4;
+    let told_apart = |digits: &usize| nominal(value, *digits) != nominal(limit, *digits);
+    let enough = (digits..most).find(told_apart).unwrap_or(digits);
+    significant(value, if value == limit { digits } else { enough })
 }
 
 /// A number for a person: at most three decimals, no trailing zeros.
@@ -64,6 +113,33 @@ pub fn to_type(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn figures_of_a_summary_have_four_digits() {
+        for (value, text) in [
+            (0.0, "0"),
+            (1e-12, "0"),
+            (82.419_02, "82.42"),
+            (9.999_96, "10.00"),
+            (999.96, "1000"),
+            (9_999.6, "10.00·10³"),
+            (1185.8, "1186"),
+            (-7.842_6, "−7.843"),
+            (193_986.66, "194.0·10³"),
+            (0.001_773_4, "0.001773"),
+            (4.2e-5, "42.00·10⁻⁶"),
+            (f64::INFINITY, "∞"),
+        ] {
+            assert_eq!(significant(value, 4), text, "{value}");
+        }
+        assert_eq!(
+            [nominal(69.0, 4), nominal(21.5, 4), nominal(150.0, 4), nominal(2e6, 4)],
+            ["69", "21.5", "150", "2·10⁶"]
+        );
+        assert_eq!(significant_beside(29.995_7, 30.0, 4), "29.996");
+        assert_eq!(significant_beside(44.225_9, 45.0, 4), "44.23");
+        assert_eq!(significant_beside(30.0, 30.0, 4), "30.00");
+    }
 
     #[test]
     fn figures_have_at_most_six_digits() {

@@ -1,6 +1,6 @@
 //! Lengths in sentences, and what else has a length in its unit.
 
-use super::figures::{rounded, shown};
+use super::figures::{nominal, rounded, shown, significant};
 use crate::units::LengthUnit;
 
 /// A unit with a length, as sentences write it.
@@ -15,6 +15,8 @@ pub struct LengthKind {
 }
 
 const MM_IN_INCH: f64 = 25.4;
+/// Significant digits of a figure of a summary.
+pub const DIGITS: usize = 4;
 
 impl LengthKind {
     const fn linear(metric: &'static str, inch: &'static str, mm: f64) -> Self {
@@ -78,6 +80,15 @@ impl LengthKind {
         }
     }
 
+    /// What a value in the metric unit is multiplied by to have it in that of a reader.
+    #[must_use]
+    pub fn scale(&self, unit: LengthUnit) -> f64 {
+        match unit {
+            LengthUnit::Millimetre => 1.0,
+            LengthUnit::Inch => self.inches,
+        }
+    }
+
     /// The kind of a metric unit as sentences or as reports for programs write it, `mm²` or `mm2`; `None` where it has no length.
     #[must_use]
     pub fn of_symbol(symbol: &str) -> Option<&'static Self> {
@@ -103,6 +114,8 @@ enum Form {
     Fixed(usize),
     Signed(usize),
     Rounded,
+    Significant(usize),
+    Nominal(usize),
 }
 
 /// A value in a unit with a length.
@@ -161,6 +174,18 @@ impl Length {
         Self { form: Form::Rounded, ..self }
     }
 
+    /// With four significant digits in either unit, as figures of a summary have them.
+    #[must_use]
+    pub fn brief(self) -> Self {
+        Self { form: Form::Significant(DIGITS), ..self }
+    }
+
+    /// With at most four significant digits in either unit, as a chosen size in a summary has them.
+    #[must_use]
+    pub fn nominal(self) -> Self {
+        Self { form: Form::Nominal(DIGITS), ..self }
+    }
+
     /// Without its unit, which another one behind it has.
     #[must_use]
     pub fn bare(self) -> Self {
@@ -175,14 +200,22 @@ impl Length {
             Form::Fixed(decimals) => format!("{:.decimals$}", self.value),
             Form::Signed(decimals) => format!("{:+.decimals$}", self.value),
             Form::Rounded => rounded(self.value),
+            Form::Significant(digits) => significant(self.value, digits),
+            Form::Nominal(digits) => nominal(self.value, digits),
         };
         let (number, unit) = match unit {
             LengthUnit::Millimetre => (metric, self.kind.metric),
             LengthUnit::Inch => {
                 // As many digits as the metric number has: those behind them are not meant to be read.
+                let inches = self.value * self.kind.inches;
+                let brief = match self.form {
+                    Form::Significant(digits) => Some(significant(inches, digits)),
+                    Form::Nominal(digits) => Some(nominal(inches, digits)),
+                    _ => None,
+                };
                 let value = if self.form == Form::Shown { self.value } else { metric.parse().unwrap_or(self.value) };
                 let sign = if matches!(self.form, Form::Signed(_)) && value > 0.0 { "+" } else { "" };
-                (format!("{sign}{}", shown(value * self.kind.inches)), self.kind.inch)
+                (brief.unwrap_or_else(|| format!("{sign}{}", shown(value * self.kind.inches))), self.kind.inch)
             }
         };
         if self.has_unit { format!("{number} {unit}") } else { number }

@@ -18,8 +18,8 @@ mod figures;
 mod length;
 mod remedy;
 
-pub use figures::{rounded, shown, to_type};
-pub use length::{Length, LengthKind};
+pub use figures::{nominal, rounded, shown, significant, significant_beside, to_type};
+pub use length::{DIGITS, Length, LengthKind};
 pub use remedy::{KeyChange, Remedy};
 
 use crate::units::LengthUnit;
@@ -37,6 +37,14 @@ pub struct Text {
 struct Phrase {
     template: &'static str,
     values: Vec<Value>,
+    /// Whether it only stands between others.
+    is_between: bool,
+}
+
+impl Phrase {
+    fn new(template: &'static str, values: Vec<Value>) -> Self {
+        Self { template, values, is_between: false }
+    }
 }
 
 /// What stands in a template.
@@ -68,7 +76,7 @@ impl Text {
     #[must_use]
     pub fn new(template: &'static str, values: Vec<Value>) -> Self {
         debug_assert_eq!(template.matches("{}").count(), values.len(), "{template}");
-        Self { phrases: vec![Phrase { template, values }] }
+        Self { phrases: vec![Phrase::new(template, values)] }
     }
 
     /// Whether there is nothing in it.
@@ -88,7 +96,7 @@ impl Text {
     pub fn and(mut self, between: &'static str, next: impl Into<Text>) -> Self {
         let next = next.into();
         if !self.is_empty() && !next.is_empty() {
-            self.phrases.push(Phrase { template: between, values: Vec::new() });
+            self.phrases.push(Phrase { is_between: true, ..Phrase::new(between, Vec::new()) });
         }
         self.phrases.extend(next.phrases);
         self
@@ -103,7 +111,7 @@ impl Text {
     }
 
     fn write(&self, words: &mut String, unit: LengthUnit) {
-        for Phrase { template, values } in &self.phrases {
+        for Phrase { template, values, .. } in &self.phrases {
             let mut values = values.iter();
             for (index, fixed) in template.split("{}").enumerate() {
                 if index > 0 {
@@ -112,6 +120,25 @@ impl Text {
                 words.push_str(fixed);
             }
         }
+    }
+
+    /// The texts that it joins, without those that name a change of a machine file: what is wrong, without what to do.
+    #[must_use]
+    pub fn without_remedies(&self) -> Self {
+        let mut kept = Self::default();
+        let mut between = None;
+        for phrase in &self.phrases {
+            if phrase.is_between {
+                between = Some(phrase.template);
+                continue;
+            }
+            let own = Self { phrases: vec![phrase.clone()] };
+            if own.remedies().is_empty() {
+                kept = kept.and(between.unwrap_or_default(), own);
+            }
+            between = None;
+        }
+        kept
     }
 
     /// The changes of a machine file in it.
@@ -137,6 +164,24 @@ impl Value {
             Some(kind) => Length::new(number, kind).into(),
             None => format!("{} {unit}", shown(number)).into(),
         }
+    }
+
+    /// A figure of a summary without a unit: four significant digits.
+    #[must_use]
+    pub fn brief_number(number: f64) -> Self {
+        significant(number, DIGITS).into()
+    }
+
+    /// A figure of a summary with its unit: four significant digits; of forces, torques, works and powers from 10 000 on in thousands.
+    #[must_use]
+    pub fn brief(number: f64, unit: &str) -> Self {
+        if let Some(kind) = LengthKind::of_symbol(unit) {
+            return Length::new(number, kind).brief().into();
+        }
+        let in_thousands = number.abs() >= 1e4 && matches!(unit, "N" | "N·m" | "J" | "W");
+        let (number, prefix) = if in_thousands { (1e-3 * number, "k") } else { (number, "") };
+        let blank = if unit == "°" { "" } else { " " };
+        format!("{}{blank}{prefix}{unit}", significant(number, DIGITS)).into()
     }
 
     /// A number whose unit another one behind it has.
@@ -180,7 +225,7 @@ impl From<String> for Text {
 
 impl From<Value> for Text {
     fn from(value: Value) -> Self {
-        Self { phrases: vec![Phrase { template: "{}", values: vec![value] }] }
+        Self { phrases: vec![Phrase::new("{}", vec![value])] }
     }
 }
 
@@ -331,5 +376,7 @@ mod tests {
         let note = text!("{} would pass", inner).and("; ", remedy("cam.c"));
         let keys: Vec<&str> = note.remedies().iter().map(|remedy| &*remedy.changes[0].key).collect();
         assert_eq!(keys, ["cam.a", "cam.b", "cam.c"]);
+        let wrong = text!("it lifts off").and("; ", note).and("; ", "at 3 rpm").without_remedies();
+        assert_eq!(wrong.to_string(), "it lifts off; at 3 rpm");
     }
 }

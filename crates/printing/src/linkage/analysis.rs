@@ -1,6 +1,6 @@
 //! The linkage that moves the bed: its motion over a turn, dead points, largest accelerations, transmission angles, torque.
 
-use camgen_kernel::text::{Length, Text, text};
+use camgen_kernel::text::{DIGITS, Length, Text, Value, nominal, significant, text};
 mod air;
 mod described;
 mod moving;
@@ -23,7 +23,7 @@ use camgen_cams::body::Kind;
 use camgen_cams::check::Measure;
 use camgen_cams::machine::Machine;
 use camgen_cams::report::plot::{Plot, PlotBand, PlotCurve, PlotPanel, PlotPoint, figure};
-use camgen_cams::report::{Section, Speeds, degrees, shown};
+use camgen_cams::report::{Fact, Section, Speeds, Topic, degrees, shown};
 use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::Input;
 use camgen_kernel::geometry::MILLIMETRES;
@@ -208,7 +208,11 @@ pub fn analysis(machine: &Machine, rpm: f64, goal: Option<DragLinkGoal>) -> Resu
     inputs.extend(machine.inputs(KIND.keys));
     inputs.push(Input::number("rpm", rpm));
     inputs.extend(goal.map(|goal| Input::word("synthesize", format!("{goal:?}"))));
-    let mut sections = vec![Section::new(KIND.command, &linkage_figures).with_words(describe(&linkage_figures))];
+    let mut sections = vec![
+        Section::new(KIND.command, &linkage_figures)
+            .with_words(describe(&linkage_figures))
+            .with_facts(facts(&linkage_figures)),
+    ];
     sections.extend(goal.and_then(|_| design(data)));
     Ok(Analysis {
         kind: &KIND,
@@ -240,6 +244,42 @@ pub fn analysis(machine: &Machine, rpm: f64, goal: Option<DragLinkGoal>) -> Resu
         diagrams: &[],
         not_modelled: NOT_MODELLED.to_vec(),
     })
+}
+
+fn facts(found: &LinkageFigures) -> Vec<Fact> {
+    let stroke = text!(
+        "{}; dead points at {}° (outer) and {}°",
+        Length::mm(found.stroke_mm).brief(),
+        nominal(found.outer_deg, DIGITS),
+        nominal(found.inner_deg, DIGITS)
+    );
+    let coefficients = text!(
+        "C⁺ {}, C⁻ {}, W {}, velocity {}",
+        Value::brief_number(found.c_plus),
+        Value::brief_number(found.c_minus),
+        Value::brief_number(found.w),
+        Value::brief_number(found.velocity_coefficient)
+    );
+    let transmission = found.transmission_min_deg.map(|angle| text!("at least {}°", nominal(angle, DIGITS)));
+    let percent = |share: f64| format!("{}{} %", if share > 0.0 { "+" } else { "" }, significant(100.0 * share, 3));
+    let compared = text!(
+        "acceleration {}, power {}, speed {} at equal force",
+        percent(found.compared.c),
+        percent(found.compared.w),
+        percent(found.compared.speed)
+    );
+    let facts = [
+        Some(Fact::new(Topic::new(10, "stroke"), stroke)),
+        Some(Fact::new(Topic::PEAKS, coefficients)),
+        Some(Fact::new(Topic::FORCE, text!("inertia at most {}", Value::brief(found.inertia_max_n, "N")))),
+        Some(Fact::new(
+            Topic::TORQUE,
+            text!("{}, peak {}", Value::brief(found.torque_max_nm, "N·m"), Value::brief(found.power_max_w, "W")),
+        )),
+        transmission.map(|angle| Fact::new(Topic::new(65, "transmission"), angle)),
+        Some(Fact::new(Topic::new(66, "crank-slider"), text!("compared with it alone: {}", compared))),
+    ];
+    facts.into_iter().flatten().collect()
 }
 
 const NOT_MODELLED: &[&str] = &[
@@ -414,6 +454,9 @@ struct LinkageCurves<'a> {
     rows: &'a [LinkageRow],
 }
 
+/// Share of the crank radius below which two positions of the bed are the same.
+const SAME: f64 = 1e-6;
+
 /// The motion of the bed over a turn, with that of a crank-slider alone in grey, and the angles with their limits.
 fn curves(of: &LinkageCurves<'_>) -> Plot {
     let (data, rows) = (of.data, of.rows);
@@ -427,6 +470,10 @@ fn curves(of: &LinkageCurves<'_>) -> Plot {
         }
         _ => None,
     };
+    // Without a base the drag link turns with the crank: there is one motion to draw.
+    let alone = alone.filter(|alone| {
+        alone.iter().zip(&own).any(|(one, other)| (one[0] - other[0]).abs() > SAME * of.bed.crank_radius)
+    });
     let mut panels = Vec::new();
     for (order, name) in ["Position of the bed, mm", "Velocity of the bed, mm/rad", "Acceleration of the bed, mm/rad²"]
         .into_iter()
@@ -435,10 +482,11 @@ fn curves(of: &LinkageCurves<'_>) -> Plot {
         let points = by_crank(rows, &own, order);
         let mut curves: Vec<PlotCurve> = Vec::new();
         if let Some(alone) = &alone {
-            curves.push(PlotCurve::grey("crank-slider", by_crank(rows, alone, order)));
+            curves.push(PlotCurve::grey("", by_crank(rows, alone, order)));
         }
         let extremes = if order == 2 { extremes(&points) } else { Vec::new() };
-        curves.push(PlotCurve::new(if alone.is_some() { "this linkage" } else { "" }, 0, points));
+        curves.push(PlotCurve::new("", 0, points));
+        let name = if alone.is_some() { format!("{name}; grey: the crank-slider alone") } else { name.to_owned() };
         panels.push(PlotPanel { points: extremes, ..PlotPanel::new(name, curves) });
     }
     let limits = of.machine.linkage_limits();

@@ -1,10 +1,20 @@
 //! What the cams of a press report.
 
 use super::buffer::{CYLINDERS, bore_of, total_area};
-use camgen_cams::report::{Finding, OutlineMeasures, Rolled, Section, Verdict, Weight, shown};
+use camgen_cams::report::{Fact, Finding, OutlineMeasures, Rolled, Section, Topic, Verdict, Weight, shown};
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::text::{Length, LengthKind, Text, text};
+use camgen_kernel::text::{Length, LengthKind, Text, Value, text};
 use serde::{Deserialize, Serialize};
+
+/// The cylinders and their air.
+pub const BUFFERS: Topic = Topic::new(25, "buffers");
+/// The force that the air leaves of the inertia.
+pub const LEFT_OVER: Topic = Topic::new(110, "left over");
+/// What is left of it where presses differ.
+pub const IN_PRACTICE: Topic = Topic::new(120, "in practice");
+
+/// How the cam does at other speeds.
+pub const OTHER_SPEEDS: Topic = Topic::new(130, "speeds");
 
 /// Measures of a plate on the bed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -52,7 +62,16 @@ impl WedgeMeasures {
             Length::mm(2.0 * self.roller_radius_mm).rounded()
         );
         let figures: Vec<Text> = [size, lift].into_iter().chain(self.weight.figure()).collect();
-        Section::new("cam", self).with_words(words).with_figures(figures)
+        let plate_fact = text!(
+            "plate {} × {}, {} at its thinnest, roller Ø{}",
+            Length::mm(plate.length_mm).nominal().bare(),
+            Length::mm(plate.height_mm).nominal(),
+            Length::mm(plate.thinnest_mm).brief(),
+            Length::mm(2.0 * self.roller_radius_mm).nominal()
+        );
+        let lift = Value::from(Length::mm(self.max_lift_mm).brief());
+        let facts = [Some(Fact::new(Topic::SIZE, plate_fact)), self.weight.fact(), Some(Fact::new(Topic::LIFT, lift))];
+        Section::new("cam", self).with_words(words).with_figures(figures).with_facts(facts.into_iter().flatten())
     }
 }
 
@@ -246,7 +265,15 @@ impl AirLaw {
             ),
             self.cylinders.bore_words(),
         ];
-        Section::new("law", self).with_words(words).with_figures(figures)
+        let stroke = text!("over a stroke of {}", Length::mm(self.dx_max_at_x_mm).nominal());
+        let air = text!(
+            "{} cylinders, each: bore {}, air column {}",
+            self.cylinders.cylinders,
+            Length::mm(self.cylinders.bore_mm).brief(),
+            Length::mm(self.column_length_mm).brief()
+        );
+        let facts = [Fact::new(Topic::LIFT, stroke), Fact::new(BUFFERS, air)];
+        Section::new("law", self).with_words(words).with_figures(figures).with_facts(facts)
     }
 }
 
@@ -318,6 +345,29 @@ pub struct ResidualByDirection {
 const UNBOUNDED: &str = "without bound (the bottom hits the piston)";
 
 impl ForceMeasures {
+    fn facts(&self) -> Vec<Fact> {
+        let (inertia, fixed) =
+            (Value::brief(self.inertia_max_n, "N"), Value::brief(self.residual_fixed_bottom_max_n, "N"));
+        let left = match &self.by_direction {
+            _ if !self.residual_max_n.is_finite() => Text::from(UNBOUNDED),
+            Some(both) => text!(
+                "{} while braking, {} on the return, of {}",
+                Value::brief(both.residual_braking_max_n, "N"),
+                Value::brief(both.residual_return_max_n, "N"),
+                inertia
+            ),
+            None => text!("{} of {}", Value::brief(self.residual_max_n, "N"), inertia),
+        };
+        let roller = text!("{} on the roller", Value::brief(self.roller_force_max_n, "N"));
+        let torque = self.torque_max_nm.map(|torque| text!("{} at the camshaft", Value::brief(torque, "N·m")));
+        let left = text!("{}; a fixed bottom leaves {}", left, fixed);
+        let torque = torque.map(|torque| Fact::new(Topic::TORQUE, torque));
+        [Some(Fact::new(Topic::FORCE, roller)), torque, Some(Fact::new(LEFT_OVER, left))]
+            .into_iter()
+            .flatten()
+            .collect()
+    }
+
     fn residual_words(&self) -> Text {
         if self.residual_max_n.is_finite() {
             text!("{} N ({} %)", shown(self.residual_max_n), shown(100.0 * self.residual_share))
@@ -372,7 +422,7 @@ impl ForceMeasures {
                 format_args!("{:.0}", both.residual_return_max_n)
             ));
         }
-        Section::new("force", self).with_words(words).with_figures(figures)
+        Section::new("force", self).with_words(words).with_figures(figures).with_facts(self.facts())
     }
 }
 

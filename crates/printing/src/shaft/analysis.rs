@@ -1,6 +1,6 @@
 //! The shaft under a cam, or alone: critical speeds, deflection, loss of lift by bending and twist, unbalance.
 
-use camgen_kernel::text::{Length, Text, text};
+use camgen_kernel::text::{Length, Text, Value, text};
 mod along;
 mod curves;
 mod load;
@@ -22,7 +22,7 @@ use camgen_cams::analysis::{Analysis, Picture};
 use camgen_cams::body::Kind;
 use camgen_cams::body::{LoadedFollower, ShaftCompliance};
 use camgen_cams::check::Measure;
-use camgen_cams::report::{Section, Speeds, shown};
+use camgen_cams::report::{Fact, Section, Speeds, Topic, shown};
 use camgen_cams::table::Table;
 use camgen_kernel::document::{Input, NamedChoice};
 use camgen_kernel::refusal::Refusal;
@@ -209,7 +209,7 @@ pub fn analysis(machine: &ShaftMachine, asked: &ShaftOptions) -> Result<Analysis
         machine: machine.name().to_owned(),
         speeds: speed_of(&found),
         inputs: inputs(machine, asked),
-        sections: vec![Section::new(KIND.command, &shaft_figures).with_words(describe(&found, &shaft_figures))],
+        sections: vec![summarised(&found, &shaft_figures)],
         measures: measures(&found)?,
         notes: notes(&found),
         picture: Picture::Curves(curves::plot(&found, sweep.as_deref())),
@@ -297,6 +297,33 @@ fn figures(found: &ShaftResults<'_>) -> ShaftFigures {
         support_force_n: worst.map_or_else(Vec::new, |under| under.reactions.clone()),
         support_slope_rad: worst.map(|under| under.slope),
         first_harmonic: found.speed.filter(|speed| *speed > 0.0).map(|speed| (first / speed).ceil()),
+    }
+}
+
+/// The section with what a summary says of it.
+fn summarised(found: &ShaftResults<'_>, shaft_figures: &ShaftFigures) -> Section {
+    const NAMED: usize = 3;
+    let whirl = if shaft_figures.exact_rpm.is_some() { "planar" } else { shaft_figures.whirl };
+    let first = shaft_figures.critical_rpm.first().copied().unwrap_or(f64::NAN);
+    let speeds = shaft_figures.critical_rpm.iter().take(NAMED).map(|rpm| Text::from(Value::brief_number(*rpm)));
+    let critical = text!("{} rpm, {} whirl", Text::joined(speeds, ", "), whirl);
+    let compliance = shaft_figures.compliance_um_per_kn.map(|value| {
+        let place = if found.carried.is_some() { "under the cam" } else { "at shaft.cam_at" };
+        Fact::new(Topic::new(50, "compliance"), text!("{} {}", Value::brief(value, "µm/kN"), place))
+    });
+    let mass = Fact::new(Topic::SIZE, text!("{} with all that is on it", Value::brief(shaft_figures.mass_kg, "kg")));
+    let low = found.under.as_ref().map(|under| {
+        let under = Text::joined(under.describe(), "; ");
+        Fact::new(Topic::new(60, "under load"), under)
+    });
+    let facts = [Some(mass), Some(Fact::new(Topic::new(30, "critical"), critical)), compliance, low];
+    let section = Section::new(KIND.command, shaft_figures).with_words(describe(found, shaft_figures));
+    let section = section.with_facts(facts.into_iter().flatten());
+    // With a speed the checks say how far it is from the first critical one.
+    if found.speed.is_some() {
+        section
+    } else {
+        section.with_answer(text!("first critical speed {} rpm", Value::brief_number(first)))
     }
 }
 

@@ -3,11 +3,11 @@
 use super::{LawRow, Rise, mm};
 use crate::report::ReportLine;
 use crate::report::plot::{Plot, PlotCurve, PlotPanel, PlotPoint, SmallPlot, SmallPlots, figure};
-use crate::report::{Section, shown};
+use crate::report::{Section, SummaryColumn, SummaryTable, length_cell, number_cell, shown};
 use crate::table::Table;
 use camgen_kernel::motion::Quantity;
 use camgen_kernel::refusal::Refusal;
-use camgen_kernel::text::{Length, text};
+use camgen_kernel::text::{DIGITS, Length, LengthKind, Text, Value, nominal, text};
 use camgen_kernel::units;
 use serde::Serialize;
 
@@ -180,7 +180,7 @@ const SHOWN: [(&str, &str, &str); 14] = [
     ("jump/rpm", "jump_rpm", "speed from which the follower leaves the cam"),
 ];
 
-pub(super) fn section(rows: &[LawRow], rise: Rise, with_file: bool) -> Section {
+pub(super) fn section(rows: &[LawRow], rise: Rise, with_file: bool, own: Option<&str>) -> Section {
     let columns = columns(rows);
     let of_law = |row: &LawRow| {
         let mut object = serde_json::Map::new();
@@ -199,7 +199,95 @@ pub(super) fn section(rows: &[LawRow], rise: Rise, with_file: bool) -> Section {
         periods: rise.periods,
         laws: rows.iter().map(of_law).collect(),
     };
-    Section::new("laws", &laws).with_words(words(rows, rise, with_file, &columns))
+    let section = Section::new("laws", &laws).with_words(words(rows, rise, with_file, &columns));
+    section.with_answer(answer(rows, rise, own)).with_table(summary_table(rows, &columns, own))
+}
+
+/// The law of the design, or that with the least acceleration, and which has the least torque.
+fn answer(rows: &[LawRow], rise: Rise, own: Option<&str>) -> Text {
+    let lift: Value = if rise.quantity == Quantity::Length {
+        Length::mm(mm(rise.lift)).nominal().into()
+    } else {
+        format!("{}°", nominal(rise.lift.to_degrees(), DIGITS)).into()
+    };
+    let smooth = || rows.iter().filter(|row| coefficient(row, 2).is_finite());
+    let least = |value: fn(&LawRow) -> f64| {
+        smooth().filter(|row| value(row).is_finite()).min_by(|one, other| value(one).total_cmp(&value(other)))
+    };
+    let mut words = text!("{} laws for a rise of {} in {}°", rows.len(), lift, nominal(rise.over.to_degrees(), DIGITS));
+    if let Some(own) = own {
+        words = words.and("; ", text!("the design has {}", own));
+    }
+    if let Some(gentle) = least(|row| coefficient(row, 1)) {
+        words = words.and("; ", text!("least acceleration: {}", gentle.law.name));
+    }
+    if let Some(easy) = least(|row| of_cam(row, |cam| cam.torque)) {
+        words = words.and("; ", text!("least torque: {}", easy.law.name));
+    }
+    words
+}
+
+/// Laws of a summary whose acceleration jumps are named in a line.
+fn summary_table(rows: &[LawRow], known: &[LawColumn], own: Option<&str>) -> SummaryTable {
+    let (smooth, stepped): (Vec<&LawRow>, Vec<&LawRow>) =
+        rows.iter().partition(|row| coefficient(row, 2).is_finite() || own == Some(row.law.name));
+    let shown = if smooth.is_empty() { rows.iter().collect() } else { smooth };
+    let found: Vec<(&(&str, &str, &str), LawColumn)> = SUMMARISED
+        .iter()
+        .filter_map(|column| Some((column, *known.iter().rfind(|(name, _)| name.starts_with(column.0))?)))
+        .collect();
+    let mut columns = vec![SummaryColumn::words("law")];
+    columns.extend(found.iter().map(|((_, head, unit), (name, _))| {
+        let is_length = name.ends_with("_mm");
+        let unit = if unit.is_empty() { unit_of_rate(name) } else { unit };
+        match LengthKind::of_symbol(unit).filter(|_| is_length) {
+            Some(kind) => SummaryColumn::lengths(*head, kind),
+            None => SummaryColumn::numbers(*head, unit),
+        }
+    }));
+    let row = |row: &&LawRow| {
+        let cells =
+            found.iter().map(
+                |(_, (name, value))| {
+                    if name.ends_with("_mm") { length_cell(value(row)) } else { number_cell(value(row)) }
+                },
+            );
+        std::iter::once(Text::from(row.law.name)).chain(cells).collect()
+    };
+    let marked = shown.iter().position(|row| own == Some(row.law.name));
+    let names: Vec<&str> = stepped.iter().map(|row| row.law.name).collect();
+    let rest = if shown.len() == rows.len() || names.is_empty() {
+        None
+    } else {
+        let few = names.iter().take(3).copied().collect::<Vec<_>>().join(", ");
+        Some(text!("{} more have a step of acceleration: {} … (-v)", names.len(), few))
+    };
+    SummaryTable { heads: columns, rows: shown.iter().map(row).collect(), marked, rest }
+}
+
+/// The columns of a summary by the beginnings of their names, with their heads and units; the unit of a rate is that of its column.
+const SUMMARISED: [(&str, &str, &str); 6] = [
+    ("acceleration_", "peak accel.", ""),
+    ("torque_nm", "torque", "N·m"),
+    ("contact_force_n", "force", "N"),
+    ("velocity_", "speed", ""),
+    ("smallest_prime_radius_mm", "prime R", "mm"),
+    ("jump_rpm", "lifts off", "from rpm"),
+];
+
+/// The unit at the end of the name of a column of rates.
+fn unit_of_rate(name: &str) -> &'static str {
+    const UNITS: [(&str, &str); 8] = [
+        ("_m_per_s2", "m/s²"),
+        ("_m_per_s", "m/s"),
+        ("_rad_per_s2", "rad/s²"),
+        ("_rad_per_s", "rad/s"),
+        ("_mm_per_rad2", "mm/rad²"),
+        ("_mm_per_rad", "mm/rad"),
+        ("_rad_per_rad2", "rad/rad²"),
+        ("_rad_per_rad", "rad/rad"),
+    ];
+    UNITS.iter().find(|(ending, _)| name.ends_with(ending)).map_or("", |(_, unit)| unit)
 }
 
 fn words(rows: &[LawRow], rise: Rise, with_file: bool, known: &[LawColumn]) -> Vec<ReportLine> {
@@ -352,7 +440,9 @@ fn conditions(name: &str, rise: Rise) -> String {
 fn small_plot(row: &LawRow, rise: Rise, own: Option<&LawRow>, factor: f64) -> SmallPlot {
     let points = points(row, rise.over.to_degrees(), 2, factor);
     let largest = |best: [f64; 2], next: [f64; 2]| if next[1] > best[1] * (1.0 + 1e-9) { next } else { best };
-    let peak = points.iter().copied().reduce(largest).map(|at| PlotPoint::dot(at, 0, figure(at[1])));
+    // The place is that of a drawn point, the figure that of the law.
+    let exact = figure(factor * coefficient(row, 1));
+    let peak = points.iter().copied().reduce(largest).map(|at| PlotPoint::dot(at, 0, exact.clone()));
     let cam = row.cam.as_ref();
     let torque_text = cam.filter(|cam| cam.torque.is_finite()).map(|cam| format!("{} N·m", figure(cam.torque)));
     let is_better = own.is_some_and(|own| torque(row) < torque(own) * (1.0 - 1e-9));

@@ -4,11 +4,11 @@ use super::{Barrel, BarrelRoller};
 use crate::body::DrawingEvidence;
 use crate::body::flank_switch::SwitchFigures;
 use crate::body::swept::{SweptGeometry, largest, sharpest_curvature};
-use crate::report::{Section, shown};
+use crate::report::{Fact, Section, Topic, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::Quantity;
 use camgen_kernel::profile::lifts;
-use camgen_kernel::text::{Length, Text, text};
+use camgen_kernel::text::{DIGITS, Length, Text, Value, nominal, text};
 use serde::Serialize;
 
 /// The section `barrel`.
@@ -85,7 +85,32 @@ pub(super) fn section<R: BarrelRoller>(
     };
     let words = words(&value, barrel, drawn.map(|drawn| drawn.developed.len()));
     let figures = words.iter().take(3).cloned().collect();
-    Section::new("barrel", &value).with_words(words).with_figures(figures)
+    let facts = facts(&value);
+    Section::new("barrel", &value).with_words(words).with_figures(figures).with_facts(facts)
+}
+
+fn facts(section: &BarrelSection) -> Vec<Fact> {
+    let size = text!(
+        "outside Ø{}, {} long, roller Ø{}",
+        Length::mm(2.0 * section.outer_radius_mm).nominal(),
+        Length::mm(section.blank_length_mm).nominal(),
+        Length::mm(2.0 * section.roller_radius_mm).nominal()
+    );
+    let mass = section.mass_kg.map(|mass| Text::from(Value::brief(mass, "kg")));
+    let groove = text!(
+        "{} wide, {} deep",
+        Length::mm(section.groove_width_mm).nominal(),
+        Length::mm(section.groove_depth_mm).nominal()
+    );
+    let lift = match (section.max_lift_mm, section.max_lift_deg) {
+        (Some(lift), _) => Value::from(Length::mm(lift).brief()).into(),
+        (None, degrees) => text!("{}°", nominal(degrees.unwrap_or(f64::NAN), DIGITS)),
+    };
+    vec![
+        Fact::new(Topic::SIZE, size.and(", ", mass)),
+        Fact::new(Topic::new(15, "groove"), groove),
+        Fact::new(Topic::LIFT, lift),
+    ]
 }
 
 fn words<R: BarrelRoller>(section: &BarrelSection, barrel: &Barrel<R>, arcs: Option<usize>) -> Vec<Text> {

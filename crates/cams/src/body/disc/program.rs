@@ -1,13 +1,13 @@
 //! The section of the report on a motion program.
 
 use super::Disc;
-use crate::report::{Section, shown};
+use crate::report::{Fact, Section, Topic, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::laws::optimum::{Objective, Optimum};
 use camgen_kernel::motion::program::SegmentSummary;
 use camgen_kernel::motion::program::rows::{RowFigures, Smoothing};
 use camgen_kernel::motion::{Motion, Quantity};
-use camgen_kernel::text::{Text, Value, text};
+use camgen_kernel::text::{DIGITS, Length, Text, Value, nominal, text};
 use serde::Serialize;
 
 /// A segment; positions in mm or degrees, rates by the cam angle in radians.
@@ -252,16 +252,90 @@ pub(in crate::body) fn of_motion(motion: &dyn Motion, speed: Option<f64>) -> Opt
         }
     }
     let value = MotionSection { unit, unit_by_time, repeat: motion.lobes(), segments, rows };
-    Some(Section::new("motion", &value).with_words(words))
+    let facts = facts(&value.segments, summary, unit, of_time);
+    Some(Section::new("motion", &value).with_words(words).with_facts(facts))
+}
+
+/// Segments that a summary names one by one.
+const MOST_NAMED: usize = 6;
+/// Those that it names of more.
+const NAMED_OF_MORE: usize = 4;
+
+/// The segments one after the other, and the largest rates by the time.
+fn facts(segments: &[SegmentFigures], summary: &[SegmentSummary], unit: &str, of_time: &str) -> Vec<Fact> {
+    let named = if segments.len() > MOST_NAMED { NAMED_OF_MORE } else { segments.len() };
+    let degrees = |angle: f64| nominal(angle, DIGITS);
+    let mut told: Vec<Text> = segments
+        .iter()
+        .zip(summary)
+        .take(named)
+        .enumerate()
+        .map(|(index, (segment, summary))| {
+            let from = if index == 0 { format!("{}° ", degrees(segment.from_deg)) } else { String::new() };
+            text!("{}to {}° {}", from, degrees(segment.to_deg), movement(segment, summary, unit))
+        })
+        .collect();
+    if named < segments.len() {
+        told.push(text!("and {} more segments (-v)", segments.len() - named));
+    }
+    let motion = Fact::new(Topic::MOTION, Text::joined(told, ", "));
+    let peaks = peaks_by_time(segments).map(|peaks| {
+        let brief = |value: f64, unit: &str| Value::brief(value, &format!("{of_time}{unit}"));
+        let jerk = peaks.jerk.map_or("no limit of the jerk".into(), |jerk| brief(jerk, "/s³"));
+        text!("{}, {}, {}", brief(peaks.velocity, "/s"), brief(peaks.acceleration, "/s²"), jerk)
+    });
+    std::iter::once(motion).chain(peaks.map(|peaks| Fact::new(Topic::PEAKS, peaks))).collect()
+}
+
+/// "rise 20° modified sine", "dwell".
+fn movement(segment: &SegmentFigures, summary: &SegmentSummary, unit: &str) -> Text {
+    if summary.peaks[0].0 == 0.0 {
+        return "dwell".into();
+    }
+    let law = law_words(segment.law);
+    let travel = segment.to - segment.from;
+    let (word, travel) = if summary.whole {
+        ("travel", segment.highest - segment.lowest)
+    } else if travel < 0.0 {
+        ("return", -travel)
+    } else {
+        ("rise", travel)
+    };
+    let travel = if unit == "deg" {
+        Text::from(format!("{}°", nominal(travel, DIGITS)))
+    } else {
+        Value::from(Length::mm(travel).nominal()).into()
+    };
+    text!("{} {} {}", word, travel, law)
+}
+
+/// The name of a law in words: "modified sine", but "3-4-5".
+pub(in crate::body) fn law_words(name: &str) -> String {
+    if name.starts_with(|first: char| first.is_ascii_digit()) { name.to_owned() } else { name.replace('-', " ") }
+}
+
+/// The largest rates by the time, m or rad per second, of all segments.
+struct PeaksByTime {
+    velocity: f64,
+    acceleration: f64,
+    /// `None` where it has no bound.
+    jerk: Option<f64>,
+}
+
+fn peaks_by_time(segments: &[SegmentFigures]) -> Option<PeaksByTime> {
+    let most =
+        |of: fn(&Peaks) -> Option<f64>| segments.iter().filter_map(|segment| of(&segment.peaks)).reduce(f64::max);
+    let unbounded = segments.iter().any(|segment| segment.peaks.jerk.is_none());
+    Some(PeaksByTime {
+        velocity: most(|peaks| peaks.velocity_per_s)?,
+        acceleration: most(|peaks| peaks.acceleration_per_s2)?,
+        jerk: most(|peaks| peaks.jerk_per_s3).filter(|_| !unbounded),
+    })
 }
 
 /// The largest rates by the time.
 fn at_speed(segments: &[SegmentFigures], unit: &str) -> Option<Text> {
-    let most =
-        |of: fn(&Peaks) -> Option<f64>| segments.iter().filter_map(|segment| of(&segment.peaks)).reduce(f64::max);
-    let (velocity, acceleration) = (most(|peaks| peaks.velocity_per_s)?, most(|peaks| peaks.acceleration_per_s2)?);
-    let unbounded = segments.iter().any(|segment| segment.peaks.jerk.is_none());
-    let jerk = most(|peaks| peaks.jerk_per_s3).filter(|_| !unbounded);
+    let PeaksByTime { velocity, acceleration, jerk } = peaks_by_time(segments)?;
     let jerk = jerk.map_or("unbounded".into(), |jerk| Value::with_unit(jerk, &format!("{unit}/s³")));
     Some(text!(
         "at this speed at most v {}, a {}, j {}",

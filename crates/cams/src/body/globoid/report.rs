@@ -4,9 +4,9 @@ use super::Globoid;
 use crate::body::DrawingEvidence;
 use crate::body::flank_switch::SwitchFigures;
 use crate::body::swept::{pressure_angles, sharpest_curvature};
-use crate::report::{Section, shown};
+use crate::report::{Fact, Section, Topic, shown};
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::text::{Length, Text, text};
+use camgen_kernel::text::{DIGITS, Length, Text, Value, nominal, text};
 use serde::Serialize;
 
 /// The section `globoid`.
@@ -78,7 +78,37 @@ pub(super) fn section(globoid: &Globoid, found: &DrawingEvidence<'_>, switches: 
     };
     let words = words(&value, globoid);
     let figures = words.iter().take(4).cloned().collect();
-    Section::new("globoid", &value).with_words(words).with_figures(figures)
+    let facts = facts(&value);
+    Section::new("globoid", &value).with_words(words).with_figures(figures).with_facts(facts)
+}
+
+fn facts(section: &GloboidSection) -> Vec<Fact> {
+    let turret = text!(
+        "{} rollers Ø{}, {} from the cam's axis; {}° a turn, at rest over {}°",
+        section.rollers,
+        Length::mm(2.0 * section.roller_radius_mm).nominal(),
+        Length::mm(section.turret_distance_mm).nominal(),
+        nominal(section.index_deg, DIGITS),
+        nominal(section.rest_deg, DIGITS)
+    );
+    let size = text!(
+        "ends Ø{}, waist Ø{}, {} long",
+        Length::mm(2.0 * section.outer_radius_mm).nominal(),
+        Length::mm(2.0 * section.waist_radius_mm).nominal(),
+        Length::mm(section.blank_length_mm).nominal()
+    );
+    let mass = section.mass_kg.map(|mass| Text::from(Value::brief(mass, "kg")));
+    let groove = text!(
+        "{} wide, {} deep, thinnest rib {}",
+        Length::mm(section.groove_width_mm).nominal(),
+        Length::mm(section.groove_depth_mm).nominal(),
+        Length::mm(section.thinnest_rib_mm).brief()
+    );
+    vec![
+        Fact::new(Topic::SIZE, size.and(", ", mass)),
+        Fact::new(Topic::new(14, "turret"), turret),
+        Fact::new(Topic::new(15, "groove"), groove),
+    ]
 }
 
 fn words(section: &GloboidSection, globoid: &Globoid) -> Vec<Text> {

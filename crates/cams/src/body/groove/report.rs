@@ -3,7 +3,7 @@
 use super::{Groove, RING};
 use crate::body::flank_switch::SwitchFigures;
 use crate::body::{Body, DrawingEvidence};
-use crate::report::{OutlineMeasures, Rolled, Section};
+use crate::report::{OutlineMeasures, Rolled, Section, Topic};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::text::{Length, Text, text};
 use serde::Serialize;
@@ -64,7 +64,11 @@ pub(super) fn section(groove: &Groove, found: &DrawingEvidence<'_>) -> Section {
         switches: switches.iter().map(|found| SwitchFigures::of(found, ["inner", "outer"])).collect(),
     };
     let words = words(&value);
-    Section::new(groove.kind.keys, &value).with_words(words)
+    let width = value.width_mm.map(|width| text!("{} wide", Length::mm(width).nominal()));
+    let depth = value.depth_mm.map(|depth| text!("{} deep", Length::mm(depth).nominal()));
+    let blank = text!("blank Ø{}", Length::mm(2.0 * value.blank_radius_mm).nominal());
+    let track = Text::joined([width, depth].into_iter().flatten().chain([blank]), ", ");
+    Section::new(groove.kind.keys, &value).with_words(words).with_fact(Topic::new(15, groove.kind.keys), track)
 }
 
 fn words(section: &TrackSection) -> Vec<Text> {

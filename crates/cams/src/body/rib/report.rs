@@ -5,7 +5,7 @@ use crate::body::sheet::name_profile;
 use crate::body::{Body, DrawingEvidence, Drawn, Figures, Layer};
 use crate::report::sheet::Dimensions;
 use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView};
-use crate::report::{OutlineMeasures, Rolled, Section};
+use crate::report::{OutlineMeasures, Rolled, Section, Topic};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::profile::outline::OutlineError;
 use camgen_kernel::text::{Length, text};
@@ -57,7 +57,9 @@ pub(super) fn section(rib: &Rib, found: &DrawingEvidence<'_>) -> Section {
         let (arcs, off) = (flank.outline.as_ref()?.arcs, flank.rolling.as_ref()?.gap_mm.abs());
         Some(text!("{}: {} arcs, off the exact flank by {} where it is rolled on", flank.layer, arcs, Length::mm(off)))
     }));
-    Section::new("rib", &value).with_words(words)
+    let apart = text!("rollers {} apart", Length::mm(value.roller_distance_mm).brief());
+    let wall = value.wall_mm.map(|wall| text!("wall {}", Length::mm(wall).brief()));
+    Section::new("rib", &value).with_words(words).with_fact(Topic::new(15, "rib"), apart.and(", ", wall))
 }
 
 /// What the review sheet shows: the disc under the outer roller, with the hole around the inner one and both rollers at θ = 0.

@@ -1,8 +1,9 @@
 //! What the report says of a plate.
 
 use super::Wedge;
+use crate::body::disc::program::law_words;
 use crate::body::{Body, CORNER_REACH, DrawingEvidence, Figures};
-use crate::report::{Section, Weight, shown};
+use crate::report::{Fact, Section, Topic, Weight, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::motion::Motion;
 use camgen_kernel::motion::program::{EndClass, Program, SegmentSummary};
@@ -137,7 +138,21 @@ fn cam(wedge: &Wedge, weight: Weight) -> Section {
     ];
     words.extend(value.weight.words());
     let figures: Vec<Text> = [text!("{}, {}", size, follower), lift].into_iter().chain(value.weight.figure()).collect();
-    Section::new("cam", &value).with_words(words).with_figures(figures)
+    let follower = match value.roller_radius_mm {
+        Some(radius) => text!("roller Ø{}", Length::mm(2.0 * radius).nominal()),
+        None => "knife edge".into(),
+    };
+    let plate = text!(
+        "plate {} × {}, {} at its thinnest, {}",
+        Length::mm(value.length_mm).nominal().bare(),
+        Length::mm(value.height_mm).nominal(),
+        Length::mm(value.thinnest_mm).brief(),
+        follower
+    );
+    let lift =
+        text!("{} over a stroke of {}", Length::mm(value.max_lift_mm).brief(), Length::mm(value.stroke_mm).nominal());
+    let facts = [Some(Fact::new(Topic::SIZE, plate)), value.weight.fact(), Some(Fact::new(Topic::LIFT, lift))];
+    Section::new("cam", &value).with_words(words).with_figures(figures).with_facts(facts.into_iter().flatten())
 }
 
 fn motion(wedge: &Wedge, program: &Program) -> Section {
@@ -148,7 +163,25 @@ fn motion(wedge: &Wedge, program: &Program) -> Section {
     words.extend(program.rows().iter().flat_map(|rows| rows.told.iter().cloned().map(Text::from)));
     let (from, to) = wedge.stroke();
     let value = MotionSection { unit: "mm", stroke_mm: MILLIMETRES * (to - from), segments };
-    Section::new("motion", &value).with_words(words)
+    Section::new("motion", &value).with_words(words).with_fact(Topic::MOTION, movements(&value.segments))
+}
+
+/// The segments one after the other.
+fn movements(segments: &[SegmentFigures]) -> Text {
+    let movement = |segment: &SegmentFigures| {
+        let travel = segment.to - segment.from;
+        if segment.peaks.velocity_mm_per_mm == 0.0 {
+            return "dwell".into();
+        }
+        let word = if travel < 0.0 { "return" } else { "rise" };
+        text!("{} {} {}", word, Length::mm(travel.abs()).nominal(), law_words(segment.law))
+    };
+    let all = segments.iter().enumerate().map(|(index, segment)| {
+        let from =
+            if index == 0 { text!("x = {} ", Length::mm(segment.from_x_mm).nominal().bare()) } else { Text::default() };
+        text!("{}to {} {}", from, Length::mm(segment.to_x_mm).nominal(), movement(segment))
+    });
+    Text::joined(all, ", ")
 }
 
 /// The largest and the least slope between two places, m/m, the least as a positive number.

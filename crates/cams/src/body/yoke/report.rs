@@ -4,9 +4,9 @@ use super::Yoke;
 use crate::body::Body;
 use crate::body::disc::Disc;
 use crate::body::part::point_as_turned;
-use crate::report::Section;
 use crate::report::sheet::Dimensions;
 use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView};
+use crate::report::{Section, Topic};
 use camgen_kernel::follower::Element;
 use camgen_kernel::geometry::{Entity, MILLIMETRES};
 use camgen_kernel::text::{Length, text};
@@ -32,7 +32,8 @@ pub(super) fn section(yoke: &Yoke) -> Section {
     let value = serde_json::json!({ "breadth_mm": breadth, "roller_distance_mm": centres });
     let between_centres = centres.map(|centres| text!(", {} between centres", Length::mm(centres)));
     let words = text!("breadth {} between {}{}", Length::mm(breadth), between(yoke), between_centres);
-    Section::new("yoke", &value).with_words(vec![words])
+    let breadth = text!("{} between {}", Length::mm(breadth).brief(), between(yoke));
+    Section::new("yoke", &value).with_words(vec![words]).with_fact(Topic::new(15, "yoke"), breadth)
 }
 
 /// The two faces or rollers as they are at θ = 0, with the distance between them.

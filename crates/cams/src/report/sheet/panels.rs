@@ -141,7 +141,7 @@ fn cells(finding: &Finding, units: LengthUnit) -> [String; 5] {
     } else {
         format!("at {}", finding.place.text().in_unit(units))
     };
-    let value = if finding.is_unknown { "not run".to_owned() } else { finding.shown_value(units).to_string() };
+    let value = if finding.missing.is_some() { "not run".to_owned() } else { finding.shown_value(units).to_string() };
     [finding.verdict.word().into(), finding.check.replace('_', " "), value, limit, place]
 }
 

@@ -169,6 +169,8 @@ pub(super) fn check(finding: &Finding) -> Value {
         "camDeg": finding.place.cam_deg,
         "xMm": finding.place.x_mm,
         "verdict": finding.verdict,
+        "margin": finding.margin(),
+        "asCut": finding.is_as_cut,
         "note": finding.note.as_ref().map(Text::to_string),
     })
 }

@@ -224,8 +224,11 @@ mod tests {
             unit: "mm".into(),
             place: Place::default(),
             verdict: Verdict::Pass,
-            is_unknown: false,
+            missing: None,
             about: None,
+            is_as_cut: false,
+            fact: None,
+            assumes: None,
             note: None,
         };
         let checks = [finding("pressure_angle", 30.0), finding("undercut", 0.0), finding("cutter_radius", 10.0)];

@@ -5,9 +5,9 @@ use super::braking::{LoadedBrake, TensionRange};
 use crate::brake::BrakeDisc;
 use crate::brake::machine::{BeltMode, BrakeData, BrakeModel};
 use crate::brake::mechanics::{FramePose, PaperRoll, Web};
-use camgen_cams::report::{Section, shown};
+use camgen_cams::report::{Fact, Section, Topic, shown};
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::text::{Length, Text, Value, text};
+use camgen_kernel::text::{DIGITS, Length, Text, Value, nominal, text};
 use serde::Serialize;
 
 /// Change of the friction for which tensions are also reported, as a share.
@@ -100,6 +100,38 @@ struct BrakeFigures {
     other_friction: Vec<OtherFriction>,
 }
 
+fn facts_of_brake(figures: &BrakeFigures) -> Vec<Fact> {
+    let weight = text!(
+        "{}; {} on the full roll need {}",
+        Value::brief(figures.weight_n, "N"),
+        Value::brief(figures.tension_wanted_n, "N"),
+        Value::brief(figures.weight_exact_n, "N")
+    );
+    let tension = text!(
+        "{} at {} to {} at {} of the roll",
+        Value::brief(figures.tension_least_n, "N"),
+        Length::mm(figures.tension_least_roll_radius_mm).brief(),
+        Value::brief(figures.tension_largest_n, "N"),
+        Length::mm(figures.tension_largest_roll_radius_mm).brief()
+    );
+    let other = figures.other_friction.iter().filter_map(|other| {
+        Some(text!(
+            "{} leaves {} to {}",
+            nominal(other.friction, DIGITS),
+            Value::brief_number(other.tension_run_down_n?),
+            Value::brief(other.tension_full_n?, "N")
+        ))
+    });
+    let friction = Text::joined(other, ", ");
+    let friction = (!friction.is_empty()).then(|| Fact::new(Topic::new(30, "friction"), friction));
+    let facts = [
+        Some(Fact::new(Topic::new(10, "weight"), weight)),
+        Some(Fact::new(Topic::new(20, "tension"), tension)),
+        friction,
+    ];
+    facts.into_iter().flatten().collect()
+}
+
 /// Weight, tension over the roll, and the effect of friction on it.
 pub(super) fn brake(braking: &LoadedBrake<'_>, tensions: &TensionRange) -> Section {
     let [full, _] = &braking.ends;
@@ -122,7 +154,7 @@ pub(super) fn brake(braking: &LoadedBrake<'_>, tensions: &TensionRange) -> Secti
             other_friction(braking, 1.0 + FRICTION_CHANGE),
         ],
     };
-    Section::new("brake", &figures).with_words(describe_brake(&figures))
+    Section::new("brake", &figures).with_words(describe_brake(&figures)).with_facts(facts_of_brake(&figures))
 }
 
 /// The tensions with another friction, as a share of the brake's own.

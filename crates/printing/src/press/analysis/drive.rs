@@ -4,16 +4,16 @@ use crate::press::buffer::drive::{self, CLOSING, Drive, DriveError, DriveState, 
 use crate::press::cams;
 use crate::press::checks::air;
 use crate::press::machine::{DriveData, DriveMachine};
-use crate::press::report::CylinderMeasures;
+use crate::press::report::{BUFFERS, CylinderMeasures};
 use camgen_cams::analysis::{Analysis, Picture};
 use camgen_cams::body::Kind;
 use camgen_cams::report::plot::{Plot, PlotCurve, PlotLine, PlotPanel, PlotPoint, figure};
-use camgen_cams::report::{Section, Speeds, shown};
+use camgen_cams::report::{Fact, Section, Speeds, Topic, shown};
 use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::{Input, NamedChoice};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::numeric::extremum;
-use camgen_kernel::text::{Length, Text, text};
+use camgen_kernel::text::{DIGITS, Length, Text, Value, nominal, significant, text};
 use serde::Serialize;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -175,7 +175,11 @@ pub fn analysis(machine: &DriveMachine, solver: DriveSolver, step: f64) -> Resul
         machine: machine.name().to_owned(),
         speeds: Speeds::Any(()),
         inputs,
-        sections: vec![Section::new(KIND.command, &drive_figures).with_words(describe(&drive_figures))],
+        sections: vec![
+            Section::new(KIND.command, &drive_figures)
+                .with_words(describe(&drive_figures))
+                .with_facts(facts(&drive_figures)),
+        ],
         measures: vec![
             air::CLOSING
                 .measure(arrival(machine, drive_figures.work_over_energy), Some(air::ARRIVAL))
@@ -191,6 +195,41 @@ pub fn analysis(machine: &DriveMachine, solver: DriveSolver, step: f64) -> Resul
         diagrams: &[],
         not_modelled: NOT_MODELLED.to_vec(),
     })
+}
+
+fn facts(found: &DriveFigures) -> Vec<Fact> {
+    let buffers = text!(
+        "{} cylinders, each: bore {}; {} at the end of {} stroke",
+        found.cylinders.cylinders,
+        Length::mm(found.cylinders.bore_mm).brief(),
+        Value::brief(found.end_force_n, "N"),
+        Length::mm(found.stroke_mm).brief()
+    );
+    let crank = found.omega_least_rad_per_s.zip(found.speed_drop).map(|(least, drop)| {
+        text!(
+            "{} before braking, least {}: {} % less",
+            Value::brief(found.omega_before_rad_per_s, "rad/s"),
+            Value::brief_number(least),
+            significant(100.0 * drop, DIGITS)
+        )
+    });
+    let motor = found.motor_rpm_before.zip(found.motor_rpm_least);
+    let motor =
+        motor.map(|(before, least)| text!("{}, least {}", Value::brief(before, "rpm"), Value::brief(least, "rpm")));
+    let torque = found.torque_max_nm.map(|torque| Text::from(Value::brief(torque, "N·m")));
+    let paper = text!(
+        "sections of {}° err by up to {} % of the speed",
+        nominal(found.paper.step_deg, DIGITS),
+        significant(100.0 * found.paper.omega_error_share, DIGITS)
+    );
+    let facts = [
+        Some(Fact::new(BUFFERS, buffers)),
+        crank.map(|crank| Fact::new(Topic::new(30, "crank"), crank)),
+        motor.map(|motor| Fact::new(Topic::new(40, "motor"), motor)),
+        torque.map(|torque| Fact::new(Topic::TORQUE, torque)),
+        Some(Fact::new(Topic::new(70, "the paper"), paper)),
+    ];
+    facts.into_iter().flatten().collect()
 }
 
 /// The row at a crank angle, rad; `None` where the bed stands. The row where the crank begins to turn the bed is the last of the first

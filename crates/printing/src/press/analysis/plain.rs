@@ -23,11 +23,12 @@ use camgen_cams::report::ReportLine;
 use camgen_cams::report::plot::{
     Plot, PlotCurve, PlotLine, PlotPanel, PlotPoint, SideRow, SideTable, SmallPlot, SmallPlots, figure,
 };
-use camgen_cams::report::{Section, Speeds, shown};
+use camgen_cams::report::{Section, Speeds, SummaryColumn, SummaryTable, length_cell, number_cell, shown};
 use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::{Input, NamedChoice};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::{DIGITS, LengthKind, Text, Value, nominal, text};
 use camgen_kernel::units::TECHNICAL_ATMOSPHERE;
 use serde::Serialize;
 
@@ -181,7 +182,12 @@ pub fn analysis(machine: &Machine, speeds: &[f64], reset: Reset) -> Result<Analy
         machine: machine.name().to_owned(),
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
-        sections: vec![Section::new("plain_buffers", &section).with_words(words)],
+        sections: vec![
+            Section::new("plain_buffers", &section)
+                .with_words(words)
+                .with_answer(answer(&section))
+                .with_table(table(&section)),
+        ],
         measures: std::iter::once(volume(&resets, CUBIC * cylinder.volume(own)))
             .chain(column::measure(&columns_of(&resets), machine, |press, rpm| {
                 Some(column_by(&frozen_at(press, &cylinder, rpm), reset))
@@ -320,6 +326,38 @@ fn family_curve(press: &Press, end: f64) -> Vec<FamilyPlace> {
         .collect()
 }
 
+fn answer(found: &PlainBuffers<'_>) -> Text {
+    let most = found.speeds.iter().map(|row| row.residual_max_n).fold(0.0, f64::max);
+    text!("fixed bottoms leave up to {}; columns by the rule \"{}\"", Value::brief(most, "N"), found.reset)
+}
+
+/// The column of a fixed bottom at each speed, and what it leaves.
+fn table(found: &PlainBuffers<'_>) -> SummaryTable {
+    let row = |row: &PlainRow| {
+        vec![
+            Text::from(nominal(row.rpm, DIGITS)),
+            length_cell(row.column_length_mm),
+            number_cell(row.residual_max_n),
+            number_cell(100.0 * row.residual_share),
+            length_cell(row.residual_at_mm),
+            number_cell(row.end_pressure_pa / TECHNICAL_ATMOSPHERE),
+        ]
+    };
+    SummaryTable {
+        heads: vec![
+            SummaryColumn::numbers("speed", "rpm"),
+            SummaryColumn::lengths("set column", &LengthKind::MM),
+            SummaryColumn::numbers("left over", "N"),
+            SummaryColumn::numbers("of the inertia", "%"),
+            SummaryColumn::lengths("at x", &LengthKind::MM),
+            SummaryColumn::numbers("end pressure", "at"),
+        ],
+        rows: found.speeds.iter().map(row).collect(),
+        rest: Some("other end pressures: -v, and the tables".into()),
+        ..SummaryTable::default()
+    }
+}
+
 fn describe(found: &PlainBuffers<'_>) -> Vec<ReportLine> {
     let mut lines: Vec<ReportLine> =
         vec![format!("fixed bottoms without a cam; reset: {}; {}", found.reset, found.cylinders.describe()).into()];
@@ -450,8 +488,8 @@ fn by_pressure(press: &Press, pressures: &[FamilyRow], family: &[FamilyPlace]) -
         let points: Vec<[f64; 2]> =
             places.iter().map(|place| [MILLIMETRES * place.x, MILLIMETRES * place.dx]).collect();
         SmallPlot {
-            name: format!("{} at", figure(row.end_pressure_pa / TECHNICAL_ATMOSPHERE)),
-            peak: Some(PlotPoint::dot([row.dx_max_at_x_mm, row.dx_max_mm], 0, figure(row.dx_max_mm))),
+            name: format!("{} at: {}", figure(row.end_pressure_pa / TECHNICAL_ATMOSPHERE), figure(row.dx_max_mm)),
+            peak: None,
             points,
             figure: (format!("Ø{}", figure(row.cylinders.bore_mm)), false),
             note: format!("{} N", figure(row.residual_max_n)),
@@ -459,7 +497,7 @@ fn by_pressure(press: &Press, pressures: &[FamilyRow], family: &[FamilyPlace]) -
         }
     });
     SmallPlots {
-        name: "Stroke Δx of a cam over the overrun for each end pressure, mm; below: bore, mm, and force left by a fixed bottom"
+        name: "Stroke Δx of a cam over the overrun for each end pressure, with the largest, mm; below: bore, mm, and force left by a fixed bottom"
             .into(),
         plots: plots.collect(),
         in_a_row: family.len(),

@@ -25,13 +25,13 @@ use camgen_cams::report::ReportLine;
 use camgen_cams::report::plot::{
     PictureColour, Plot, PlotBand, PlotCurve, PlotLine, PlotPanel, PlotPoint, SideRow, SideTable, figure,
 };
-use camgen_cams::report::{Section, Speeds};
+use camgen_cams::report::{Section, Speeds, SummaryColumn, SummaryTable, Topic, length_cell, number_cell};
 use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::{Input, NamedChoice};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::numeric::{parallel, root};
 use camgen_kernel::refusal::Refusal;
-use camgen_kernel::text::{Length, text};
+use camgen_kernel::text::{DIGITS, Length, LengthKind, Text, nominal, text};
 use camgen_kernel::units::TECHNICAL_ATMOSPHERE;
 use serde::Serialize;
 
@@ -153,7 +153,7 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
         machine: machine.name().to_owned(),
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
-        sections: std::iter::once(Section::new(KIND.command, &regimes).with_words(describe(&regimes)))
+        sections: std::iter::once(summarised(&regimes, Section::new(KIND.command, &regimes)))
             .chain(reversal_of_bed(machine))
             .collect(),
         measures: std::iter::once(volume(&resets, CUBIC * cylinder.volume(design.column())))
@@ -242,6 +242,56 @@ fn force_place(regime: &Regime, rpm: f64, crank: f64, x: f64, deceleration: f64)
         air: regime.air(deceleration),
         residual: regime.residual(deceleration),
     }
+}
+
+/// Where the column stands at each speed, and which bottom leaves less there.
+fn summarised(regimes: &Regimes<'_>, section: Section) -> Section {
+    let better = |row: &SpeedRow| {
+        if row.rpm == regimes.cam_rpm {
+            "cam, as cut"
+        } else if row.fixed_residual_max_n < row.residual_max_n {
+            "fixed bottom"
+        } else {
+            "cam"
+        }
+    };
+    let table = SummaryTable {
+        heads: vec![
+            SummaryColumn::numbers("speed", "rpm"),
+            SummaryColumn::lengths("set column", &LengthKind::MM),
+            SummaryColumn::lengths("screw", &LengthKind::MM),
+            SummaryColumn::numbers("left over", "N"),
+            SummaryColumn::numbers("fixed bottom", "leaves, N"),
+            SummaryColumn::words("better"),
+        ],
+        rows: regimes
+            .speeds
+            .iter()
+            .map(|row| {
+                vec![
+                    Text::from(nominal(row.rpm, DIGITS)),
+                    length_cell(row.column_length_mm),
+                    length_cell(row.column_length_mm - regimes.column_length_mm),
+                    number_cell(row.residual_max_n),
+                    number_cell(row.fixed_residual_max_n),
+                    better(row).into(),
+                ]
+            })
+            .collect(),
+        ..SummaryTable::default()
+    };
+    let fixed = regimes.speeds.iter().filter(|row| better(row) == "fixed bottom").count();
+    let answer = match (fixed, regimes.speeds.len()) {
+        (0, _) => text!("the cam leaves least at every speed, with the column set by the screw"),
+        (some, all) => text!("at {} of {} speeds a fixed bottom leaves less than the cam", some, all),
+    };
+    let cam = text!(
+        "cut for {} rpm, column {} there; {}",
+        nominal(regimes.cam_rpm, DIGITS),
+        Length::mm(regimes.column_length_mm).brief(),
+        text!("rule \"{}\" for the end of the stroke (--reset)", regimes.reset)
+    );
+    section.with_words(describe(regimes)).with_fact(Topic::new(20, "cam"), cam).with_answer(answer).with_table(table)
 }
 
 fn describe(regimes: &Regimes<'_>) -> Vec<ReportLine> {

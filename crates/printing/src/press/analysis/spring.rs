@@ -15,11 +15,12 @@ use camgen_cams::check::Measure;
 use camgen_cams::machine::Machine;
 use camgen_cams::report::ReportLine;
 use camgen_cams::report::plot::{Plot, PlotCurve, PlotPanel, figure};
-use camgen_cams::report::{Section, Speeds, shown};
+use camgen_cams::report::{Section, Speeds, SummaryColumn, SummaryTable, length_cell, number_cell, shown};
 use camgen_cams::table::{ListedColumn, Table};
 use camgen_kernel::document::Input;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::refusal::{Refusal, WorkBound};
+use camgen_kernel::text::{DIGITS, LengthKind, Text, Value, nominal, text};
 use serde::Serialize;
 
 /// Pneumatic-spring buffers.
@@ -164,9 +165,14 @@ pub fn analysis(
         machine: machine.name().to_owned(),
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
-        sections: std::iter::once(Section::new(KIND.command, &springs).with_words(describe(&springs, press)))
-            .chain(bodies.as_ref().map(|bodies| section_of_bodies(&bodies.rows)))
-            .collect(),
+        sections: std::iter::once(
+            Section::new(KIND.command, &springs)
+                .with_words(describe(&springs, press))
+                .with_answer(answer(&springs))
+                .with_table(table(&springs)),
+        )
+        .chain(bodies.as_ref().map(|bodies| section_of_bodies(&bodies.rows)))
+        .collect(),
         measures: measures(machine, &sets, bodies.as_ref()),
         notes: machine.idle_key_notes(KIND.keys, KIND.noun),
         picture: Picture::Curves(curves_of(
@@ -379,6 +385,46 @@ fn curve(press: &Press, set: &SpringAtSpeed) -> Vec<SpringRow> {
                 }
             })
             .collect(),
+    }
+}
+
+fn answer(springs: &Springs<'_>) -> Text {
+    let least = springs.settings.iter().map(|row| row.residual_max_n).fold(f64::INFINITY, f64::min);
+    text!(
+        "springs leave {} at best; a fixed bottom leaves {}",
+        Value::brief(least, "N"),
+        Value::brief(springs.residual_fixed_bottom_max_n, "N")
+    )
+}
+
+/// What each spring does.
+fn table(springs: &Springs<'_>) -> SummaryTable {
+    let row = |row: &SpringSet| {
+        vec![
+            number_cell(row.stiffness_n_per_mm),
+            Text::from(nominal(row.rpm, DIGITS)),
+            length_cell(row.spring_travel_mm),
+            length_cell(row.air_length_mm),
+            number_cell(row.spring_force_max_n),
+            number_cell(row.residual_max_n),
+        ]
+    };
+    let least = text!(
+        "more than {} N/mm each are needed at the design speed; one spring under each bottom",
+        Value::brief_number(springs.least_stiffness_n_per_mm)
+    );
+    SummaryTable {
+        heads: vec![
+            SummaryColumn::numbers("stiffness", "N/mm each"),
+            SummaryColumn::numbers("speed", "rpm"),
+            SummaryColumn::lengths("travel", &LengthKind::MM),
+            SummaryColumn::lengths("air column", &LengthKind::MM),
+            SummaryColumn::numbers("force", "N each"),
+            SummaryColumn::numbers("left over", "N"),
+        ],
+        rows: springs.settings.iter().map(row).collect(),
+        rest: Some(least),
+        ..SummaryTable::default()
     }
 }
 

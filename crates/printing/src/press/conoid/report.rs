@@ -4,14 +4,14 @@ use super::between::Residual;
 use super::{Conoid, SectionCut, wheel};
 use crate::press::balance::reversal_of_bed;
 use crate::press::machine::{PressCams, Shift};
-use crate::press::report::CylinderMeasures;
+use crate::press::report::{BUFFERS, CylinderMeasures, LEFT_OVER};
 use crate::press::scatter::other_cams::{self, LawAtSpeed};
 use camgen_cams::body::part::{Part, bore};
 use camgen_cams::body::{DrawingEvidence, flank_of};
-use camgen_cams::report::{ReportLine, Section, degrees, lobes_words, shown};
+use camgen_cams::report::{Fact, ReportLine, Section, Topic, degrees, lobes_words, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::numeric::parallel;
-use camgen_kernel::text::{Length, LengthKind, Text, text};
+use camgen_kernel::text::{DIGITS, Length, LengthKind, Text, Value, nominal, text};
 use serde::Serialize;
 
 /// The outlines of all sections together.
@@ -122,9 +122,11 @@ pub(super) fn sections(conoid: &Conoid, found: &DrawingEvidence<'_>) -> Vec<Sect
     let mut sections = vec![ConoidMeasures::new(conoid, found).section()];
     sections.extend(reversal_of_bed(&conoid.machine));
     let cylinders = CylinderMeasures::new(conoid.cylinder.piston_area);
-    sections.push(Section::new("cylinders", &cylinders).with_words(vec![cylinders.describe()]));
+    let buffers = text!("{} cylinders, each: bore {}", cylinders.cylinders, Length::mm(cylinders.bore_mm).brief());
+    sections
+        .push(Section::new("cylinders", &cylinders).with_words(vec![cylinders.describe()]).with_fact(BUFFERS, buffers));
     sections.extend([
-        Section::new("sections", &all).with_words(words),
+        Section::new("sections", &all).with_words(words).with_fact(SECTIONS, sections_of(&all)),
         SurfaceMeasures::new(conoid, found, &errors).section(),
         Between::new(left, straight, conoid.interpolates_speed()).section(),
         Section::new("outline", &outlines),
@@ -136,6 +138,23 @@ pub(super) fn sections(conoid: &Conoid, found: &DrawingEvidence<'_>) -> Vec<Sect
     let cams = PressCams::of(&conoid.machine);
     sections.extend(other_cams::of_conoid(cams, &conoid.cylinder, conoid.data.shift, &laws));
     sections
+}
+
+/// The sections of a conoid.
+const SECTIONS: Topic = Topic::new(15, "sections");
+/// Sections that a summary names one by one.
+const MOST_NAMED: usize = 8;
+
+fn sections_of(all: &[SectionMeasures]) -> Text {
+    let speed = |section: &SectionMeasures| nominal(section.rpm, DIGITS);
+    match all {
+        [] => Text::default(),
+        [only] => text!("one, for {} rpm: every section of this cam is the same", speed(only)),
+        [first, .., last] if all.len() > MOST_NAMED => {
+            text!("{} for {} to {} rpm", all.len(), speed(first), speed(last))
+        }
+        few => text!("{} for {} rpm", few.len(), Text::joined(few.iter().map(|s| Text::from(speed(s))), ", ")),
+    }
 }
 
 impl SectionMeasures {
@@ -238,7 +257,16 @@ impl ConoidMeasures {
             words.push(text!("volume {}, mass {} kg", Length::new(volume, &LengthKind::MM3), shown(mass)));
             figures.push(text!("mass {} kg", format_args!("{:.2}", mass)));
         }
-        Section::new("cam", self).with_words(words).with_figures(figures)
+        let size = text!(
+            "base R{}, roller Ø{}, {} long",
+            Length::mm(self.base_radius_mm).nominal(),
+            Length::mm(2.0 * self.roller_radius_mm).nominal(),
+            Length::mm(self.z_max_mm - self.z_min_mm).nominal()
+        );
+        let mass = self.mass_kg.map(|mass| Fact::new(Topic::SIZE, Value::brief(mass, "kg")));
+        let lift = Fact::new(Topic::LIFT, Value::from(Length::mm(self.max_lift_mm).brief()));
+        let facts = [Some(Fact::new(Topic::SIZE, size)), mass, Some(lift)].into_iter().flatten();
+        Section::new("cam", self).with_words(words).with_figures(figures).with_facts(facts)
     }
 }
 
@@ -304,7 +332,10 @@ impl Between {
             format_args!("{:.2}", self.residual_max_n),
             format_args!("{:.2}", self.rpm)
         );
-        Section::new("between", self).with_words(words).with_figures(vec![figure])
+        let between =
+            text!("{} at {} between sections", Value::brief(self.residual_max_n, "N"), Value::brief(self.rpm, "rpm"));
+        let between = Fact::new(LEFT_OVER, between);
+        Section::new("between", self).with_words(words).with_figures(vec![figure]).with_facts([between])
     }
 }
 

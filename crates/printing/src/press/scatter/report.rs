@@ -4,11 +4,11 @@ use super::propagation::ParameterBand;
 use super::reset::ScrewRule;
 use super::settings::VariableRange;
 use super::tables::{ParameterRow, PercentileRow, SettingRow};
-use crate::press::report::CylinderMeasures;
+use crate::press::report::{CylinderMeasures, OTHER_SPEEDS};
 use camgen_cams::report::ReportLine;
-use camgen_cams::report::{Section, shown};
+use camgen_cams::report::{Fact, Section, SummaryColumn, SummaryTable, Topic, length_cell, number_cell, shown};
 use camgen_kernel::document::NamedChoice;
-use camgen_kernel::text::{Length, Text, text};
+use camgen_kernel::text::{Length, LengthKind, Text, Value, text};
 use serde::Serialize;
 
 /// One machine that differs.
@@ -131,6 +131,15 @@ impl UsefulRange {
         self.v_min.is_some_and(|least| v < least) || self.v_max.is_some_and(|most| v > most)
     }
 
+    /// Where a fixed bottom leaves less than the cam, for a summary; `None` where it does so at no speed.
+    #[must_use]
+    pub fn fact(&self) -> Option<Text> {
+        let bounds = [self.rpm_min.map(|rpm| ("below", rpm)), self.rpm_max.map(|rpm| ("above", rpm))];
+        let bounds = bounds.into_iter().flatten().map(|(side, rpm)| text!("{} {}", side, Value::brief(rpm, "rpm")));
+        let bounds = Text::joined(bounds, " and ");
+        (!bounds.is_empty()).then(|| text!("{} a fixed bottom leaves less: camgen regimes", bounds))
+    }
+
     /// A sentence.
     #[must_use]
     pub fn describe(&self) -> String {
@@ -147,6 +156,9 @@ impl UsefulRange {
         }
     }
 }
+
+/// Share of the variance below which a band is not in a summary.
+const SMALL_SHARE: f64 = 0.01;
 
 /// Residual force with all parameters varying: each alone, the worst cases, the deviation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -273,7 +285,87 @@ impl ScatterReport<'_> {
                 row.fixed_residual_n
             ))
         }));
-        Section::new("scatter", self).with_words(words)
+        Section::new("scatter", self)
+            .with_words(words)
+            .with_answer(self.answer())
+            .with_facts(self.facts())
+            .with_table(self.table())
+    }
+
+    /// The percentile of a body in a state: "cam" or "fixed-bottom", reset by a rule or "none".
+    fn percentile_95(&self, body: &str, reset: &str) -> Option<f64> {
+        let found =
+            self.percentiles.iter().find(|row| row.body == body && row.reset == reset && row.percentile == 95.0);
+        found.map(|row| row.residual_n)
+    }
+
+    fn answer(&self) -> Text {
+        match self.percentile_95("cam", self.reset).or_else(|| self.percentile_95("cam", "none")) {
+            Some(left) if self.reset != "none" => {
+                text!("reset the screw: 95 of 100 presses leave less than {}", Value::brief(left, "N"))
+            }
+            Some(left) => text!("95 of 100 presses leave less than {} as built", Value::brief(left, "N")),
+            None => text!("all bands at once leave up to {}", Value::brief(self.worst(), "N")),
+        }
+    }
+
+    fn worst(&self) -> f64 {
+        self.bands.worst_weak_n.abs().max(self.bands.worst_strong_n.abs())
+    }
+
+    fn facts(&self) -> Vec<Fact> {
+        let left = |body: &str, reset: &str, words: &'static str| {
+            self.percentile_95(body, reset).map(|force| text!("{} {}", words, Value::brief(force, "N")))
+        };
+        let reset = (self.reset != "none").then(|| left("cam", self.reset, "screw reset")).flatten();
+        let fixed = left("fixed-bottom", self.reset, "fixed bottom");
+        let all = [left("cam", "none", "below, as built:"), reset, fixed].into_iter().flatten();
+        let of_95 = Text::joined(all, ", ");
+        let mut facts = Vec::new();
+        if !of_95.is_empty() {
+            facts.push(Fact::new(Topic::new(10, "95 of 100"), of_95));
+        }
+        let drawn = text!(
+            "{} presses drawn, {}, seed {}; rule \"{}\" for the screw (--reset)",
+            self.samples,
+            self.distribution,
+            self.seed,
+            self.reset
+        );
+        facts.push(Fact::new(Topic::new(20, "drawn"), drawn));
+        facts.extend(self.useful.fact().map(|text| Fact::new(OTHER_SPEEDS, text)));
+        facts
+    }
+
+    /// The bands one by one.
+    fn table(&self) -> SummaryTable {
+        let row = |row: &&ParameterRow| {
+            vec![
+                Text::from(row.parameter.replace('_', " ")),
+                Text::from(row.half_width_words()),
+                number_cell(row.residual_n.abs()),
+                number_cell(row.residual_end_n.abs()),
+                length_cell(row.column_end_mm),
+                number_cell(100.0 * row.share_of_variance),
+            ]
+        };
+        let ranked = self.bands.ranked();
+        let is_small = |row: &&ParameterRow| row.share_of_variance < SMALL_SHARE;
+        let small: Vec<&str> = ranked.iter().filter(|row| is_small(row)).map(|row| row.parameter).collect();
+        let rest = (!small.is_empty()).then(|| text!("below 1 % each: {} (-v)", small.join(", ").replace('_', " ")));
+        SummaryTable {
+            heads: vec![
+                SummaryColumn::words("one band alone"),
+                SummaryColumn::numbers("±", ""),
+                SummaryColumn::numbers("as built", "N"),
+                SummaryColumn::numbers("reset", "N"),
+                SummaryColumn::lengths("screw", &LengthKind::MM),
+                SummaryColumn::numbers("share", "% of σ²"),
+            ],
+            rows: ranked.iter().filter(|row| !is_small(row)).map(row).collect(),
+            marked: None,
+            rest,
+        }
     }
 
     /// The percentiles in words.

@@ -5,10 +5,12 @@ use super::monte_carlo::{self, LeftInPractice};
 use super::report::{BandsReport, UsefulRange};
 use super::settings::{self, VariableRange};
 use crate::press::machine::PressCams;
+use crate::press::report::{IN_PRACTICE, OTHER_SPEEDS};
 use camgen_cams::machine::Machine;
-use camgen_cams::report::{Section, shown};
+use camgen_cams::report::{Fact, Section, shown};
 use camgen_kernel::document::NamedChoice;
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::{Text, Value, text};
 use serde::Serialize;
 
 /// Parameters that are named in words.
@@ -52,6 +54,14 @@ pub(super) fn whole_newtons(force: f64) -> String {
 }
 
 impl Percentiles {
+    /// What is left in practice, for a summary; `None` if no press was sampled.
+    pub(super) fn fact(&self, rule: &str) -> Option<Text> {
+        let (built, reset) = (self.p95_as_built_n?, self.p95_reset_n?);
+        let built = text!("below {} in 95 of 100 presses", Value::brief(built, "N"));
+        let reset = (rule != "none").then(|| text!("{} with the screw reset", Value::brief(reset, "N")));
+        Some(built.and(", ", reset))
+    }
+
     /// The words after the bounds of all bands; empty if no press was sampled.
     pub(super) fn describe(&self, rule: &str) -> String {
         let (Some(built), Some(reset), Some(fixed)) = (self.p95_as_built_n, self.p95_reset_n, self.p95_fixed_bottom_n)
@@ -72,7 +82,9 @@ impl Percentiles {
 pub fn of_cam(machine: &Machine, rpm: f64) -> Option<Section> {
     let values = values(machine, rpm).ok()?;
     let words = values.describe();
-    Some(Section::new("scatter", &values).with_words(words))
+    let practice = values.left.fact(values.reset).map(|text| Fact::new(IN_PRACTICE, text));
+    let slower = values.useful.fact().map(|text| Fact::new(OTHER_SPEEDS, text));
+    Some(Section::new("scatter", &values).with_words(words).with_facts(practice.into_iter().chain(slower)))
 }
 
 fn values(machine: &Machine, rpm: f64) -> Result<CamScatter, Refusal> {
