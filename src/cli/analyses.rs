@@ -313,7 +313,9 @@ pub(super) fn write_with(judged: &Judged, args: &ReportArgs, writing: &Writing) 
     } else if judged.passed() || writing.force {
         Some(judged.files(writing).map_err(Failure::new)?).filter(|_| !args.dry_run)
     } else {
-        print_message(refusal(args.dry_run));
+        if !args.is_summary() {
+            print_message(refusal(args.dry_run));
+        }
         None
     };
     match files {

@@ -8,6 +8,7 @@ use super::input_files::files;
 use super::live::{self, LiveSource};
 use super::progress::Progress;
 use super::put::put_set;
+use super::text::{Beside, TriedRemedy, Written};
 use super::{Failure, Outcome, print, print_message, print_painted, refusal, text};
 use camgen::body::{Gauge, Inspection, Milling, PointCurve, Points, Request};
 use camgen::catalogue::catalogue;
@@ -20,9 +21,10 @@ use camgen::domains::press::wedge::LAW_TOLERANCE;
 use camgen::geometry::lead_in::{LeadIn, LeadInForm};
 use camgen::geometry::points::PointInterpolation;
 use camgen::machine::Machine;
-use camgen::pipeline::{Cam, FileSet, Judged, ProvenAssembly, Spec, Writing};
+use camgen::pipeline::{AssemblyDrawing, Cam, FileSet, Judged, ProvenAssembly, Spec, Writing};
 use camgen::profile::outline::Fit;
-use camgen::report::LazyReport;
+use camgen::report::{Fact, LazyReport, Summary, Topic};
+use camgen::text::KeyChange;
 use camgen::tool_files::{Format, gauge, gcode, inspection, points, requested, servo};
 use camgen::units::{self, Dimension};
 use camgen::write::json;
@@ -31,50 +33,76 @@ use camgen::write::svg;
 
 /// Stations of the paper's solver by default: its error is then a hundredth of a millimetre.
 const STATIONS: u32 = 1800;
+/// What is to be cut.
+struct CutOrder {
+    spec: Spec,
+    request: Request,
+    /// The machine in the names of files.
+    name: String,
+}
+
+/// Makes the order of a machine file with overrides.
+type Ordered<'a> = dyn Fn(&[String]) -> Result<CutOrder, Failure> + 'a;
+
 pub(super) fn rotary(args: &RotaryArgs) -> Result<Outcome, Failure> {
     let keys = args.compensator.iter().map(|key| format!("compensator.{}", key.trim()));
-    let args = &args.disc;
-    let overrides: Vec<String> = args.common.set.iter().cloned().chain(keys).collect();
-    let (mut machine, name) = args.common.machine_with(args.common.machine_name(), &overrides)?;
-    machine = args.files.to.of_units(machine);
-    let rpm = args.common.one_speed(&machine)?;
-    let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
-    let source = LiveSource { machine: args.common.machine_name(), overrides };
-    cut(Spec::rotary(machine, rpm), request, (&args.common, &args.files), (&name, source))
+    let DiscArgs { common, files, cutter } = &args.disc;
+    let overrides: Vec<String> = common.set.iter().cloned().chain(keys).collect();
+    let order = |overrides: &[String]| {
+        let (machine, name) = common.machine_with(common.machine_name(), overrides)?;
+        let mut machine = files.to.of_units(machine);
+        let rpm = common.one_speed(&machine)?;
+        let request = cutter.request(&mut machine, files.request(common)?);
+        Ok(CutOrder { spec: Spec::rotary(machine, rpm), request, name })
+    };
+    cut(&order, overrides, common, files)
 }
 
 pub(super) fn translating(args: &TranslatingArgs) -> Result<Outcome, Failure> {
-    let (machine, name) = args.common.machine()?;
-    let machine = args.files.to.of_units(machine);
-    let rpm = args.common.one_speed(&machine)?;
-    let solver = match (args.solver, args.stations) {
-        (SolverKind::Paper, stations) => Solver::Paper { stations: stations.unwrap_or(STATIONS) },
-        (SolverKind::Ode, None) => Solver::Ode { tolerance: LAW_TOLERANCE },
-        (SolverKind::Ode, Some(_)) => {
-            return Err(Failure("--stations belongs to --solver paper; the solver ode chooses its own steps".into()));
-        }
+    let (common, files) = (&args.common, &args.files);
+    let order = |overrides: &[String]| {
+        let (machine, name) = common.machine_with(common.machine_name(), overrides)?;
+        let machine = files.to.of_units(machine);
+        let rpm = common.one_speed(&machine)?;
+        let solver = match (args.solver, args.stations) {
+            (SolverKind::Paper, stations) => Solver::Paper { stations: stations.unwrap_or(STATIONS) },
+            (SolverKind::Ode, None) => Solver::Ode { tolerance: LAW_TOLERANCE },
+            (SolverKind::Ode, Some(_)) => {
+                let why = "--stations belongs to --solver paper; the solver ode chooses its own steps";
+                return Err(Failure(why.into()));
+            }
+        };
+        let spec = Spec::translating(machine.clone(), rpm, solver, balance_of(args.balance, &machine));
+        Ok(CutOrder { spec, request: files.request(common)?, name })
     };
-    let spec = Spec::translating(machine.clone(), rpm, solver, balance_of(args.balance, &machine));
-    cut(spec, args.files.request(&args.common)?, (&args.common, &args.files), (&name, args.common.live_source()))
+    cut(&order, common.set.clone(), common, files)
 }
 
 pub(super) fn conoid(args: &ConoidArgs) -> Result<Outcome, Failure> {
-    let (machine, name) = args.common.machine()?;
-    let spec = of_conoid(&args.common, args.files.to.of_units(machine), args.residual)?;
-    cut(spec, args.files.request(&args.common)?, (&args.common, &args.files), (&name, args.common.live_source()))
+    let (common, files) = (&args.common, &args.files);
+    let order = |overrides: &[String]| {
+        let (machine, name) = common.machine_with(common.machine_name(), overrides)?;
+        let spec = of_conoid(common, files.to.of_units(machine), args.residual)?;
+        Ok(CutOrder { spec, request: files.request(common)?, name })
+    };
+    cut(&order, common.set.clone(), common, files)
 }
 
 /// The cam of a motion program.
 pub(super) fn make(args: &DiscArgs) -> Result<Outcome, Failure> {
-    let Some(file) = &args.common.machine else { return Err(without_design()) };
-    let (mut machine, name) = args.common.machine()?;
-    if args.common.end.is_some() {
-        return Err(Failure("--end belongs to the cams of a press: a motion program has no ends of a stroke".into()));
-    }
-    machine = args.files.to.of_units(machine);
-    let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
-    let spec = of_program(&args.common, (machine, file))?;
-    cut(spec, request, (&args.common, &args.files), (&name, args.common.live_source()))
+    let DiscArgs { common, files, cutter } = args;
+    let Some(file) = &common.machine else { return Err(without_design()) };
+    let order = |overrides: &[String]| {
+        let (machine, name) = common.machine_with(file, overrides)?;
+        if common.end.is_some() {
+            let why = "--end belongs to the cams of a press: a motion program has no ends of a stroke";
+            return Err(Failure(why.into()));
+        }
+        let mut machine = files.to.of_units(machine);
+        let request = cutter.request(&mut machine, files.request(common)?);
+        Ok(CutOrder { spec: of_program(common, (machine, file))?, request, name })
+    };
+    cut(&order, common.set.clone(), common, files)
 }
 
 /// What `make` can start from.
@@ -120,13 +148,6 @@ pub(super) fn of_conoid(common: &CommonArgs, machine: Machine, residual: Option<
         speeds.push(machine.press().map_err(Failure::new)?.design_rpm);
     }
     Ok(Spec::conoid(machine, speeds, residual))
-}
-
-impl CommonArgs {
-    /// What --live makes live.
-    fn live_source(&self) -> LiveSource<'_> {
-        LiveSource { machine: self.machine_name(), overrides: self.set.clone() }
-    }
 }
 
 impl CutterArgs {
@@ -302,12 +323,9 @@ pub(super) fn source_date() -> Result<Option<u64>, Failure> {
 }
 
 /// Solves, draws, proves, writes and reports.
-fn cut(
-    spec: Spec,
-    request: Request,
-    (common, files): (&CommonArgs, &FileArgs),
-    (machine, source): (&str, LiveSource<'_>),
-) -> Result<Outcome, Failure> {
+fn cut(order: &Ordered<'_>, overrides: Vec<String>, common: &CommonArgs, files: &FileArgs) -> Result<Outcome, Failure> {
+    let CutOrder { spec, request, name } = order(&overrides)?;
+    let source = LiveSource { machine: common.machine_name(), overrides };
     if files.live {
         files.live_fits(common, &request)?;
     }
@@ -316,7 +334,7 @@ fn cut(
     progress.stage("solving");
     let cams = spec.assemble().map_err(Failure::new)?;
     let cam = cams.first();
-    let stem = stem(common, files, cam, machine);
+    let stem = stem(common, files, cam, &name);
     // A name that was given stays; the usual one follows command and speed.
     let named = files.to.name.as_ref().map(|_| stem.as_str());
     let live =
@@ -339,14 +357,44 @@ fn cut(
     let drawing = cams.draw(request).map_err(Failure::new)?;
     progress.stage("proving");
     let proven = drawing.prove_as(files.outline.dxf_version).map_err(Failure::new)?;
+    let remedy = if common.report.is_summary() && !proven.passed() {
+        progress.stage("looking for a remedy");
+        remedy(&proven, order, &source.overrides)
+    } else {
+        None
+    };
     progress.stage("writing");
     let files = files_of(&proven, &writing, common, &left_out);
     drop(progress);
     match files? {
-        Some(files) => put_set(files, |report| show(report, &common.report))?,
-        None => show(&proven.lazy_report(), &common.report)?,
+        Some(files) => put_set(files, |report| show_with(report, &common.report, remedy.as_ref()))?,
+        None => show_with(&proven.lazy_report(), &common.report, remedy.as_ref())?,
     }
     Ok(if proven.passed() { Outcome::Fine } else { Outcome::CheckFailed })
+}
+
+/// Facts that a remedy may alter at a cost.
+const COSTS: [Topic; 3] = [Topic::SIZE, Topic::FORCE, Topic::TORQUE];
+
+/// A change of the machine file that passes every check, with what it costs.
+fn remedy(proven: &ProvenAssembly, order: &Ordered<'_>, overrides: &[String]) -> Option<TriedRemedy> {
+    let remake = |changes: &[KeyChange]| {
+        let changed = changes.iter().map(|change| format!("{}={}", change.key, change.value));
+        let overrides: Vec<String> = overrides.iter().cloned().chain(changed).collect();
+        let CutOrder { spec, request, .. } = order(&overrides).ok()?;
+        spec.assemble().and_then(|cams| cams.draw(request)).and_then(AssemblyDrawing::prove).ok()
+    };
+    let found = proven.remedy(&remake)?;
+    let (before, after) = (proven.report(), found.cams.report());
+    let (before, after) = (Summary::of(&before), Summary::of(&after));
+    let is_cost = |fact: &&Fact| COSTS.contains(&fact.topic) && !before.facts.contains(fact);
+    let inputs = proven.first().body().machine().inputs(proven.first().body().kind().keys);
+    let now = |key: &str| inputs.iter().find(|input| input.key == key).map(|input| input.typed.clone());
+    Some(TriedRemedy {
+        changes: found.changes.iter().map(|change| (change.clone(), now(&change.key))).collect(),
+        judged: after.judged,
+        costs: after.facts.iter().filter(is_cost).cloned().collect(),
+    })
 }
 
 /// The checks that another disc fails: the report is that of the first.
@@ -375,7 +423,9 @@ fn files_of(
         return Ok(None);
     }
     if !proven.passed() && !writing.force {
-        print_message(refusal(common.report.dry_run));
+        if !common.report.is_summary() {
+            print_message(refusal(common.report.dry_run));
+        }
         failures_of_others(proven);
         return Ok(None);
     }
@@ -388,13 +438,21 @@ fn files_of(
 
 /// Prints a report as the arguments say.
 pub(super) fn show(report: &LazyReport, args: &ReportArgs) -> Result<(), Failure> {
+    show_with(report, args, None)
+}
+
+/// Prints a report as the arguments say, with a remedy that was tried.
+fn show_with(report: &LazyReport, args: &ReportArgs, remedy: Option<&TriedRemedy>) -> Result<(), Failure> {
     if args.json {
         let bytes = json::write(&**report).map_err(Failure::new)?;
         print(&String::from_utf8_lossy(&bytes))
     } else if args.quiet {
         Ok(())
-    } else {
+    } else if args.verbose {
         print_painted(&text::report(report, args.page()))
+    } else {
+        let written = if args.dry_run { Written::DryRun } else { Written::Listed };
+        print_painted(&text::summary(report, Beside { written, remedy }, args.page()))
     }
 }
 

@@ -77,7 +77,9 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
         let json = json::write(&report).map_err(Failure::new)?;
         print(&String::from_utf8_lossy(&json))?;
     } else if !args.common.report.quiet {
-        print_painted(&text::check_report(&file, &report, args.common.report.page()))?;
+        let page = args.common.report.page();
+        let write = if args.common.report.verbose { text::check_report } else { text::check_summary };
+        print_painted(&write(&file, &report, page))?;
     }
     Ok(if report.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }

@@ -10,8 +10,7 @@ use camgen::document::similar;
 pub(super) fn run(args: &ExplainArgs) -> Result<Outcome, Failure> {
     let page = Page::here();
     let Some(name) = &args.check else {
-        let lines: Vec<String> = checks().map(|check| short(check, page)).collect();
-        print(&format!("{}\n`camgen explain CHECK` explains one check in full.\n", lines.concat()))?;
+        print(&list(args.verbose, page))?;
         return Ok(Outcome::Fine);
     };
     let plain = name.to_lowercase().replace('-', "_");
@@ -23,6 +22,22 @@ pub(super) fn run(args: &ExplainArgs) -> Result<Outcome, Failure> {
     };
     print(&full(check, page))?;
     Ok(Outcome::Fine)
+}
+
+/// Width of the list of names where the page does not say how wide it is.
+const WIDTH: usize = 80;
+
+/// The names of all checks, or each with its meaning.
+fn list(verbose: bool, page: Page) -> String {
+    const MORE: &str = "camgen explain CHECK explains one in full";
+    if verbose {
+        let lines: Vec<String> = checks().map(|check| short(check, page)).collect();
+        return format!("{}\n{MORE}\n", lines.concat());
+    }
+    let names: Vec<&str> = checks().map(|check| check.name).collect();
+    let page = Page { width: page.width.or(Some(WIDTH)), ..page };
+    let all = wrapped(&format!("  {}", names.join(", ")), 2, page);
+    format!("{} checks\n{all}\n{MORE}; -v gives each a line\n", names.len())
 }
 
 /// The name of a check and the first sentence of its meaning.

@@ -2,7 +2,7 @@
 
 use super::args::{SideBySideArgs, machine_of_a_cam};
 use super::put::put;
-use super::text::{self, Page};
+use super::text::{self, Beside, Page, Written};
 use super::{Failure, Outcome, print, print_message};
 use camgen::body::{RateTolerance, Request};
 use camgen::document::Input;
@@ -84,6 +84,12 @@ impl SideBySideArgs {
         if self.quiet {
             return Ok(());
         }
-        reports.iter().try_for_each(|report| print(&text::report(report, Page::here())))
+        let beside = Beside { written: Written::Listed, remedy: None };
+        let texts: Vec<String> = if self.verbose {
+            reports.iter().map(|report| text::report(report, Page::here())).collect()
+        } else {
+            reports.iter().map(|report| text::half_summary(report, beside, Page::here())).collect()
+        };
+        print(&texts.join("\n"))
     }
 }

@@ -2,6 +2,9 @@
 //! and as wide as its lines; colour and wrapped lines are for a terminal.
 
 mod glossary;
+mod summary;
+
+pub(super) use summary::{Beside, TriedRemedy, Written, check_summary, half_summary, summary};
 
 use camgen::document::plain;
 use camgen::report::{Finding, Place, Report, Section, Verdict};
@@ -109,6 +112,19 @@ fn checks(findings: &[Finding], units: LengthUnit, page: Page) -> Vec<String> {
         );
     }
     lines
+}
+
+/// A line of a summary with the words of a verdict in colour.
+fn painted_word(line: &str, page: Page) -> String {
+    if !page.colour {
+        return line.to_owned();
+    }
+    for (word, paint) in [("FAIL", RED), ("NOT THIS CAM", RED), ("PASS", GREEN), ("THIS CAM", GREEN)] {
+        if let Some((before, behind)) = line.split_once(word) {
+            return format!("{before}{paint}{word}{PLAIN}{behind}");
+        }
+    }
+    line.to_owned()
 }
 
 fn painted(verdict: Verdict, page: Page) -> String {

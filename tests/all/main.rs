@@ -76,6 +76,7 @@ mod stability;
 mod starts;
 mod step;
 mod study;
+mod summaries;
 mod supply;
 mod surface;
 mod tables;

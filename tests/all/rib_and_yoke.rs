@@ -233,8 +233,9 @@ fn the_rating_that_a_refused_bearing_names_is_enough() {
     let report: serde_json::Value = serde_json::from_str(&out).expect("a report");
     let checks = report["checks"].as_array().expect("checks");
     let life = checks.iter().find(|check| check["check"] == "roller_life").expect("judged");
-    let note = life["note"].as_str().expect("a note");
-    let rating = note.split("a dynamic_rating of ").nth(1).and_then(|rest| rest.split(' ').next()).expect("a rating");
+    let remedy = &life["remedies"][0];
+    assert_eq!(remedy["key"], "follower.roller.bearing.dynamic_rating");
+    let rating = remedy["value"].as_str().and_then(|value| value.strip_suffix(" kN")).expect("a rating in kN");
     let (code, out, _) = made(rating);
     assert_eq!(code, 0, "{rating}: {out}");
 }

@@ -525,7 +525,7 @@ fn every_check_is_run_for_some_cam() {
 
 #[test]
 fn every_check_is_explained() {
-    let all = camgen(&["explain"]);
+    let all = camgen(&["explain", "--verbose"]);
     assert_eq!(all.code, 0, "{}", all.err);
     for check in checks() {
         let run = camgen(&["explain", check.name]);

@@ -1,6 +1,6 @@
 //! What a person meets at the terminal: help whose examples run, words that are nearly right, files that are not lost.
 
-use crate::common::program::{Run, camgen, camgen_in, files, report};
+use crate::common::program::{Run, camgen, camgen_in, commands, files, report};
 use std::f64::consts::TAU;
 use std::fs;
 use std::io::{BufRead, BufReader, Lines};
@@ -9,14 +9,6 @@ use std::process::{Child, ChildStderr, Command, Stdio};
 use std::time::Duration;
 
 const LIFTER: &str = include_str!("common/lifter.toml");
-
-/// The commands in the help of camgen.
-fn commands() -> Vec<String> {
-    let help = camgen(&["--help"]).out;
-    let (_, list) = help.split_once("Commands:\n").expect("commands");
-    let names = list.lines().take_while(|line| !line.is_empty()).filter_map(|line| line.split_whitespace().next());
-    names.filter(|name| *name != "help").map(str::to_owned).collect()
-}
 
 /// The examples of a help, each with the line below it.
 fn examples(help: &str) -> Vec<(String, String)> {
@@ -55,6 +47,17 @@ fn lift_table() -> String {
         format!("{degree},{:.4}\n", 20.0 * lift)
     };
     format!("deg,mm\n{}", (0..360).map(row).collect::<String>())
+}
+
+/// The page of camgen fits a screen and names every command.
+#[test]
+fn the_help_of_camgen_names_every_command() {
+    let help = camgen(&["--help"]).out;
+    let words: Vec<&str> = help.split_whitespace().collect();
+    for name in commands() {
+        assert!(words.contains(&name.as_str()), "{name} is not in the help: {help}");
+    }
+    assert!(help.lines().count() <= 25 && help.lines().all(|line| line.chars().count() <= 82), "{help}");
 }
 
 #[test]
@@ -345,7 +348,7 @@ impl Watching {
 fn a_watched_file_is_run_again_when_it_changes() {
     let directory = prepared();
     let file = directory.path().join("lifter.toml");
-    let mut watching = Watching::start(directory.path(), &["make", "lifter.toml", "--watch", "--format", "dxf"]);
+    let mut watching = Watching::start(directory.path(), &["make", "lifter.toml", "--watch", "--format", "dxf", "-v"]);
     watching.until_it_waits();
     assert!(watching.after_change(&file, &LIFTER.replace("20 mm", "20 mn")).contains("error:"));
     watching.after_change(&file, &LIFTER.replace("20 mm", "22 mm"));
@@ -366,7 +369,8 @@ fn a_watched_table_is_read_again_when_it_changes() {
         let row = |angle: i32| format!("{angle}, {:.6}\n", 0.5 * lift * (1.0 - f64::from(angle).to_radians().cos()));
         (0..360).step_by(5).map(row).collect::<String>()
     };
-    let mut watching = Watching::start(directory.path(), &["make", "cam.toml", "--rpm", "60", "--watch", "--dry-run"]);
+    let mut watching =
+        Watching::start(directory.path(), &["make", "cam.toml", "--rpm", "60", "--watch", "--dry-run", "-v"]);
     let first = watching.until_it_waits();
     assert!(first.contains("cannot read `rows.csv`") && first.contains("cam.toml, rows.csv"), "{first}");
     for lift in [10.0, 12.0] {

@@ -133,7 +133,7 @@ def main():
             wrong.append(f"the lead-in is {length} mm long")
         if (deep := depth(points, led)) > TOLERANCE + ROUNDING:
             wrong.append(f"the lead-in is {deep} mm deep in the cam")
-        checked = subprocess.run([words.binary, "check", str(words.directory / f"{name}-in.dxf"), "--design", str(machine)], capture_output=True, text=True)
+        checked = subprocess.run([words.binary, "check", str(words.directory / f"{name}-in.dxf"), "--design", str(machine), "-v"], capture_output=True, text=True)
         if "lead_in" not in checked.stdout or re.search(r"FAIL +lead_in|WARN +lead_in", checked.stdout):
             wrong.append(f"check: {checked.stdout[:400]}")
         return f"{kind} {form}", wrong, command

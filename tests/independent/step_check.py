@@ -141,7 +141,7 @@ def bumped(text, choose, through):
 
 
 def judge(binary, path, kind, args, expected):
-    run = subprocess.run([binary, "check", path, *kind, *args], capture_output=True, text=True)
+    run = subprocess.run([binary, "check", path, *kind, *args, "-v"], capture_output=True, text=True)
     assert run.returncode == expected, f"{path}: {run.returncode}\n{run.stdout}{run.stderr}"
     return run.stdout
 

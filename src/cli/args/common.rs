@@ -20,6 +20,10 @@ pub(in crate::cli) struct ReportArgs {
     #[arg(long)]
     pub(in crate::cli) json: bool,
 
+    /// Print the whole report: every check, all digits, what is not modelled
+    #[arg(long, short)]
+    pub(in crate::cli) verbose: bool,
+
     /// Print no report
     #[arg(long, short)]
     pub(in crate::cli) quiet: bool,
@@ -139,11 +143,6 @@ impl CommonArgs {
         self.machine.as_deref().unwrap_or(PRESS)
     }
 
-    /// The machine with its overrides, and the stem of its files.
-    pub(in crate::cli) fn machine(&self) -> Result<(Machine, String), Failure> {
-        self.machine_of(self.machine_name())
-    }
-
     /// The machine of another file, with these overrides.
     pub(in crate::cli) fn machine_of(&self, name: &str) -> Result<(Machine, String), Failure> {
         self.machine_with(name, &self.set)
@@ -202,6 +201,11 @@ impl ReportArgs {
         let colour = terminal && !self.no_color && std::env::var_os("NO_COLOR").is_none();
         let width = terminal.then(terminal_size::terminal_size).flatten().map(|(width, _)| usize::from(width.0));
         Page { colour, width }
+    }
+
+    /// Whether the summary is printed, and not the whole report, JSON or nothing.
+    pub(in crate::cli) fn is_summary(&self) -> bool {
+        !(self.json || self.quiet || self.verbose)
     }
 
     /// Whether progress is shown: a person waits at a terminal.

@@ -1,9 +1,34 @@
 //! The examples in the help of each command. A test runs every line that begins with `camgen`.
 
-pub(super) const CAMGEN: &str = "\
-Start with:
-  camgen rotary --rpm 35                  the cam of the embedded press, four files in output/
-  camgen init press.toml                  a machine file of your own";
+/// The page of camgen itself: examples, the commands by what they are for, what all of them have.
+pub(super) const OVERVIEW: &str = concat!(
+    "camgen ",
+    env!("CARGO_PKG_VERSION"),
+    " · cams a CNC shop can cut, proved on the file that is written
+
+  camgen make lever         try it: an embedded design, four files in output/
+  camgen init mine.toml     a design of your own, with comments
+  camgen serve mine.toml    the same in the browser: drag, see, write
+
+  Design a cam                            Files of a cam
+  make         cam from a motion          check       is this file my cam?
+  size         smallest cam that works    compare     measured cam and exact one
+  laws         laws of motion compared    import      old cam to a design file
+  side-by-side two cams on one page       trade       accuracy against run time
+  study        many designs, best ones    explain     what a check means
+  Press buffers                           Machine elements
+  rotary       disc cam for one speed     shaft       bending, critical speed
+  translating  plate on the bed           linkage     that moves a bed
+  conoid       cam for many speeds        brake       belt brake of a paper roll
+  regimes      one cam at other speeds
+  scatter      machines that differ       Tools
+  spring       bottoms on springs         serve  init  machines  schema
+  drive        bed without a cam          completions  man  help
+
+  every command:  -v all figures   --json all digits   --dry-run no files
+  COMMAND --help  its options, with examples;  --allow-path DIR more tables
+  exit code       0 fine, 1 a check failed (nothing written), 2 bad input"
+);
 
 pub(super) const ROTARY: &str = "\
 Examples:

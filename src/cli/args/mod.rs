@@ -44,7 +44,7 @@ use std::path::PathBuf;
 ///
 /// Exit code: 0 fine; 1 a check failed, and nothing is written without --force; 2 bad input.
 #[derive(Debug, Parser)]
-#[command(name = "camgen", version, max_term_width = 110, after_help = help::CAMGEN)]
+#[command(name = "camgen", version, max_term_width = 110, override_help = help::OVERVIEW)]
 pub(super) struct Cli {
     /// Tables of a machine file may also lie in this folder; repeatable
     #[arg(long, global = true, value_name = "DIR", value_hint = ValueHint::DirPath)]
@@ -259,6 +259,10 @@ pub(super) struct ManArgs {
 pub(super) struct ExplainArgs {
     /// Name of the check, as in reports; lists all checks when omitted
     pub(super) check: Option<String>,
+
+    /// List all checks with their meaning, a line each
+    #[arg(long, short)]
+    pub(super) verbose: bool,
 }
 
 #[derive(Debug, Args)]

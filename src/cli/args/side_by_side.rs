@@ -42,6 +42,10 @@ pub(in crate::cli) struct SideBySideArgs {
     #[arg(long)]
     pub(in crate::cli) json: bool,
 
+    /// Print both whole reports
+    #[arg(long, short)]
+    pub(in crate::cli) verbose: bool,
+
     /// Print nothing
     #[arg(long, short)]
     pub(in crate::cli) quiet: bool,

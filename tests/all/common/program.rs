@@ -23,8 +23,50 @@ pub(crate) fn camgen_in(directory: TempDir, args: &[&str]) -> Run {
     camgen_on(None, directory, args)
 }
 
-/// On a number of threads.
+/// Commands that print a report.
+const REPORTING: [&str; 18] = [
+    "rotary",
+    "translating",
+    "conoid",
+    "make",
+    "regimes",
+    "spring",
+    "scatter",
+    "drive",
+    "linkage",
+    "shaft",
+    "brake",
+    "size",
+    "laws",
+    "import",
+    "compare",
+    "check",
+    "trade",
+    "side-by-side",
+];
+/// Flags with which no report for people is printed, or another text.
+const WITHOUT_REPORT: [&str; 8] = ["--json", "--quiet", "-q", "--help", "-h", "--csv", "--svg", "--verbose"];
+
+/// On a number of threads. A report is printed in full: tests look at all of it.
 pub(crate) fn camgen_on(threads: Option<&str>, directory: TempDir, args: &[&str]) -> Run {
+    let reports = args.first().is_some_and(|command| REPORTING.contains(command));
+    let in_full = reports && !args.iter().any(|arg| WITHOUT_REPORT.contains(arg));
+    run_as_given(threads, directory, &[args, if in_full { &["--verbose"] } else { &[] }].concat())
+}
+
+/// The commands, by the manual page of camgen.
+pub(crate) fn commands() -> Vec<String> {
+    let page = run_as_given(None, tempfile::tempdir().expect("a directory"), &["man"]).out;
+    let named = page.lines().filter_map(|line| line.strip_prefix("camgen\\-")?.strip_suffix("(1)"));
+    named.map(|name| name.replace('\\', "")).filter(|name| name != "help").collect()
+}
+
+/// Runs camgen in an empty directory and nothing added: reports are summaries.
+pub(crate) fn summary_of(args: &[&str]) -> Run {
+    run_as_given(None, tempfile::tempdir().expect("a directory"), args)
+}
+
+fn run_as_given(threads: Option<&str>, directory: TempDir, args: &[&str]) -> Run {
     let output = Command::cargo_bin("camgen")
         .expect("the program")
         .envs(threads.map(|threads| ("RAYON_NUM_THREADS", threads)))

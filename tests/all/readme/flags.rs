@@ -2,6 +2,7 @@
 
 use super::lists::cell;
 use super::runs::start;
+use crate::common::program::commands;
 
 /// A flag as the help of a command gives it.
 struct Flag {
@@ -31,14 +32,6 @@ pub(super) fn flags() -> String {
 fn help(words: &[&str]) -> String {
     let words = words.iter().copied().chain(["--help"]).map(str::to_owned).collect();
     String::from_utf8(start(words, std::path::Path::new(".")).stdout).expect("UTF-8")
-}
-
-/// The names of the commands.
-fn commands() -> Vec<String> {
-    let text = help(&[]);
-    let listed = text.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
-    let names = listed.filter_map(|line| line.split_whitespace().next()).filter(|name| *name != "help");
-    names.map(str::to_owned).collect()
 }
 
 /// The flags of a help, with what they mean; its own flag is left out.
