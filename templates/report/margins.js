@@ -12,20 +12,13 @@ let phrase = (name, values = {}) => PHRASES[name].replace(/\{(\w+)\}/g, (_, key)
 /** The name of a check in the language of the page. */
 let checkName = (check) => words(check.check);
 
-/** Checks of tolerances that camgen fills on purpose: one is nearly always close to its limit, and would hide what a designer can change. */
-const FILLED_ON_PURPOSE = new Set(["outline", "rolling", "velocity", "acceleration", "unrolled", "flank_surface", "groove_width", "tangency"]);
-
-/** Checks of counts, whose share of a limit means nothing. */
-const COUNTS = new Set(["continuity", "meshing"]);
-
 /** The share of a limit that a value uses, 1 at the limit; null where a ratio means nothing. */
-function usedOf({ check, value, limit, side }) {
-  if (COUNTS.has(check) || value === null || limit === null || !(limit > 0) || !(value >= 0)) return null;
-  if (side === "at most") return value / limit;
-  return side === "at least" && value > 0 ? limit / value : null;
-}
+const usedOf = ({ margin }) => margin ?? null;
 
-/** The checks of a cam: those that fail, the margins from the tightest, and those that are filled on purpose. */
+/**
+ * The checks of a cam: those that fail, the margins from the tightest, and those of what was written, whose tolerances camgen fills on purpose: one
+ * is nearly always close to its limit, and would hide what a designer can change.
+ */
 function marginsOf(checks) {
   const judged = checks.filter(({ verdict }) => verdict !== "info");
   const failed = judged.filter(({ verdict }) => verdict === "fail");
@@ -33,8 +26,8 @@ function marginsOf(checks) {
   const tightest = (list) => list.sort((a, b) => usedOf(b) - usedOf(a));
   return {
     judged, failed,
-    margins: tightest(rest.filter(({ check }) => !FILLED_ON_PURPOSE.has(check))),
-    filled: tightest(rest.filter(({ check }) => FILLED_ON_PURPOSE.has(check))),
+    margins: tightest(rest.filter(({ asCut }) => !asCut)),
+    filled: tightest(rest.filter(({ asCut }) => asCut)),
   };
 }
 
