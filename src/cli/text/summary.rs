@@ -341,10 +341,11 @@ fn files(report: &Report, page: Page) -> Vec<Block> {
     } else {
         format!("{stem} {}", endings.join(" "))
     };
-    vec![Block {
-        keep: 9,
-        lines: std::iter::once(String::new()).chain(labelled("files", &plain(&words), page)).collect(),
-    }]
+    vec![
+        // Goes before a fact does.
+        Block { keep: 4, lines: vec![String::new()] },
+        Block { keep: 9, lines: labelled("files", &plain(&words), page) },
+    ]
 }
 
 /// What the names of all files begin with, up to a mark behind which an ending begins.
@@ -415,7 +416,7 @@ pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> 
     let passed: Vec<String> =
         report.checks.iter().filter(|finding| finding.verdict == Verdict::Pass).map(Finding::title).collect();
     if !passed.is_empty() {
-        blocks.push(Block { keep: 7, lines: labelled("as it should", &passed.join(", "), page) });
+        blocks.push(Block { keep: 7, lines: labelled("passed", &passed.join(", "), page) });
     }
     blocks.extend(notes(report, page));
     blocks.push(blank());

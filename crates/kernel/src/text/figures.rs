@@ -50,7 +50,7 @@ fn raised(power: &str) -> String {
 
 /// Values from here on are written with a power of ten, those below the other one as well.
 const LARGEST_PLAIN: f64 = 1e4;
-const SMALLEST_PLAIN: f64 = 1e-3;
+const SMALLEST_PLAIN: f64 = 1e-4;
 
 /// A figure of a summary: so many significant digits, trailing zeros among them, "82.42", "1186", "194.0·10³", and a true minus. What is only
 /// rounding is 0.
@@ -127,6 +127,7 @@ mod tests {
             (-7.842_6, "−7.843"),
             (193_986.66, "194.0·10³"),
             (0.001_773_4, "0.001773"),
+            (0.000_196_85, "0.0001969"),
             (4.2e-5, "42.00·10⁻⁶"),
             (f64::INFINITY, "∞"),
         ] {
