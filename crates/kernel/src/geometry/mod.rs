@@ -28,6 +28,7 @@ pub mod patch_fit;
 pub mod points;
 pub mod polar;
 pub mod registration;
+pub mod section;
 mod segment;
 pub mod solid;
 pub mod two_sided_distance;
