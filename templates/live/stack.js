@@ -75,7 +75,8 @@ const stack = (() => {
   }
 
   /** The extremes of a curve that are worth a label: the largest and the smallest value, at the middle of the places that have it. */
-  function extremesOf({ places, values }, [low, high]) {
+  function extremesOf(curve, [low, high]) {
+    const { places, values } = curve;
     const found = [];
     for (const sign of [1, -1]) {
       let best = -1;
@@ -83,7 +84,9 @@ const stack = (() => {
       if (best < 0 || sign * values[best] <= 0.02 * (high - low)) continue;
       let last = best;
       while (last + 1 < values.length && Math.abs(values[last + 1] - values[best]) < 1e-6 * (high - low)) last += 1;
-      found.push({ sign, place: (places[best] + places[last]) / 2, value: values[best] });
+      const middle = { place: (places[best] + places[last]) / 2, value: values[best] };
+      const { place, value } = last - best > 1 ? middle : peakNear(curve, best, sign) ?? middle;
+      found.push({ sign, place, value: asReported(value, curve) });
     }
     return found;
   }

@@ -17,7 +17,7 @@ function curvesOf(panel) {
     const places = view.columns[view.place];
     own.series.forEach(({ column, label }, at) => {
       const seen = (value) => (value === null ? (own.curvature ? 0 : null) : own.curvature ? 1 / value : value * factor);
-      curves.push({ label: `${name}${label}`, unit, view, places, values: view.columns[column].map(seen), colour: PALETTE[several ? index : at % 4], dash: DASHES[several ? at % 4 : at ? 1 : 0], width: 1.6 });
+      curves.push({ label: `${name}${label}`, unit, order: own.order, factor, view, places, values: view.columns[column].map(seen), colour: PALETTE[several ? index : at % 4], dash: DASHES[several ? at % 4 : at ? 1 : 0], width: 1.6 });
     });
     if (index > 0 && JSON.stringify(own.limits) === JSON.stringify(views[0].panels.find((other) => isSame(other, panel))?.limits)) return;
     for (const { label, value } of own.limits) {

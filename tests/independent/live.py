@@ -413,6 +413,18 @@ def measured(live, binary, directory):
     assert live.page.inner_text("#measured-said") == "" and lift > 0
 
 
+def extremes(live, report):
+    """The extremes beside the cam are those of the report, to four digits: rates between rows of the page, at changes of a law, and torques."""
+    labels = live.page.evaluate("Object.fromEntries([...document.querySelectorAll('.stack .lane')].map((e) => [e.querySelector('.lane-name').textContent, [...e.querySelectorAll('.extreme-label')].map((f) => f.textContent)]))")
+    peaks = [segment["peaks"] for segment in report["motion"]["segments"]]
+    rate = lambda name: max(peak[name] for peak in peaks)
+    dynamics = report["dynamics"]
+    expected = {"velocity": rate("velocity_per_s"), "acceleration": rate("acceleration_per_s2"), "jerk": rate("jerk_per_s3") / 1e3, "shaft torque": dynamics["torque_max_nm"]}
+    for lane, value in expected.items():
+        assert labels[lane][0].lstrip("−") == f"{value:.4g}", (lane, labels[lane], value)
+    assert labels["acceleration"][1] == f"−{expected['acceleration']:.4g}" and labels["shaft torque"][1] == f"−{-dynamics['torque_min_nm']:.4g}", labels
+
+
 def ghosts(live):
     """Behind changed curves and outline those of the design as sent, and every figure that differs."""
     curve, outline = "#motion-diagram .curve", "#mechanisms .part.{} path"
@@ -744,6 +756,8 @@ def judge(browser, options, directory, name, command, generator):
     assert sent == text, f"{name}: another text than the file"
     first = same_files(live, binary, directory, command, name)
     assert first == ("failed" if (name, command) == FAILING else "passed"), first
+    if name == "lever":
+        extremes(live, json.loads((directory / f"{name}-{command}-files" / f"{name}.json").read_text()))
     values_shown(live, 4, generator)
     begin = memory(live)
     # What the page keeps of the last cam is there after the first change.

@@ -23,7 +23,7 @@ pub(super) const FIRST_STEPS: u32 = 180;
 const PAGE: &str = include_str!("../../../templates/live/page.html");
 const OWN_STYLE: &str = include_str!("../../../templates/live/style.css");
 /// The scripts: those of the report, with a mechanism and plots that change while a slider moves.
-const SCRIPTS: [&str; 26] = [
+const SCRIPTS: [&str; 27] = [
     COMMON,
     MARGINS,
     MOVING_PARTS,
@@ -43,6 +43,7 @@ const SCRIPTS: [&str; 26] = [
     include_str!("../../../templates/live/zones.js"),
     include_str!("../../../templates/live/compare.js"),
     include_str!("../../../templates/live/motion.js"),
+    include_str!("../../../templates/live/extremes.js"),
     include_str!("../../../templates/live/stack.js"),
     include_str!("../../../templates/live/laws.js"),
     include_str!("../../../templates/live/measured.js"),
