@@ -137,7 +137,7 @@ function fieldOf(path, key, answer, isOften = false) {
       box.append(list);
     }
     one.input.addEventListener("change", () => {
-      const value = one.input.value.trim();
+      const value = withFormerUnit(one.input.value.trim(), one.seen, key);
       commit([value === "" ? { remove: path } : { set: { key: path, to: value } }]);
     });
   }
@@ -202,19 +202,21 @@ function select(list, typed) {
 function fillField(one, answer) {
   const typed = (answer.values ?? {})[one.path] ?? "";
   one.typed = typed;
+  one.seen = typedInUnits(typed, one.key, answer);
   if (one.input.tagName === "SELECT") select(one.input, typed);
-  else if (one.input.value !== typed && document.activeElement !== one.input) one.input.value = typed;
-  one.input.placeholder = typed ? "" : (answer.usual ?? {})[one.path] ?? text("example", { value: one.key.example });
+  else if (one.input.value !== one.seen && document.activeElement !== one.input) one.input.value = one.seen;
+  const usual = (answer.usual ?? {})[one.path];
+  one.input.placeholder = typed ? "" : usual ? typedInUnits(usual, one.key, answer) : text("example", { value: one.key.example });
   one.box.classList.toggle("changed", typed !== (doc.sent.values?.[one.path] ?? ""));
   if (!one.range) return;
-  if (one.filled === typed && typed !== "auto") return;
-  one.filled = typed;
-  const found = typed === "auto" ? chosenValue(one.path) : typed;
+  if (one.filled === one.seen && typed !== "auto") return;
+  one.filled = one.seen;
+  const found = typed === "auto" ? chosenValue(one.path) : one.seen;
   if (!one.slider || !isOn(one.slider, quantityOf(found))) one.slider = sliderOf(one.key, found, one.path);
   one.range.hidden = one.ends.hidden = one.zones.hidden = !one.slider;
   one.auto?.setAttribute("aria-pressed", String(typed === "auto"));
   if (!one.slider) return;
-  const notes = [shown(one.slider.ends.low), typed === "auto" ? `auto: ${found}` : "", shown(one.slider.ends.high)];
+  const notes = [shown(one.slider.ends.low), typed === "auto" ? `auto: ${shown(quantityOf(found).number)} ${quantityOf(found).unit}` : "", shown(one.slider.ends.high)];
   [...one.ends.children].forEach((end, at) => end.textContent !== notes[at] && (end.textContent = notes[at]));
   Object.assign(one.range, { min: one.slider.low, max: one.slider.high, step: one.slider.step });
   one.range.value = quantityOf(found).number;
@@ -227,7 +229,7 @@ function chosenValue(path) {
   if (!name) return "";
   const values = cams[0].sections?.find((section) => section.key === "cam")?.values ?? [];
   const found = values.find(([label]) => label === name);
-  return found ? `${found[1]} mm` : "";
+  return found ? `${found[1]} ${found[2]}` : "";
 }
 
 /** The form of a design: its tables, the keys that are given first, the others behind a line. */

@@ -25,8 +25,9 @@ function lawPeaks({ peaks }, segment, units, rpm) {
     if (peak === null) return "∞";
     const value = peak * travel * rate ** (order + 1);
     const power = ["", "²", "³"][order];
-    if (!inTime) return `${shown(value, 3)} ${units[1]}/${units[0]}${power}`;
-    return isLength && order > 0 ? `${shown(value / 1000, 3)} m/s${power}` : `${shown(value, 3)} ${isLength ? "mm" : "°"}/s${power}`;
+    const [size, unit] = !inTime ? [value, `${units[1]}/${units[0]}${power}`] : isLength && order > 0 ? [value / 1000, `m/s${power}`] : [value, `${isLength ? "mm" : "°"}/s${power}`];
+    const [factor, name] = inLengths(unit);
+    return `${shown(size * factor, 3)} ${name}`;
   });
 }
 

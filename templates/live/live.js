@@ -199,7 +199,7 @@ let stripSaid = "";
 /** The verdict and the tightest margins of the cam that is shown; of two discs also of the other one. */
 function stripAnew(answer) {
   if (!answer) return;
-  const others = (answer.others ?? []).filter(({ passed }) => !passed);
+  const others = (answer.others ?? []).filter(({ passed }) => !passed).map((one) => ({ ...one, checks: checksInUnits(one.checks) }));
   const checks = [...cams[0].checks, ...others.flatMap(({ name, checks: all }) => all.map((check) => ({ ...check, disc: name })))];
   const said = JSON.stringify([checks.map(({ check, value, limit, verdict: of, place }) => [check, value, limit, of, place]), answer.passed, answer.remedies, language, chosenMargin]);
   if (said === stripSaid) return;
@@ -252,6 +252,7 @@ function inFrame(answer) {
 let read = 0;
 function drafted(answer) {
   if (answer.faults?.length) return refused(answer.faults);
+  takeUnits(answer);
   complain(answer.noOutline ? [{ message: answer.noOutline, remedies: Object.values(answer.remedies).flat() }] : []);
   if (!answer.cam.views) return;
   takeCam(answer.cam);
@@ -291,8 +292,10 @@ function proved(answer, since, why = null) {
   const without = answer.noOutline ? [{ message: answer.noOutline, remedies: Object.values(answer.remedies).flat() }] : [];
   complain(without);
   doc.last = answer;
+  takeUnits(answer);
   if (answer.cam.views) takeCam(answer.cam);
-  else Object.assign(cams[0], { checks: answer.cam.checks, passed: false });
+  else Object.assign(cams[0], { checks: answer.cam.checks, metric: { checks: answer.cam.checks, sections: (cams[0].metric ?? cams[0]).sections }, passed: false });
+  for (const cam of new Set([...cams, doc.sentCam].filter(Boolean))) figuresInUnits(cam);
   chosenMargin = null;
   stripAnew(answer);
   verdict(answer);
@@ -363,6 +366,7 @@ function settle() {
 function takeCam(cam) {
   const shownCam = cams[0];
   for (const view of cam.views) view.columns = closed(view);
+  figuresInUnits(cam);
   for (const name of Object.keys(shownCam)) delete shownCam[name];
   Object.assign(shownCam, cam);
   state.section = Math.min(state.section, cam.views.length - 1);
@@ -425,8 +429,9 @@ function withRemedies(area, remedies = {}) {
 
 /** The checks that are shown are those of the first of two discs on one shaft; below them those that the other one fails, with its name. */
 function otherVerdicts(others) {
-  for (const { name, passed, checks, remedies } of others) {
+  for (const { name, passed, checks: metric, remedies } of others) {
     if (passed) continue;
+    const checks = checksInUnits(metric);
     const broken = text("otherFails", { name, checks: checks.map(({ check }) => words(check)).join(", ") });
     const banner = byId("verdict").querySelector(".banner");
     banner.firstElementChild.replaceWith(badge("fail"));
@@ -554,6 +559,7 @@ function listen() {
   on("undo", "click", () => travel("past", "future"));
   on("redo", "click", () => travel("future", "past"));
   on("find", "input", search);
+  on("lengths", "click", ({ target }) => target.dataset.lengths && chooseUnits(target.dataset.lengths));
   // What is typed into a field is not a key for the animation.
   on("main", "keydown", (event) => {
     if (event.target.matches("input[type=text], input[type=search], textarea, select")) event.stopPropagation();

@@ -10,7 +10,7 @@ function nodeMoved(answer, index, at, position) {
   const { segments, units } = answer.motion;
   const of = (segment, name) => `motion.segment[${segment}].${name}`;
   const given = (segment, name) => answer.given.includes(of(segment, name));
-  const set = (key, value, unit) => ({ set: { key, to: `${cleaned(value)} ${unit}` } });
+  const set = (key, value, unit) => ({ set: { key, to: typedLength(value, unit) } });
   const changes = [];
   if (at !== null) {
     if (given(index, "until")) changes.push(set(of(index, "until"), at, units[0]));
@@ -131,8 +131,9 @@ function motionCurves(answer) {
     write("ghost", before ? pathOf(before.columns[before.place], old, place(before), yOf) : "");
     write("measured", points.map(([at, lift]) => `M${place(view)(at).toFixed(1)} ${yOf(lift).toFixed(1)}h0`).join(""));
     write("curve", pathOf(view.columns[view.place], values, place(view), yOf));
-    const [own, largest] = ends(values);
-    const words = `${text(lane.name)}, ${view.kinds[lane.column][1]}: ${shown(own, 4)} … ${shown(largest, 4)}`;
+    const [factor, unit] = inLengths(view.kinds[lane.column][1]);
+    const [own, largest] = ends(values).map((value) => value * factor);
+    const words = `${text(lane.name)}, ${unit}: ${shown(own, 4)} … ${shown(largest, 4)}`;
     if (lane.label.textContent !== words) lane.label.textContent = words;
   });
   answer.motion.segments.forEach((segment, index) => {
@@ -149,7 +150,7 @@ function nodeOf(segment, index, segments, units) {
   const isLast = index === segments.length - 1;
   const rests = segment.position[0] === segment.position[1];
   const node = makeSvg("circle", { class: "node", r: 7, tabindex: 0, role: "slider", "data-node": index, "aria-orientation": "horizontal",
-    "aria-label": `${text("segment")} ${index + 1}, ${segment.law}: ${text("until")}, ${text("position")}`, "aria-valuenow": cleaned(segment.at[1]), "aria-valuemin": segments[0].at[0], "aria-valuemax": segments.at(-1).at[1], "aria-valuetext": `${shown(segment.at[1])} ${units[0]}, ${shown(segment.position[1])} ${units[1]}` });
+    "aria-label": `${text("segment")} ${index + 1}, ${segment.law}: ${text("until")}, ${text("position")}`, "aria-valuenow": cleaned(segment.at[1]), "aria-valuemin": segments[0].at[0], "aria-valuemax": segments.at(-1).at[1], "aria-valuetext": [0, 1].map((which) => withUnit(inNumber((which ? segment.position : segment.at)[1], units[which]), unitName(units[which]))).join(", ") });
   const one = { element: node, held: null };
   diagram.nodes.push(one);
   const placeOfPointer = (event) => {
@@ -240,15 +241,16 @@ function motionRows(answer) {
   const field = (index, which) => {
     const segment = segments[index];
     const value = which === 0 ? segment.at[1] : segment.position[1];
-    const input = make("input", { type: "text", inputMode: "decimal", value: String(cleaned(value)), "data-row": `${index}-${which}`, "aria-label": `${text("segment")} ${index + 1}: ${text(which === 0 ? "until" : "position")}, ${units[which]}`, disabled: which === 0 ? index === segments.length - 1 : segment.position[0] === segment.position[1] });
+    const input = make("input", { type: "text", inputMode: "decimal", value: String(cleaned(inNumber(value, units[which]))), "data-row": `${index}-${which}`, "aria-label": `${text("segment")} ${index + 1}: ${text(which === 0 ? "until" : "position")}, ${unitName(units[which])}`, disabled: which === 0 ? index === segments.length - 1 : segment.position[0] === segment.position[1] });
     input.addEventListener("change", () => {
       const typed = Number(input.value.replace(",", "."));
-      const changes = Number.isFinite(typed) ? nodeMoved(doc.last, index, which === 0 ? typed : null, which === 1 ? typed : null) : [];
+      const value = typed / inNumber(1, units[which]);
+      const changes = Number.isFinite(value) ? nodeMoved(doc.last, index, which === 0 ? value : null, which === 1 ? value : null) : [];
       if (changes.length) commit(changes);
     });
     return input;
   };
-  const rows = segments.map((segment, index) => make("tr", {}, make("th", { scope: "row" }, `${index + 1}`), make("td", {}, segment.law), make("td", { className: "number" }, shown(segment.at[0])), make("td", {}, field(index, 0)), make("td", {}, field(index, 1))));
-  const heads = [text("segment"), text("law"), `${text("from")}, ${units[0]}`, `${text("until")}, ${units[0]}`, `${text("position")}, ${units[1]}`];
+  const rows = segments.map((segment, index) => make("tr", {}, make("th", { scope: "row" }, `${index + 1}`), make("td", {}, segment.law), make("td", { className: "number" }, shown(inNumber(segment.at[0], units[0]))), make("td", {}, field(index, 0)), make("td", {}, field(index, 1))));
+  const heads = [text("segment"), text("law"), `${text("from")}, ${unitName(units[0])}`, `${text("until")}, ${unitName(units[0])}`, `${text("position")}, ${unitName(units[1])}`];
   byId("motion-rows").replaceChildren(make("div", { className: "wide" }, make("table", {}, make("thead", {}, make("tr", {}, ...heads.map((head) => make("th", { scope: "col" }, head)))), make("tbody", {}, ...rows))));
 }

@@ -25,14 +25,15 @@ function paintOf(view) {
   const all = paintsOf(view);
   const paint = all.find(({ id }) => id === paintChoice) ?? all[0];
   if (!paint) return null;
-  const values = view.columns[paint.name].map((value) => (value === null ? (paint.isRadius ? 0 : null) : paint.isRadius ? 1 / value : value));
+  const [factor, unit] = inLengths(paint.isRadius ? "1/mm" : view.kinds[paint.name][1]);
+  const values = view.columns[paint.name].map((value) => (value === null ? (paint.isRadius ? 0 : null) : paint.isRadius ? factor / value : value * factor));
   const sizes = values.map((value) => (value === null ? null : Math.abs(value)));
   const largest = Math.max(1e-12, ...sizes.filter((size) => size !== null));
   const check = cams[0].checks.find(({ check: name }) => name === paint.check);
   const limit = check?.limit ?? null;
   // A limit far above what is reached would leave the outline in one colour.
   const top = limit !== null && limit < 4 * largest ? limit : largest;
-  return { ...paint, sizes, largest, limit: top === limit ? limit : null, top, unit: paint.isRadius ? "1/mm" : view.kinds[paint.name][1] };
+  return { ...paint, sizes, largest, limit: top === limit ? limit : null, top, unit };
 }
 
 /** The step of the colours that a size has; one more beyond the limit. */

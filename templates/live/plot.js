@@ -13,7 +13,7 @@ function ghostsOf(panel, curves) {
     const all = before.columns[column];
     const values = at.map((place) => {
       const value = place === null ? null : between(all, place);
-      return value === null || value === undefined ? (own.curvature && place ? 0 : null) : own.curvature ? 1 / value : value * factor;
+      return value === null || value === undefined ? (own.curvature && place ? 0 : null) : own.curvature ? factor / value : value * factor;
     });
     return { label: `${text("sent")}: ${label}`, unit, view, places, values, colour: "ghost", dash: [], width: 2.6, ghost: text("sent") };
   });

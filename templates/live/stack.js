@@ -104,13 +104,13 @@ const stack = (() => {
     const each = (height - top - STACK.foot - STACK.gap * (shownPanels.length - 1)) / shownPanels.length;
     const axis = makeSvg("g", { class: "axis" });
     svg.append(axis);
-    const tick = tickOf(begin, end, isNarrow() ? 4 : 6);
+    const [scaled, unit] = inLengths(view.kinds[view.place][1]);
+    const tick = tickOf(begin * scaled, end * scaled, isNarrow() ? 4 : 6) / scaled;
     const ticks = [];
     for (let at = Math.ceil(begin / tick - 1e-9) * tick; at <= end + 1e-9; at += tick) ticks.push(at);
-    const unit = view.kinds[view.place][1];
     for (const at of ticks) {
       const label = makeSvg("text", { class: "tick", x: scale.xOf(at), y: height - STACK.foot + 18 });
-      label.textContent = `${shown(at)}${unit === "°" ? "°" : ""}`;
+      label.textContent = `${shown(at * scaled)}${unit === "°" ? "°" : ""}`;
       axis.append(label);
     }
     if (!isNarrow()) axis.append(written("axis-name", 2, height - STACK.foot + 18, `${spoken(view.kinds[view.place][0])}${unit === "°" ? "" : `, ${unit}`}`));
@@ -272,8 +272,8 @@ const stack = (() => {
       area.append(makeSvg("title"));
       area.lastChild.textContent = `${text("segment")} ${index + 1}: ${segment.law}`;
       area.addEventListener("click", () => chooseSegment(index));
-      const travel = from === to ? "" : ` ${withUnit(Math.abs(to - from), units[1] === "deg" ? "°" : "")}`;
-      const width_ = `${shown(segment.at[1] - segment.at[0])}${units[0] === "deg" ? "°" : ""}`;
+      const travel = from === to ? "" : ` ${inPage(Math.abs(to - from), units[1])}`;
+      const width_ = inPage(segment.at[1] - segment.at[0], units[0]);
       const names = [`${width_} ${segment.law.replace(/-/g, " ")}`, `${width_} ${segment.law.replace(/-/g, " ").replace("modified", "mod.").replace("trapezoid", "trap.")}`, width_];
       const fitting = (list, size) => list.find((name) => name.length * size + 18 < wide) ?? "";
       const [upper, lower] = [written("piece-name", x + wide / 2, 13, fitting([`${text(`piece_${kind}`)}${travel}`, text(`piece_${kind}`)], 7)), written("piece-note", x + wide / 2, 25, fitting(from === to ? [width_] : names, 6.2))];
@@ -285,7 +285,7 @@ const stack = (() => {
 
   /** The border behind a segment: dragged, or moved by the arrow keys. */
   function handleOf(segment, index, segments, units, xOf) {
-    const handle = makeSvg("g", { class: "handle", tabindex: index ? -1 : 0, role: "slider", "data-handle": index, "aria-label": `${text("segment")} ${index + 1}, ${text("until")}`, "aria-valuenow": cleaned(segment.at[1]), "aria-valuemin": segment.at[0], "aria-valuemax": segments[index + 1].at[1], "aria-valuetext": `${shown(segment.at[1])} ${units[0]}` });
+    const handle = makeSvg("g", { class: "handle", tabindex: index ? -1 : 0, role: "slider", "data-handle": index, "aria-label": `${text("segment")} ${index + 1}, ${text("until")}`, "aria-valuenow": cleaned(segment.at[1]), "aria-valuemin": segment.at[0], "aria-valuemax": segments[index + 1].at[1], "aria-valuetext": withUnit(inNumber(segment.at[1], units[0]), unitName(units[0])) });
     const guide = makeSvg("path", { class: "guide", d: `M0 ${STACK.head - 6}V${height - STACK.foot}` });
     handle.append(guide, makeSvg("rect", { x: -5, y: 2, width: 10, height: STACK.head - 8, rx: 4 }), makeSvg("path", { class: "grip", d: `M-1.5 10v${STACK.head - 24}M1.5 10v${STACK.head - 24}` }));
     const moveTo = (at) => handle.setAttribute("transform", `translate(${xOf(at)} 0)`);
@@ -358,7 +358,7 @@ const stack = (() => {
     const view = first();
     const { all, shownPanels } = panelsShown(view);
     const curves = shownPanels.map((panel) => [...(cams.length === 1 && (doc.past.length || isDragging) ? ghostsOf(panel, curvesOf(panel)) : []), ...curvesOf(panel)]);
-    const now = JSON.stringify([width, height, language, view.place, view.columns[view.place][0], view.columns[view.place].at(-1), state.rate, shownPanels.map(({ id, unit }) => [id, unit])]);
+    const now = JSON.stringify([width, height, language, view.place, view.columns[view.place][0], view.columns[view.place].at(-1), state.rate, lengthUnit, shownPanels.map(({ id, unit }) => [id, unit])]);
     if (now !== shape) {
       shape = now;
       build(view, shownPanels, curves);
@@ -386,8 +386,8 @@ const stack = (() => {
     const x = scale.xOf(at);
     put(cursor, "x1", x.toFixed(2));
     put(cursor, "x2", x.toFixed(2));
-    const [, unit] = view.kinds[view.place];
-    const words_ = `${steady1(at)}${unit === "°" ? "°" : ` ${unit}`}`;
+    const [scaled, unit] = inLengths(view.kinds[view.place][1]);
+    const words_ = `${scaled === 1 ? steady1(at) : steady(at * scaled)}${unit === "°" ? "°" : ` ${unit}`}`;
     if (flag.textContent !== words_) flag.textContent = words_;
     flag.style.left = `${Math.min(width - 30, Math.max(30, x))}px`;
     flag.style.top = `${(lettersBox.hidden ? 0 : lettersBox.offsetHeight + 4) + height - STACK.foot + 3}px`;

@@ -81,7 +81,7 @@ function zonesShown(one, zones) {
   one.note = words_;
   const note = one.ends.children[1];
   if (words_) note.textContent = words_;
-  else if (one.slider) note.textContent = one.typed === "auto" ? `auto: ${chosenValue(one.path)}` : "";
+  else if (one.slider) note.textContent = one.typed === "auto" ? `auto: ${shown(one.slider.value)} ${one.slider.unit}` : "";
   note.className = words_ ? "zone" : "";
   note.title = words_;
 }

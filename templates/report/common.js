@@ -129,8 +129,29 @@ const placeOf = (view) => between(view.at, locate(view.turn, turnOf(view)));
 /** A colour of the current style. */
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
+/** The unit of lengths on the page; what comes from the program has millimetres, and its sentences name the units that they have. */
+let lengthUnit = "mm";
+const INCHES = { µm: 1 / 25400, mm: 1 / 25.4, m: 1000 / 25.4 };
+
+/** Factor and name of a unit in the lengths of the page; units with forces and masses stay, as in the files. */
+function inLengths(unit) {
+  if (lengthUnit === "mm" || !unit || /\bk?N|\bk?g\b|J|W|Pa/.test(unit)) return [1, unit];
+  let factor = 1;
+  const parts = unit.split("/").map((part, index) => part.replace(/^(µm|mm|m)([²³]?)$/, (_, length, power) => {
+    factor *= INCHES[length] ** ((index ? -1 : 1) * (power === "²" ? 2 : power === "³" ? 3 : 1));
+    return `in${power}`;
+  }));
+  return [factor, parts.join("/")];
+}
+
 /** Factor and unit in which a column of an order of derivation is shown. */
 function inRates(view, unit, order) {
+  const [rate, name] = inMetricRates(view, unit, order);
+  const [factor, shownUnit] = inLengths(name);
+  return [rate * factor, shownUnit];
+}
+
+function inMetricRates(view, unit, order) {
   if (order === 0 || state.rate === "angle" || !view.shaftSpeed) return [1, unit];
   const [above] = unit.split("/");
   // Millimetres to metres where the numbers would be long.

@@ -16,11 +16,13 @@ function curvesOf(panel) {
     const name = several ? `${letter(index)} ` : "";
     const places = view.columns[view.place];
     own.series.forEach(({ column, label }, at) => {
-      const seen = (value) => (value === null ? (own.curvature ? 0 : null) : own.curvature ? 1 / value : value * factor);
+      const seen = (value) => (value === null ? (own.curvature ? 0 : null) : own.curvature ? factor / value : value * factor);
       curves.push({ label: `${name}${label}`, unit, order: own.order, factor, view, places, values: view.columns[column].map(seen), colour: PALETTE[several ? index : at % 4], dash: DASHES[several ? at % 4 : at ? 1 : 0], width: 1.6 });
     });
     if (index > 0 && JSON.stringify(own.limits) === JSON.stringify(views[0].panels.find((other) => isSame(other, panel))?.limits)) return;
-    for (const { label, value } of own.limits) {
+    const [scaled] = inLengths(own.unit);
+    for (const { label, value: limit } of own.limits) {
+      const value = limit * scaled;
       curves.push({ label: `${several && index ? name : ""}${label}`, unit, view, places, values: places.map(() => value), colour: "limit", dash: [3, 4], width: 1.2, limit: value });
     }
   });

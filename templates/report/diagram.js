@@ -23,14 +23,17 @@ function axesOf(panel, view, spoken) {
   const named = withUnits(spoken(panel.title.split(/ of |,/)[0]), unit);
   // On paper an axis is short.
   const what = isPrinting() && named.length > LONGEST_ON_PAPER ? unit : named;
-  return [{ ...axis, ...turning, size: 30, label: withUnits(spoken(placeName), placeUnit) },
+  const [scaled, along] = inLengths(placeUnit);
+  const inShown = scaled === 1 ? {} : { values: (_, splits) => splits.map((value) => shown(value * scaled)) };
+  return [{ ...axis, ...turning, ...inShown, size: 30, label: withUnits(spoken(placeName), along) },
     { ...axis, size: 58, label: what, values: (_, splits) => splits.map((value) => (value === null ? "" : shown(value))) }];
 }
 
 /** One diagram of the same panel of all cams. Grey curves have no dot, and one line of the legend together. */
 function diagramOf(panel, { curves, data, same }, [width, height], spoken = (words) => words) {
   const view = cams.map(viewOf)[0];
-  const [placeName, placeUnit] = view.kinds[view.place];
+  const [placeName, placeIn] = view.kinds[view.place];
+  const [placeScale, placeUnit] = inLengths(placeIn);
   const [, unit] = inRates(view, panel.unit, panel.order);
   const series = curves.map((one) => ({ label: one.label, stroke: colour(one.colour), dash: one.dash, width: one.width, pxAlign: 0, points: { show: false }, spanGaps: !same }));
   const options = {
@@ -74,7 +77,7 @@ function diagramOf(panel, { curves, data, same }, [width, height], spoken = (wor
     const left = plot.valToPos(at, "x");
     line.style.transform = `translateX(${left}px)`;
     line.hidden = !(left >= 0 && left <= wide);
-    write(place, `${steady(at)} ${placeUnit}`);
+    write(place, `${steady(at * placeScale)} ${placeUnit}`);
     marks.forEach(({ dot, value }, index) => {
       const curve = curves[index];
       if (curve.ghost) return;

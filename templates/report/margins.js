@@ -66,11 +66,18 @@ function barOf(check) {
 /** Where the worst value of a check is: in the coordinate of the view. */
 const placeOfCheck = (check, view) => (view.place === "cam_deg" ? check.camDeg : view.place === "x_mm" ? check.xMm : null) ?? null;
 
+/** Whether the place of a check is one along a plate, and a length in mm with the unit of the page. */
+const isAlongPlate = ({ xMm }) => xMm !== null && xMm !== undefined;
+function inLength(millimetres) {
+  const [factor, unit] = inLengths("mm");
+  return withUnit(millimetres * factor, unit);
+}
+
 /** One margin; a click goes to its place. */
 function marginCell(check, go) {
   const fails = check.verdict === "fail";
   const used = usedOf(check);
-  const place = check.place ? phrase("atPlace", { place: check.camDeg !== null ? `${check.camDeg.toFixed(1)}°` : check.place }) : "";
+  const place = check.place ? phrase("atPlace", { place: check.camDeg !== null ? `${check.camDeg.toFixed(1)}°` : isAlongPlate(check) ? `x = ${inLength(check.xMm)}` : check.place }) : "";
   const head = make("span", { className: "first" }, make("strong", {}, checkName(check)), make("span", {}, fails ? phrase("verdictFail") : percent(check)));
   const foot = make("span", { className: "second" }, make("span", {}, againstLimit(check)), make("span", {}, place));
   const cell = make("button", { type: "button", className: fails ? "margin fails" : "margin", "data-check": check.check, title: check.about ?? "" }, head, used === null ? null : barOf(check), foot);

@@ -156,11 +156,12 @@ function profileOf(cam) {
   const last = xs.length - 1;
   const step = Math.max(1, Math.round(last / PROFILE_ROWS));
   const [name, unit] = view.kinds[view.place];
-  const decimals = (value) => (value === null ? "–" : value.toFixed(4).replace("-", "−"));
+  const [scaled, along] = inLengths("mm");
+  const decimals = (value) => (value === null ? "–" : (value * scaled).toFixed(scaled === 1 ? 4 : 5).replace("-", "−"));
   const rows = [];
   for (let at = 0; at <= last; at += step) if (xs[at] !== null) rows.push([shown(view.columns[view.place][at]), decimals(xs[at]), decimals(ys[at])]);
   const each = Math.ceil(rows.length / PROFILE_PARTS);
-  const head = [[unit === "°" ? "θ, °" : `${name}, ${unit}`, "number"], ["x, mm", "number"], ["y, mm", "number"]];
+  const head = [[unit === "°" ? "θ, °" : `${name}, ${unit}`, "number"], [`x, ${along}`, "number"], [`y, ${along}`, "number"]];
   const parts = Array.from({ length: PROFILE_PARTS }, (_, part) => rows.slice(part * each, (part + 1) * each)).filter((part) => part.length);
   return make("div", { className: "profile" }, make("h3", {}, "Profile"), make("div", { className: "parts" }, ...parts.map((part) => table(head, part.map((row) => ({ cells: row.map((value) => [value, "number"]) }))))));
 }

@@ -425,6 +425,25 @@ def extremes(live, report):
     assert labels["acceleration"][1] == f"−{expected['acceleration']:.4g}" and labels["shaft torque"][1] == f"−{-dynamics['torque_min_nm']:.4g}", labels
 
 
+def inches(live, binary, directory):
+    """The switch of units sets a key of the file: fields, figures and labels in inches, files as those of the command line; and back to the file as it was."""
+    before, field = live.toml(), "[id='key-follower.swinging-roller.arm']"
+    assert live.page.input_value(field) == "110 mm"
+    live.after(lambda: live.page.click("[data-lengths=inch]"))
+    changed = {key for key, value in keys_of(live.toml()).items() if keys_of(before).get(key) != value}
+    assert changed == {"output.units"} and live.page.input_value(field) == "4.3307 in", (changed, live.page.input_value(field))
+    assert "1.564 of at least 1.26 in" in live.page.inner_text("#answer"), live.page.inner_text("#answer")
+    results = live.page.text_content("#results")
+    assert "base radius1.1811in" in results and "0.811485kg" in results, results[:400]
+    live.page.fill(field, "")
+    live.after(lambda: (live.page.type(field, "4.4"), live.page.keyboard.press("Tab")))
+    assert keys_of(live.toml())["follower.swinging-roller.arm"] == "4.4 in" and not live.refused(), live.page.inner_text("#faults")
+    assert same_files(live, binary, directory, "make", "lever") == "passed"
+    live.after(lambda: live.page.click("#undo"))
+    live.after(lambda: live.page.click("[data-lengths=mm]"))
+    assert live.toml() == before and live.page.input_value(field) == "110 mm"
+
+
 def ghosts(live):
     """Behind changed curves and outline those of the design as sent, and every figure that differs."""
     curve, outline = "#motion-diagram .curve", "#mechanisms .part.{} path"
@@ -758,6 +777,8 @@ def judge(browser, options, directory, name, command, generator):
     assert first == ("failed" if (name, command) == FAILING else "passed"), first
     if name == "lever":
         extremes(live, json.loads((directory / f"{name}-{command}-files" / f"{name}.json").read_text()))
+        inches(live, binary, directory)
+        undone(live, sent)
     values_shown(live, 4, generator)
     begin = memory(live)
     # What the page keeps of the last cam is there after the first change.

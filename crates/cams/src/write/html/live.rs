@@ -23,7 +23,7 @@ pub(super) const FIRST_STEPS: u32 = 180;
 const PAGE: &str = include_str!("../../../templates/live/page.html");
 const OWN_STYLE: &str = include_str!("../../../templates/live/style.css");
 /// The scripts: those of the report, with a mechanism and plots that change while a slider moves.
-const SCRIPTS: [&str; 27] = [
+const SCRIPTS: [&str; 28] = [
     COMMON,
     MARGINS,
     MOVING_PARTS,
@@ -38,6 +38,7 @@ const SCRIPTS: [&str; 27] = [
     ANIMATION,
     include_str!("../../../templates/live/texts.js"),
     include_str!("../../../templates/live/engine.js"),
+    include_str!("../../../templates/live/units.js"),
     include_str!("../../../templates/live/form.js"),
     include_str!("../../../templates/live/live.js"),
     include_str!("../../../templates/live/zones.js"),
