@@ -235,6 +235,62 @@ function motionTools(answer) {
   lawPictures(answer);
 }
 
+/** Keys of the state at the end of a segment, as its table has them. */
+const END_KEYS = ["velocity", "acceleration", "end", "inflection", "start"];
+/** Laws that keep every state of both ends. */
+const BY_STATES = ["polynomial", "spline"];
+
+/** What sets a state at the end of a segment: a velocity makes it moving, and rest or a turn have none of their own. */
+function stateChanges(answer, index, name, value) {
+  const path = (key) => `motion.segment[${index}].${key}`;
+  const given = (key) => answer.given.includes(path(key));
+  const without = (...keys) => keys.filter(given).map((key) => ({ remove: path(key) }));
+  if (!value) return without(name);
+  const others = name === "velocity" ? without("end") : name === "end" && value !== "moving" ? without("velocity", ...(value === "rest" ? ["acceleration"] : [])) : [];
+  return [...others, { set: { key: path(name), to: value } }];
+}
+
+/** Fields of the state at the end of each segment: what may be typed, and the choices that its keys have. */
+function statesOf(answer) {
+  const { segments, units } = answer.motion;
+  const view = first();
+  const column = lanesOf(view).find(({ name }) => name === "velocity")?.column;
+  const perDegree = units[0] === "deg" && units[1] === "mm" ? Math.PI / 180 : 1;
+  const unit = { velocity: `${unitName(units[1])}/${unitName(units[0])}`, acceleration: units[0] === "deg" ? `${unitName(units[1])}/rad2` : `${unitName(units[1])}/${unitName(units[0])}2` };
+  // The velocity that the end has now.
+  const present = (segment) => {
+    const places = view.columns[view.place];
+    const value = column ? between(view.columns[column], locate(places, places[0] + segment.at[1] - segments[0].at[0])) : null;
+    return value === null || value === undefined ? "" : `${shown(inNumber(value, units[1]) * perDegree, 3)} ${unit.velocity}`;
+  };
+  return (index, name) => {
+    const segment = segments[index];
+    const path = `motion.segment[${index}].${name}`;
+    const key = keyTable.sections.find(({ path: of, repeated }) => of === "motion.segment" && repeated)?.keys.find((one) => one.name === name);
+    const typed = (answer.values ?? {})[path] ?? "";
+    const isGiven = answer.given.includes(path);
+    const label = `${text("segment")} ${index + 1}: ${text(`end_${name}`)}`;
+    // A dwell rests, and only these laws continue what was before.
+    const disabled = !isGiven && (segment.law === "dwell" || (name === "start" && !BY_STATES.includes(segment.law)));
+    const list = { end: ["rest", "turn", "moving"], start: ["continued", "free"] }[name];
+    let input;
+    if (list) {
+      input = make("select", { "aria-label": label, disabled, title: key?.about ?? "", "data-end": `${index}-${name}` }, make("option", { value: "" }, "–"), ...list.map((word_) => make("option", { value: word_ }, text(`end_${word_}`))));
+      input.value = isGiven ? typed.toLowerCase() : "";
+    } else {
+      input = make("input", { type: "text", value: isGiven ? typed : "", disabled, placeholder: name === "velocity" ? present(segment) : "", title: key?.about ?? "", "aria-label": label, "data-end": `${index}-${name}` });
+      const choices = { inflection: ["smooth", "match"], velocity: ["auto"], acceleration: ["auto"] }[name];
+      input.setAttribute("list", `end-words-${name}`);
+      if (!byId(`end-words-${name}`)) byId("motion").append(make("datalist", { id: `end-words-${name}` }, ...choices.map((word_) => make("option", { value: word_ }))));
+    }
+    input.addEventListener("change", () => {
+      const value = input.value.trim().replace(/^([+-]?[\d.]*),(\d+)$/, "$1.$2");
+      commit(stateChanges(doc.last, index, name, unit[name] && value !== "" && Number.isFinite(Number(value)) ? `${value} ${unit[name]}` : value));
+    });
+    return input;
+  };
+}
+
 /** Every node as numbers that can be typed. */
 function motionRows(answer) {
   const { segments, units } = answer.motion;
@@ -250,7 +306,8 @@ function motionRows(answer) {
     });
     return input;
   };
-  const rows = segments.map((segment, index) => make("tr", {}, make("th", { scope: "row" }, `${index + 1}`), make("td", {}, segment.law), make("td", { className: "number" }, shown(inNumber(segment.at[0], units[0]))), make("td", {}, field(index, 0)), make("td", {}, field(index, 1))));
-  const heads = [text("segment"), text("law"), `${text("from")}, ${unitName(units[0])}`, `${text("until")}, ${unitName(units[0])}`, `${text("position")}, ${unitName(units[1])}`];
-  byId("motion-rows").replaceChildren(make("div", { className: "wide" }, make("table", {}, make("thead", {}, make("tr", {}, ...heads.map((head) => make("th", { scope: "col" }, head)))), make("tbody", {}, ...rows))));
+  const states = statesOf(answer);
+  const rows = segments.map((segment, index) => make("tr", {}, make("th", { scope: "row" }, `${index + 1}`), make("td", {}, segment.law), make("td", { className: "number" }, shown(inNumber(segment.at[0], units[0]))), make("td", {}, field(index, 0)), make("td", {}, field(index, 1)), ...END_KEYS.map((name) => make("td", {}, states(index, name)))));
+  const heads = [text("segment"), text("law"), `${text("from")}, ${unitName(units[0])}`, `${text("until")}, ${unitName(units[0])}`, `${text("position")}, ${unitName(units[1])}`, ...END_KEYS.map((name) => text(`end_${name}`))];
+  byId("motion-rows").replaceChildren(make("div", { className: "wide", tabIndex: 0, role: "region", "aria-label": text("motionRows") }, make("table", {}, make("thead", {}, make("tr", {}, ...heads.map((head) => make("th", { scope: "col" }, head)))), make("tbody", {}, ...rows))));
 }

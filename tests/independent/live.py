@@ -388,6 +388,30 @@ def edited(live):
     assert "rpm = 90 " in live.toml() and "90 rpm" in live.page.inner_text("#title"), live.toml()[:200]
 
 
+def segment_ends(live):
+    """Velocity and acceleration at the end of a segment are typed, and the choices of its keys are lists; each changes only its keys."""
+    def changed(act):
+        before = keys_of(live.toml())
+        live.after(act)
+        assert not live.refused(), live.page.inner_text("#faults")
+        after = keys_of(live.toml())
+        return {key.removeprefix("motion."): after.get(key) for key in before.keys() | after.keys() if before.get(key) != after.get(key)}
+
+    def typed(place, value):
+        return changed(lambda: (live.page.fill(f"[data-end='{place}']", value), live.page.keyboard.press("Tab")))
+
+    def chosen(place, value):
+        return changed(lambda: live.page.select_option(f"[data-end='{place}']", value))
+
+    assert live.page.get_attribute("[data-end='0-velocity']", "placeholder") == "0 mm/deg" and live.page.input_value("[data-end='2-velocity']") == "-0.3 mm/deg"
+    assert typed("2-velocity", "-0.25") == {"segment[2].velocity": "-0.25 mm/deg"}
+    assert typed("3-velocity", "-0,25") == {"segment[3].velocity": "-0.25 mm/deg"}
+    assert typed("2-acceleration", "5") == {"segment[2].acceleration": "5 mm/rad2"}
+    assert chosen("2-start", "free") == {"segment[2].start": "free"} and chosen("2-start", "") == {"segment[2].start": None}
+    assert chosen("0-end", "turn") == {"segment[0].end": "turn"} and typed("0-inflection", "0.4") == {"segment[0].inflection": 0.4}
+    assert live.page.is_disabled("[data-end='1-velocity']") and live.page.is_disabled("[data-end='0-start']")
+
+
 def measured(live, binary, directory):
     """A table over the lift: the largest difference and its place, to a micrometre; what is no table is named, and one is taken away."""
     (directory / "measured.toml").write_text(live.toml())
@@ -793,6 +817,8 @@ def judge(browser, options, directory, name, command, generator):
         second_disc(live)
     if name == "feeder":
         extra = f", a remedy {'clicked' if remedied(live) else 'not needed'}"
+        undone(live, sent)
+        segment_ends(live)
         undone(live, sent)
         edited(live)
         undone(live, sent)
