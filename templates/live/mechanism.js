@@ -15,6 +15,8 @@ function mechanism(cam, index) {
   let [width, height] = [0, 0];
   let pixel = 1;
   const paint = index === 0 ? outlinePaint() : null;
+  const sizes = index === 0 ? dimensionBoxes() : null;
+  if (sizes) svg.after(sizes.layer);
   let paintedGroup = null;
 
   /** The parts of a view in the place of those before; only what differs is changed. */
@@ -94,6 +96,12 @@ function mechanism(cam, index) {
     return [x + wide / 2 + (event.clientX - box.left - box.width / 2) * size, y + high / 2 + (event.clientY - box.top - box.height / 2) * size];
   }
 
+  /** A position of the machine on the screen, in pixels of the picture. */
+  function onScreen([x, y]) {
+    const [left, top, wide, high] = seenBox();
+    return [width / 2 + (x - left - wide / 2) / pixel, height / 2 + (-y - top - high / 2) / pixel];
+  }
+
   // With Ctrl, as maps do: without it the wheel scrolls the page.
   svg.addEventListener("wheel", (event) => {
     if (!event.ctrlKey || !picture) return;
@@ -121,6 +129,7 @@ function mechanism(cam, index) {
     if (picture && Math.max(picture[2] / wide, picture[3] / high) > ROOM && Math.min(picture[2] / wide, picture[3] / high) > 1.02) picture = null;
     if (!picture) fit(shownView.box);
     measureNames(moving);
+    sizes?.anew(shownView);
     draw();
   }
 
@@ -142,6 +151,7 @@ function mechanism(cam, index) {
       paint.place(view, paintedGroup.getAttribute("transform"), pixel);
       scaleMark(view);
     }
+    sizes?.place(view, onScreen, pixel, [width, height]);
     if (!isQuick) unravel(moving, pixel);
   }
 

@@ -449,6 +449,45 @@ def extremes(live, report):
     assert labels["acceleration"][1] == f"−{expected['acceleration']:.4g}" and labels["shaft torque"][1] == f"−{-dynamics['torque_min_nm']:.4g}", labels
 
 
+def dimensions(live):
+    """Dimensions in the picture: a click and a value change one key, a drag too; no box lies on another or beyond the picture, wherever the cam is."""
+    def changed(act):
+        before = keys_of(live.toml())
+        live.after(act)
+        assert not live.refused(), live.page.inner_text("#faults")
+        after = keys_of(live.toml())
+        return {key: after.get(key) for key in before.keys() | after.keys() if before.get(key) != after.get(key)}
+
+    def typed(kind, value):
+        live.page.click(f"[data-dimension={kind}]")
+        live.page.keyboard.type(value)
+        live.page.keyboard.press("Enter")
+
+    live.page.evaluate("window.scrollTo(0, 0)")
+    shown = live.page.evaluate("Object.fromEntries([...document.querySelectorAll('[data-dimension]')].map((e) => [e.dataset.dimension, e.value]))")
+    assert shown == {"base": "R30", "roller": "R16", "arm": "110", "pivot": "140"}, shown
+    assert changed(lambda: typed("roller", "R17")) == {"follower.swinging-roller.radius": "17 mm"}
+    assert changed(lambda: typed("base", "34")) == {"cam.base_radius": "34 mm"}
+    box = live.page.locator("[data-dimension=pivot]").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    def drag():
+        live.page.mouse.move(x, y)
+        live.page.mouse.down()
+        live.page.mouse.move(x + 8, y - 10, steps=4)
+        live.page.mouse.up()
+    found = changed(drag)
+    assert set(found) == {"follower.swinging-roller.pivot_distance"} and 142 < number_of(*found.values())[0] < 150, found
+    overlaps = """() => { const area = document.querySelector('#mechanisms svg').getBoundingClientRect(); const boxes = [...document.querySelectorAll('[data-dimension]')].map((e) => e.getBoundingClientRect());
+      return boxes.filter((a, i) => a.left < area.left || a.right > area.right || a.top < area.top || a.bottom > area.bottom || boxes.some((b, j) => j > i && a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom)).length; }"""
+    for width, height in ((1440, 900), (1024, 768)):
+        live.page.set_viewport_size({"width": width, "height": height})
+        live.page.wait_for_timeout(300)
+        for cycle in range(0, 360, 40):
+            live.page.evaluate("(at) => { const e = document.getElementById('scrub'); e.value = at; e.dispatchEvent(new Event('input')); }", cycle)
+            assert live.page.evaluate(overlaps) == 0, (width, cycle)
+    live.page.set_viewport_size({"width": 1440, "height": 900})
+
+
 def inches(live, binary, directory):
     """The switch of units sets a key of the file: fields, figures and labels in inches, files as those of the command line; and back to the file as it was."""
     before, field = live.toml(), "[id='key-follower.swinging-roller.arm']"
@@ -801,6 +840,8 @@ def judge(browser, options, directory, name, command, generator):
     assert first == ("failed" if (name, command) == FAILING else "passed"), first
     if name == "lever":
         extremes(live, json.loads((directory / f"{name}-{command}-files" / f"{name}.json").read_text()))
+        dimensions(live)
+        undone(live, sent)
         inches(live, binary, directory)
         undone(live, sent)
     values_shown(live, 4, generator)

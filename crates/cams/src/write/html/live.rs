@@ -23,11 +23,12 @@ pub(super) const FIRST_STEPS: u32 = 180;
 const PAGE: &str = include_str!("../../../templates/live/page.html");
 const OWN_STYLE: &str = include_str!("../../../templates/live/style.css");
 /// The scripts: those of the report, with a mechanism and plots that change while a slider moves.
-const SCRIPTS: [&str; 28] = [
+const SCRIPTS: [&str; 29] = [
     COMMON,
     MARGINS,
     MOVING_PARTS,
     include_str!("../../../templates/live/outline.js"),
+    include_str!("../../../templates/live/dimensions.js"),
     include_str!("../../../templates/live/mechanism.js"),
     READOUT,
     SOLID,
