@@ -66,7 +66,10 @@ function startDesigns() {
     if (done.faults) return refuse(done.faults);
     own.handedOut = own.now.toml;
     say("written", { files: done.written.join(", ") });
-    if (own === doc) byId("files-note").textContent = text("written", { files: done.written.join(", ") });
+    if (own !== doc) return;
+    const names = done.written.map((path) => path.split(/[\\/]/).pop());
+    byId("files-note").textContent = text("written", { files: done.written[0].slice(0, -names[0].length) || "." });
+    fileNames(names.map((name) => [name, () => takeFiles(name.split(".").pop(), (files) => files.filter((file) => file.name === name).forEach((file) => save(name, file.bytes)))]));
   })];
   if (docs.some(({ file }) => file)) {
     buttons.unshift(button("save", async (own) => {

@@ -497,6 +497,23 @@ const FILES = {
   json: "M17 6C11 6 14 22 8 24C14 26 11 42 17 42M31 6C37 6 34 22 40 24C34 26 37 42 31 42M22 24h.01M27 24h.01",
 };
 const FORMATS = Object.keys(FILES);
+/** The files of a format. */
+function takeFiles(format, take) {
+  ask(() => requestOf({ tolerance: doc.tolerance, formats: [format] }), (made) => {
+    if (made.faults) return refuse(made.faults);
+    doc.handedOut = doc.now.toml;
+    take(made.files.filter(({ name }) => name.endsWith(`.${format}`)));
+  });
+}
+
+/** Names of files, each of which is taken by a click. */
+function fileNames(named) {
+  byId("files-list").replaceChildren(...named.map(([name, take]) => {
+    const one = make("button", { type: "button", "data-file": name }, name);
+    one.addEventListener("click", take);
+    return one;
+  }));
+}
 function downloads({ passed }) {
   if (byId("formats").dataset.language !== language) {
     byId("formats").dataset.language = language;
@@ -504,17 +521,10 @@ function downloads({ passed }) {
       const picture = makeSvg("svg", { viewBox: "4 2 40 44", "aria-hidden": "true" });
       picture.append(makeSvg("path", { d: FILES[format] }));
       const button = make("button", { type: "button", "data-format": format }, picture, make("span", {}, make("b", {}, text(`file_${format}`)), make("small", {}, format.toUpperCase())));
-      button.addEventListener("click", () => ask(() => requestOf({ tolerance: doc.tolerance, formats: [format] }), (made) => {
-        if (made.faults) return refuse(made.faults);
-        const files = made.files.filter(({ name }) => name.endsWith(`.${format}`));
-        doc.handedOut = doc.now.toml;
+      button.addEventListener("click", () => takeFiles(format, (files) => {
         if (files.length === 1) save(files[0].name, files[0].bytes);
         // Of several a browser lets a page hand out one at a click.
-        else byId("files-list").replaceChildren(...files.map((file) => {
-          const one = make("button", { type: "button", "data-file": file.name }, file.name);
-          one.addEventListener("click", () => save(file.name, file.bytes));
-          return one;
-        }));
+        else fileNames(files.map((file) => [file.name, () => save(file.name, file.bytes)]));
       }));
       return button;
     }));

@@ -25,6 +25,9 @@ const BODIES = {
 /** Keys of the limits that can be given at once. */
 const NEW_LIMITS = ["pressure_angle", "min_convex_radius", "size", "wall", "contact_stress"];
 const NEW_NUMBERS = [["stations", 8], ["rise", 30], ["riseOver", 120], ["dwellOver", 60], ["returnOver", 100], ["rpm", 250]];
+/** What a new cam may have besides: the mass or inertia that moves, and a spring; each with its unit on a straight path and on an arm, and the bodies that have it. */
+const NEW_LOADS = [["moving", "kg", "kg*m2"], ["rate", "N/mm", "N*m/rad"], ["preload", "N", "N*m"]];
+const WITH_SPRING = ["disc", "wedge"];
 /** Arms of followers, mm; that of a flat one reaches to the camshaft. */
 const ARMS = { "swinging-roller": 110, "swinging-flat": 200 };
 
@@ -54,7 +57,7 @@ function motionOfNew({ body, law, rise, riseOver, dwellOver, returnOver, rpm }, 
 
 /** The text of a machine file for what the form says. */
 function textOfNew(asked) {
-  const { follower, body, rise, stations, limits } = asked;
+  const { follower, body, rise, stations, limits, loads = {} } = asked;
   const isTurret = body === "globoid";
   const own = BODIES[body];
   const unit = isTurret ? "deg" : FOLLOWERS[follower].unit;
@@ -67,7 +70,8 @@ function textOfNew(asked) {
   const keysOfCam = [...own.keys, ...(isTurret ? turretOf(asked) : []), ...(own.open ? [] : ['bore_radius = "10 mm"']), 'material = "steel"'];
   const tables = [
     ...motionOfNew(asked, unit, top),
-    `[follower.${follower}]\n${keys.map((key) => `${key}\n`).join("")}`,
+    `[follower.${follower}]\n${keys.map((key) => `${key}\n`).join("")}${loads.moving ? `${ARMS[follower] ? "inertia" : "mass"} = "${loads.moving}"\n` : ""}`,
+    loads.rate || loads.preload ? `[spring]\n${["rate", "preload"].filter((key) => loads[key]).map((key) => `${key} = "${loads[key]}"\n`).join("")}` : null,
     `[cam]\nbody = "${body}"\n${keysOfCam.map((key) => `${key}\n`).join("")}`,
     own.counter ? '[cam.counter]\nradius = "12 mm"\n' : null,
     `[limits]\n${limits.map(([key, value]) => `${key} = "${value}"\n`).join("")}`,
@@ -92,11 +96,13 @@ function newCam() {
   formsOf = language;
   const number = ([id, value]) => make("label", {}, make("span"), " ", make("input", { id: `new-${id}`, type: "text", inputMode: "decimal", value: String(value), size: 6, required: true }));
   const limit = (key) => make("label", { title: aboutOf("limits", key) }, `${text(`limit_${key}`)} `, make("input", { id: `new-limit-${key}`, type: "text", size: 9 }));
+  const load = ([id]) => make("label", {}, make("span"), " ", make("input", { id: `new-${id}`, type: "text", size: 8, placeholder: "–" }));
   const laws = make("select", { id: "new-law" }, ...keyTable.laws.map(({ name }) => make("option", { value: name }, name)));
   laws.value = "modified-sine";
   const go = make("button", { type: "submit", id: "new-make" }, text("make"));
   const form_ = make("form", {}, make("h3", {}, text("newCam")), pictured("follower", FOLLOWERS, "roller"), pictured("body", BODIES, "disc"),
     make("fieldset", { className: "row" }, make("legend", {}, text("motion")), ...NEW_NUMBERS.map(number), make("label", {}, `${text("law")} `, laws)),
+    make("fieldset", { className: "row" }, make("legend", {}, text("massAndSpring")), ...NEW_LOADS.map(load)),
     make("fieldset", { className: "row" }, make("legend", {}, text("limits")), ...NEW_LIMITS.map(limit), make("p", { className: "muted" }, text("limitsHelp"))),
     make("p", { className: "row" }, go, make("span", { id: "new-fault", role: "alert" })));
   form_.noValidate = true;
@@ -130,6 +136,12 @@ function fitBodies(form_) {
     label.hidden = !numbers.includes(id);
     label.firstElementChild.textContent = text(id === "riseOver" && numbers.includes("stations") ? "stepOver" : id, { along: text(along) });
   }
+  const body = new FormData(form_).get("new-body");
+  for (const [id, straight, arm] of NEW_LOADS) {
+    const label = byId(`new-${id}`).parentElement;
+    label.hidden = body === "globoid" || (id !== "moving" && !WITH_SPRING.includes(body));
+    label.firstElementChild.textContent = `${text(id !== "moving" ? `key_spring.${id}` : ARMS[follower] ? "inertia" : "mass")}, ${(ARMS[follower] ? arm : straight).replace(/\*/g, "·").replace("m2", "m²")}`;
+  }
   usualLimits(form_);
 }
 
@@ -155,6 +167,10 @@ function askedOf(form_) {
   if (numbers.includes("stations") && !(Number.isInteger(asked.stations) && asked.stations >= 4 && asked.stations <= 60)) return { fault: text("notStations") };
   const sum = asked.riseOver + (asked.dwellOver ?? 0) + (asked.returnOver ?? 0);
   if (sum > most) return { fault: text(numbers === IN_A_TURN ? "overTurn" : "overPart", { sum: shown(sum), most }) };
+  asked.loads = Object.fromEntries(NEW_LOADS.map(([id, straight, arm]) => {
+    const value = byId(`new-${id}`).value.trim().replace(/"/g, "").replace(",", ".");
+    return [id, byId(`new-${id}`).parentElement.hidden || !value ? "" : Number.isFinite(Number(value)) ? `${value} ${ARMS[asked.follower] ? arm : straight}` : value];
+  }));
   asked.limits = NEW_LIMITS.map((key) => [key, byId(`new-limit-${key}`).value.trim().replace(/"/g, "")]).filter(([, value]) => value);
   return asked;
 }
