@@ -644,7 +644,6 @@ async function startLive() {
   say("starting");
   listen();
   speak();
-  watchers.push(stack);
   // Designers think in rates per second; those of the shaft's angle are a choice.
   if (!byId("unit-choice").hidden) byId("unit").value = state.rate = "time";
   measureTop();

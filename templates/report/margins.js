@@ -6,7 +6,7 @@ const PHRASES = {
   checksPassed: "{passed} of {all}", provenFile: "proved on the written file", noLimits: "nothing to judge",
   asCut: "As cut, filled on purpose", moreChecks: "{count} more, all with room", allChecks: "all checks", ofLimit: "{value} {side} {limit}", atPlace: "at {place}", used: "{used} %",
   atMost: "of at most", atLeast: "of at least", otherSide: "limit",
-  margins: "Tightest margins",
+  margins: "Tightest margins", loads: "Motion and loads", moreCurves: "+ curves",
 };
 let phrase = (name, values = {}) => PHRASES[name].replace(/\{(\w+)\}/g, (_, key) => values[key]);
 /** The name of a check in the language of the page. */

@@ -11,9 +11,11 @@ function panelsOf() {
 function drawPlots(width, height = 210) {
   for (const { plot } of plots) plot.destroy();
   plots = [];
+  byId("lead")?.replaceChildren();
+  if (allDiagrams && !allDiagrams.open) return setTimeout(show, 0);
   // All places first: their width depends on how many there are. The first one lies next to the mechanism, unless all curves are stacked there.
   const boxes = panelsOf().map((panel) => [panel, make("div", { className: "plot" })]);
-  const leads = byId("lead") ? 1 : 0;
+  const leads = byId("lead") && (isPrinting() || !usesStack()) ? 1 : 0;
   byId("lead")?.replaceChildren(...boxes.slice(0, leads).map(([, box]) => box));
   byId("plots").replaceChildren(...boxes.slice(leads).map(([, box]) => box));
   byId("curves").hidden = boxes.length <= leads;
@@ -40,7 +42,7 @@ function pointed(plot) {
 const movers = cams.map((cam, index) => mechanism(cam, index));
 const readouts = cams.map((cam, index) => readout(cam, index));
 const solids = cams.flatMap((cam, index) => (cam.solid ? [solidView(cam, index)] : []));
-/** What else shows the place of the mechanism; the live page has its stack of curves here. */
+/** What else shows the place of the mechanism: the stack of curves. */
 const watchers = [];
 
 function show() {
@@ -151,6 +153,19 @@ function tables() {
   fill("missing", ...cams.map(missingOf));
 }
 
+/** Where the curves are stacked, the diagrams with all their curves and legends are folded. */
+let allDiagrams = null;
+function foldDiagrams() {
+  if (!usesStack()) return;
+  watchers.push(stack);
+  if (!byId("lead")) return;
+  byId("moving").classList.add("stacked");
+  byId("curves-choice").hidden = false;
+  allDiagrams = make("details", {}, make("summary", {}, byId("curves-title")), byId("plots"));
+  byId("curves").append(allDiagrams);
+  allDiagrams.addEventListener("toggle", () => isPrinting() || drawPlots());
+}
+
 function redraw() {
   drawPlots();
   for (const watcher of watchers) watcher.anew();
@@ -227,6 +242,7 @@ function start() {
     byId("solid").hidden = false;
     byId("solid").append(...solids.map((solid) => solid.figure));
   }
+  foldDiagrams();
   faster(1);
   begin();
   // What is above the mechanism takes its room.
@@ -247,7 +263,7 @@ function start() {
     window.addEventListener("beforeprint", () => {
       play(false);
       document.documentElement.dataset.printing = "";
-      folded = [...document.querySelectorAll("#verdict details:not([open])")];
+      folded = [...document.querySelectorAll("#verdict details:not([open]), #curves details:not([open])")];
       for (const box of folded) box.open = true;
       drawPlots(330, 130);
       show();

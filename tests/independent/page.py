@@ -4,7 +4,8 @@ No message on the console; play moves the roller and the numbers; the keyboard w
 values of the place that the mechanism shows; text has the contrast of WCAG AA in light and dark. Mechanism and first diagram are
 wholly visible in a window of 1440 x 900 without scrolling; nothing is wider than the window at 1440, 1024, 800 and 390 px; the
 checks are one line, which is open where one failed or warns, these first. Printing gives A4 pages, none of them nearly empty, no
-figure on two of them. A name full of HTML stays a name. The time to the first paint is printed, not judged.
+figure on two of them. The curves of a mechanism are one
+stack over one axis. A name full of HTML stays a name. The time to the first paint is printed, not judged.
 
 usage: page.py CAMGEN_BINARY DIRECTORY [--pictures]
 """
@@ -67,6 +68,12 @@ CHECKS = """() => {
 LEGENDS = """() => {
   const text = (e) => e.textContent.replace(/\\s+/g, ' ').trim();
   const readout = [...document.querySelectorAll('.readout dd')].map((dd) => [...dd.children].map(text).join(' ').trim());
+  const stack = document.querySelector('.stacked #stack');
+  if (stack) {
+    const middle = (e) => e.getBoundingClientRect().left + e.getBoundingClientRect().width / 2;
+    const [cursor, bead] = [stack.querySelector('.cursor'), [...stack.querySelectorAll('.bead')].find((e) => e.getAttribute('visibility') === 'visible')];
+    return [{ place: null, values: [...stack.querySelectorAll('.value')].filter((e, i) => stack.querySelectorAll('.lane-unit')[i].textContent.indexOf('10') < 0 && stack.querySelectorAll('.lane-unit')[i].textContent.indexOf('1/') < 0).map(text), readout, cursor: middle(cursor), dot: bead ? middle(bead) : middle(cursor) }];
+  }
   const first = document.querySelector('#lead .plot');
   const [place, ...values] = [...first.querySelectorAll('.legend .value')].map(text);
   const left = (e) => e.getBoundingClientRect().left + e.getBoundingClientRect().width / 2;
@@ -81,7 +88,7 @@ STATE = """() => ({
   roller: [...document.querySelectorAll('.part.normal, .part.follower')].map((p) => p.getAttribute('transform')).join(),
   cam: (document.querySelector('.part.cam, .part.crank') ?? document.querySelector('.part.bed')).getAttribute('transform'),
   numbers: document.querySelector('.readout').innerText,
-  legend: document.querySelector('.legend').innerText,
+  legend: (document.querySelector('.legend') ?? document.querySelector('.stack')).textContent,
   scrub: Number(document.getElementById('scrub').value),
 })"""
 
@@ -157,10 +164,14 @@ def uses(page):
     page.page.keyboard.press("Space")
     page.page.keyboard.press("End")
     assert page.state()["scrub"] > 90
-    area = page.page.locator(".u-over").first
+    stacked = page.page.locator(".stacked").count() > 0
+    area = page.page.locator(".stack .frame" if stacked else ".u-over").first
     area.scroll_into_view_if_needed()
     box = area.bounding_box()
     page.page.mouse.move(box["x"] + 0.25 * box["width"], box["y"] + 20)
+    if stacked:
+        page.page.mouse.down()
+        page.page.mouse.up()
     hovered = page.state()
     assert abs(hovered["scrub"] - 90) < 25 or "returns" in page.page.content(), hovered["scrub"]
     agrees(page)
@@ -170,8 +181,8 @@ def uses(page):
 def agrees(page):
     """The first values of a diagram's legend are those of the readout at the same place, in the same units."""
     for legend in page.page.evaluate(LEGENDS):
-        assert legend["place"] in legend["readout"], legend
-        assert all(value in legend["readout"] for value in legend["values"]), legend
+        assert legend["place"] is None or legend["place"] in legend["readout"], legend
+        assert all(any(one == value or one.startswith(f"{value} ") for one in legend["readout"]) for value in legend["values"]), legend
         assert abs(legend["cursor"] - legend["dot"]) < 1, legend
 
 
@@ -193,7 +204,7 @@ def opens(page, name):
 
 def above_the_fold(page, name):
     """Mechanism and first diagram are visible without scrolling; what has no mechanism has its diagram there."""
-    for selector in ("#mechanisms svg", "#lead .plot"):
+    for selector in ("#mechanisms svg", "#lead .plot", ".stacked #stack"):
         for box in page.page.evaluate("(selector) => [...document.querySelectorAll(selector)].map((e) => e.getBoundingClientRect().toJSON())", selector):
             if box["width"]:
                 assert box["top"] >= 0 and box["bottom"] <= FOLD[1] and box["height"] > 80, f"{name}: {selector} {box}"
@@ -208,12 +219,22 @@ def named(page, name):
 def units(page):
     if not page.page.is_visible("#unit-choice"):
         return
-    assert "/s" not in page.page.inner_text("#plots")
+    curves = ".stacked .stack" if page.page.locator(".stacked").count() else "#plots"
+    assert "/s" not in page.page.text_content(curves)
     page.page.select_option("#unit", "time")
-    text = page.page.inner_text("#plots")
+    text = page.page.text_content(curves)
     assert "m/s²" in text or "rad/s²" in text, text[:400]
     assert "/s" in page.page.inner_text("#readouts")
     page.page.select_option("#unit", "angle")
+
+
+def folded(page):
+    """The curves are one stack; all diagrams with their legends are folded below it, and drawn when they are opened."""
+    assert page.page.locator("#stack .lane").count() >= 4 and page.page.locator(".u-over").count() == 0
+    page.page.click("#curves summary")
+    page.until("document.querySelectorAll('#plots .u-over').length >= 4")
+    page.page.click("#curves summary")
+    page.until("document.querySelectorAll('.u-over').length === 0")
 
 
 def fits(page, name):
@@ -262,6 +283,8 @@ def judge(browser, directory, name, pictures):
     if name not in STILL:
         uses(page)
         units(page)
+    if page.page.locator(".stacked").count():
+        folded(page)
     fits(page, name)
     assert page.page.locator(".part.spring").count() == (1 if name in WITH_SPRING else 0), f"{name}: springs"
     poor = page.page.evaluate(CONTRAST)

@@ -2,8 +2,8 @@
 //! (`live/build`), the same call as `camgen::engine` in the program.
 
 use super::{
-    ANIMATION, CHARTS, CHARTS_LICENCE, CHARTS_STYLE, COMMON, CURVES, DIAGRAM, MARGINS, MOVING_PARTS, READOUT, SOLID,
-    STYLE, TABLES, filled, in_script, text,
+    ANIMATION, CHARTS, CHARTS_LICENCE, CHARTS_STYLE, COMMON, CURVES, DIAGRAM, EXTREMES, MARGINS, MOVING_PARTS, READOUT,
+    SOLID, STACK, STYLE, TABLES, filled, in_script, text,
 };
 use camgen_kernel::refusal::Refusal;
 use serde_json::{Value, json};
@@ -23,7 +23,7 @@ pub(super) const FIRST_STEPS: u32 = 180;
 const PAGE: &str = include_str!("../../../templates/live/page.html");
 const OWN_STYLE: &str = include_str!("../../../templates/live/style.css");
 /// The scripts: those of the report, with a mechanism and plots that change while a slider moves.
-const SCRIPTS: [&str; 29] = [
+const SCRIPTS: [&str; 30] = [
     COMMON,
     MARGINS,
     MOVING_PARTS,
@@ -35,6 +35,8 @@ const SCRIPTS: [&str; 29] = [
     TABLES,
     CURVES,
     DIAGRAM,
+    EXTREMES,
+    STACK,
     include_str!("../../../templates/live/plot.js"),
     ANIMATION,
     include_str!("../../../templates/live/texts.js"),
@@ -45,8 +47,7 @@ const SCRIPTS: [&str; 29] = [
     include_str!("../../../templates/live/zones.js"),
     include_str!("../../../templates/live/compare.js"),
     include_str!("../../../templates/live/motion.js"),
-    include_str!("../../../templates/live/extremes.js"),
-    include_str!("../../../templates/live/stack.js"),
+    include_str!("../../../templates/live/segments.js"),
     include_str!("../../../templates/live/laws.js"),
     include_str!("../../../templates/live/measured.js"),
     include_str!("../../../templates/live/newcam.js"),

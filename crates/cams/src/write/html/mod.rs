@@ -52,9 +52,11 @@ const SOLID: &str = include_str!("../../../templates/report/solid.js");
 const TABLES: &str = include_str!("../../../templates/report/tables.js");
 const CURVES: &str = include_str!("../../../templates/report/curves.js");
 const DIAGRAM: &str = include_str!("../../../templates/report/diagram.js");
+const EXTREMES: &str = include_str!("../../../templates/report/extremes.js");
+const STACK: &str = include_str!("../../../templates/report/stack.js");
 const ANIMATION: &str = include_str!("../../../templates/report/page.js");
 /// The scripts of the report. The live page has others for the mechanism and the plots, which change while a slider moves.
-const SCRIPTS: [&str; 12] = [
+const SCRIPTS: [&str; 14] = [
     COMMON,
     MARGINS,
     MOVING_PARTS,
@@ -64,6 +66,8 @@ const SCRIPTS: [&str; 12] = [
     TABLES,
     CURVES,
     DIAGRAM,
+    EXTREMES,
+    STACK,
     include_str!("../../../templates/report/plot.js"),
     ANIMATION,
     include_str!("../../../templates/report/start.js"),

@@ -4,9 +4,18 @@
 const LANES = [["lift", "s"], ["velocity", "v"], ["acceleration", "a"], ["jerk", "j"], ["pressure-angle", "α"], ["torque", "T"], ["residual", "F"], ["force", "F"], ["balance", "F"], ["press", "x"], ["profile-curvature", "1/ρ"], ["pitch-curvature", "1/ρ"]];
 const MOST_LANES = 6;
 /** Room for names at the left and values at the right, px; on a narrow screen names stand above their curves. */
-const STACK = { left: 114, right: 78, narrow: 430, head: 34, foot: 34, gap: 7, least: 58 };
+const STACK = { left: 114, right: 78, narrow: 430, head: 8, foot: 34, gap: 7, least: 58 };
 /** The largest share of the height of a lane between two samples of a curve that is continuous: a larger one is a step. */
 const STEP = 0.3;
+
+/** What the live page has its own of: the names of lanes, words in its language, curves behind those of the present cam, and what is above the curves. */
+let laneName = ({ title }) => title;
+let inWords = (said) => said;
+let curvesBehind = () => [];
+let drawAbove = () => {};
+
+/** Whether the curves are stacked: those of one mechanism with a motion. The live page always has its stack; of two cams and other analyses the legends are needed. */
+const usesStack = () => Boolean(byId("loads")) || (cams.length === 1 && first().parts.length > 0 && first().panels.filter(({ id }) => LANES.some(([known]) => known === id)).length > 2);
 
 /** The lanes that the person added or, on a narrow screen, the one that is shown. */
 const stackChoice = { added: new Set(), only: "pressure-angle" };
@@ -21,9 +30,8 @@ const stack = (() => {
   let shape = "";
   let lanes = [];
   let scale = null;
-  let handles = [];
-  let heldHandle = null;
   const cursor = makeSvg("line", { class: "cursor" });
+  const above = makeSvg("g", { class: "segments" });
 
   const isNarrow = () => width < STACK.narrow;
   const leftOf = () => (isNarrow() ? 8 : STACK.left);
@@ -40,7 +48,6 @@ const stack = (() => {
     return { all, shownPanels: one ? [one] : [] };
   }
 
-  const nameOf = ({ id, title }) => (languages[language].page[`lane_${id}`] ? text(`lane_${id}`) : spoken(title));
   const letterOf = ({ id }) => LANES.find(([known]) => known === id)?.[1] ?? "";
 
   /** The least and the largest value of all curves of a lane, and the room around them; of angles with limits the limits too. */
@@ -113,7 +120,7 @@ const stack = (() => {
       label.textContent = `${shown(at * scaled)}${unit === "°" ? "°" : ""}`;
       axis.append(label);
     }
-    if (!isNarrow()) axis.append(written("axis-name", 2, height - STACK.foot + 18, `${spoken(view.kinds[view.place][0])}${unit === "°" ? "" : `, ${unit}`}`));
+    if (!isNarrow()) axis.append(written("axis-name", 2, height - STACK.foot + 18, `${inWords(view.kinds[view.place][0])}${unit === "°" ? "" : `, ${unit}`}`));
     lanes = shownPanels.map((panel, index) => {
       const y = top + index * (each + STACK.gap);
       const lane = { panel, y, high: each, curves: curvesOfLane[index], group: makeSvg("g", { class: "lane" }) };
@@ -128,7 +135,7 @@ const stack = (() => {
       lane.value = written("value", width - 4, y + each / 2 + 5, "");
       if (isNarrow()) lane.value.setAttribute("y", y + 14);
       else {
-        const name = nameOf(panel);
+        const name = laneName(panel);
         const lines = name.length > 15 && name.includes(" ") ? [name.slice(0, name.lastIndexOf(" ", 15) > 0 ? name.lastIndexOf(" ", 15) : name.indexOf(" ")), name.slice((name.lastIndexOf(" ", 15) > 0 ? name.lastIndexOf(" ", 15) : name.indexOf(" ")) + 1)] : [name];
         lines.forEach((line, at) => lane.group.append(written("lane-name", 2, y + each / 2 - 4 + 14 * (at - (lines.length - 1)), line)));
         lane.unit = written("lane-unit", 2, y + each / 2 + 13, "");
@@ -138,7 +145,6 @@ const stack = (() => {
       return lane;
     });
     svg.append(cursor, ...lanes.map(({ bead }) => bead));
-    handles = [];
     cursor.setAttribute("y1", top - 4);
     cursor.setAttribute("y2", height - STACK.foot + 2);
   }
@@ -224,7 +230,7 @@ const stack = (() => {
     if (named) {
       const line = yOf(named.limit);
       const above = named.limit > 0 && line - lane.y >= 14;
-      notes.take("text", { class: "limit-label", x: scale.left + scale.wide - 4, y: above ? line - 4 : line + 13 }, `${text("limit")} ${withUnit(Math.abs(named.limit), named.unit === "°" ? "°" : "")}`);
+      notes.take("text", { class: "limit-label", x: scale.left + scale.wide - 4, y: above ? line - 4 : line + 13 }, `${phrase("otherSide")} ${withUnit(Math.abs(named.limit), named.unit === "°" ? "°" : "")}`);
     }
     const main = own[0];
     if (main) for (const { sign, place, value } of extremesOf(main, range)) {
@@ -253,97 +259,14 @@ const stack = (() => {
     }
   }
 
-  /** Segments of the motion above the curves, with handles at their borders. */
-  const segmentsBox = makeSvg("g", { class: "segments" });
-  function segmentsAnew(answer) {
-    if (heldHandle !== null) return;
-    const focused = segmentsBox.contains(document.activeElement) ? document.activeElement.dataset.handle : null;
-    segmentsBox.replaceChildren();
-    handles = [];
-    if (!scale || !answer?.motion || cams.length > 1 || !isProgram(answer)) return;
-    const { segments, units } = answer.motion;
-    const begin = segments[0].at[0];
-    const xOf = (at) => scale.xOf(scale.begin + at - begin);
-    segments.forEach((segment, index) => {
-      const [x, wide] = [xOf(segment.at[0]), xOf(segment.at[1]) - xOf(segment.at[0])];
-      const [from, to] = segment.position;
-      const kind = from === to ? "dwell" : to > from ? "rise" : "return";
-      const area = makeSvg("rect", { class: from === to ? "piece rests" : "piece", x, y: 2, width: Math.max(0, wide), height: STACK.head - 8 });
-      area.append(makeSvg("title"));
-      area.lastChild.textContent = `${text("segment")} ${index + 1}: ${segment.law}`;
-      area.addEventListener("click", () => chooseSegment(index));
-      const travel = from === to ? "" : ` ${inPage(Math.abs(to - from), units[1])}`;
-      const width_ = inPage(segment.at[1] - segment.at[0], units[0]);
-      const names = [`${width_} ${segment.law.replace(/-/g, " ")}`, `${width_} ${segment.law.replace(/-/g, " ").replace("modified", "mod.").replace("trapezoid", "trap.")}`, width_];
-      const fitting = (list, size) => list.find((name) => name.length * size + 18 < wide) ?? "";
-      const [upper, lower] = [written("piece-name", x + wide / 2, 13, fitting([`${text(`piece_${kind}`)}${travel}`, text(`piece_${kind}`)], 7)), written("piece-note", x + wide / 2, 25, fitting(from === to ? [width_] : names, 6.2))];
-      segmentsBox.append(area, upper, lower);
-    });
-    segments.slice(0, -1).forEach((segment, index) => segmentsBox.append(handleOf(segment, index, segments, units, xOf)));
-    if (focused) segmentsBox.querySelector(`[data-handle="${focused}"]`)?.focus();
-  }
-
-  /** The border behind a segment: dragged, or moved by the arrow keys. */
-  function handleOf(segment, index, segments, units, xOf) {
-    const handle = makeSvg("g", { class: "handle", tabindex: index ? -1 : 0, role: "slider", "data-handle": index, "aria-label": `${text("segment")} ${index + 1}, ${text("until")}`, "aria-valuenow": cleaned(segment.at[1]), "aria-valuemin": segment.at[0], "aria-valuemax": segments[index + 1].at[1], "aria-valuetext": withUnit(inNumber(segment.at[1], units[0]), unitName(units[0])) });
-    const guide = makeSvg("path", { class: "guide", d: `M0 ${STACK.head - 6}V${height - STACK.foot}` });
-    handle.append(guide, makeSvg("rect", { x: -5, y: 2, width: 10, height: STACK.head - 8, rx: 4 }), makeSvg("path", { class: "grip", d: `M-1.5 10v${STACK.head - 24}M1.5 10v${STACK.head - 24}` }));
-    const moveTo = (at) => handle.setAttribute("transform", `translate(${xOf(at)} 0)`);
-    moveTo(segment.at[1]);
-    const held = { from: null, changes: null };
-    const at = (event) => {
-      const box_ = svg.getBoundingClientRect();
-      const place = ((event.clientX - box_.left - scale.left) / scale.wide) * (scale.end - scale.begin) + segments[0].at[0];
-      return Math.round(2 * Math.min(segments[index + 1].at[1] - 0.5, Math.max(segment.at[0] + 0.5, place))) / 2;
-    };
-    handle.addEventListener("pointerdown", (event) => {
-      handle.setPointerCapture(event.pointerId);
-      Object.assign(held, { from: event.clientX, changes: null });
-      heldHandle = index;
-      event.preventDefault();
-      event.stopPropagation();
-      handle.focus();
-    });
-    handle.addEventListener("pointermove", (event) => {
-      if (held.from === null || Math.abs(event.clientX - held.from) < 3) return;
-      held.changes = nodeMoved(doc.last, index, at(event), null);
-      moveTo(at(event));
-      if (held.changes.length) draft(held.changes);
-    });
-    for (const name of ["pointerup", "pointercancel"]) handle.addEventListener(name, () => {
-      const { changes } = held;
-      Object.assign(held, { from: null, changes: null });
-      heldHandle = null;
-      if (changes?.length) commit(changes);
-      else segmentsAnew(doc.last);
-    });
-    handle.addEventListener("keydown", (event) => {
-      // One stop for the keyboard: up and down go to the other borders.
-      const other = segmentsBox.querySelector(`[data-handle="${index + ({ ArrowUp: -1, ArrowDown: 1 }[event.key] ?? NaN)}"]`);
-      if (other) {
-        event.preventDefault();
-        event.stopPropagation();
-        for (const one of segmentsBox.querySelectorAll(".handle")) one.setAttribute("tabindex", one === other ? 0 : -1);
-        return other.focus();
-      }
-      const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-      if (!step) return;
-      event.preventDefault();
-      event.stopPropagation();
-      const changes = nodeMoved(doc.last, index, segment.at[1] + step * (event.shiftKey ? 10 : 1), null);
-      if (changes.length) commit(changes);
-    });
-    return handle;
-  }
-
   /** Letters of the curves on a narrow screen: one curve at a time. */
   function lettersAnew(all) {
     lettersBox.hidden = !isNarrow();
     if (!isNarrow()) return;
-    lettersBox.setAttribute("aria-label", text("loads"));
+    lettersBox.setAttribute("aria-label", phrase("loads"));
     lettersBox.replaceChildren(...all.slice(0, 7).map((panel) => {
       const isChosen = panel.id === lanes[0]?.panel.id;
-      const button = make("button", { type: "button", "aria-pressed": String(isChosen), "aria-label": nameOf(panel) }, letterOf(panel) || nameOf(panel).split(" ")[0]);
+      const button = make("button", { type: "button", "aria-pressed": String(isChosen), "aria-label": laneName(panel) }, letterOf(panel) || laneName(panel).split(" ")[0]);
       button.addEventListener("click", () => {
         stackChoice.only = panel.id;
         anew();
@@ -357,24 +280,24 @@ const stack = (() => {
     if (!width || !height || !first().panels.length) return;
     const view = first();
     const { all, shownPanels } = panelsShown(view);
-    const curves = shownPanels.map((panel) => [...(cams.length === 1 && (doc.past.length || isDragging) ? ghostsOf(panel, curvesOf(panel)) : []), ...curvesOf(panel)]);
-    const now = JSON.stringify([width, height, language, view.place, view.columns[view.place][0], view.columns[view.place].at(-1), state.rate, lengthUnit, shownPanels.map(({ id, unit }) => [id, unit])]);
+    const curves = shownPanels.map((panel) => [...curvesBehind(panel), ...curvesOf(panel)]);
+    const now = JSON.stringify([width, height, document.documentElement.lang, view.place, view.columns[view.place][0], view.columns[view.place].at(-1), state.rate, lengthUnit, shownPanels.map(({ id, unit }) => [id, unit])]);
     if (now !== shape) {
       shape = now;
       build(view, shownPanels, curves);
-      svg.append(segmentsBox, cursor, ...lanes.map(({ bead }) => bead));
+      svg.append(above, cursor, ...lanes.map(({ bead }) => bead));
       lettersAnew(all);
       choicesAnew(all, shownPanels);
     }
     lanes.forEach((lane, index) => fill(lane, curves[index]));
-    if (!isDragging) segmentsAnew(doc.last);
+    drawAbove();
     draw();
   }
 
   /** Diagrams that can be added to the stack or taken from it. */
   function choicesAnew(all, shownPanels) {
     const list = byId("more-curves");
-    list.replaceChildren(make("option", { value: "" }, text("moreCurves")), ...all.map((panel) => make("option", { value: panel.id }, `${shownPanels.includes(panel) ? "✓" : "+"} ${spoken(panel.title)}`)));
+    list.replaceChildren(make("option", { value: "" }, phrase("moreCurves")), ...all.map((panel) => make("option", { value: panel.id }, `${shownPanels.includes(panel) ? "✓" : "+"} ${inWords(panel.title)}`)));
     list.value = "";
   }
 
@@ -439,12 +362,5 @@ const stack = (() => {
     else stackChoice.added.add(target.value);
     anew();
   });
-  return { anew, draw, segmentsAnew, svg };
+  return { anew, draw, svg, above, written, layout: () => ({ scale, height }) };
 })();
-
-/** Chooses a segment in the editor of the motion, and goes there. */
-function chooseSegment(index) {
-  doc.chosen = index;
-  motionEditor(doc.last);
-  openMore("motion");
-}
