@@ -235,53 +235,47 @@ function motionTools(answer) {
   lawPictures(answer);
 }
 
-/** Keys of the state at the end of a segment, as its table has them. */
+/** Keys of the state at the end of a segment, and the laws that keep every state of both ends. */
 const END_KEYS = ["velocity", "acceleration", "end", "inflection", "start"];
-/** Laws that keep every state of both ends. */
 const BY_STATES = ["polynomial", "spline"];
 
 /** What sets a state at the end of a segment: a velocity makes it moving, and rest or a turn have none of their own. */
 function stateChanges(answer, index, name, value) {
   const path = (key) => `motion.segment[${index}].${key}`;
-  const given = (key) => answer.given.includes(path(key));
-  const without = (...keys) => keys.filter(given).map((key) => ({ remove: path(key) }));
+  const without = (...keys) => keys.map(path).filter((key) => answer.given.includes(key)).map((key) => ({ remove: key }));
   if (!value) return without(name);
-  const others = name === "velocity" ? without("end") : name === "end" && value !== "moving" ? without("velocity", ...(value === "rest" ? ["acceleration"] : [])) : [];
-  return [...others, { set: { key: path(name), to: value } }];
+  const others = name === "velocity" ? ["end"] : name === "end" && value !== "moving" ? ["velocity", ...(value === "rest" ? ["acceleration"] : [])] : [];
+  return [...without(...others), { set: { key: path(name), to: value } }];
 }
 
-/** Fields of the state at the end of each segment: what may be typed, and the choices that its keys have. */
+/** Fields of the state at the end of each segment, with the choices of their keys. */
 function statesOf(answer) {
   const { segments, units } = answer.motion;
   const view = first();
-  const column = lanesOf(view).find(({ name }) => name === "velocity")?.column;
-  const perDegree = units[0] === "deg" && units[1] === "mm" ? Math.PI / 180 : 1;
-  const unit = { velocity: `${unitName(units[1])}/${unitName(units[0])}`, acceleration: units[0] === "deg" ? `${unitName(units[1])}/rad2` : `${unitName(units[1])}/${unitName(units[0])}2` };
-  // The velocity that the end has now.
-  const present = (segment) => {
+  const column = view.columns[lanesOf(view).find(({ name }) => name === "velocity")?.column];
+  const [along, above] = units.map(unitName);
+  const unit = { velocity: `${above}/${along}`, acceleration: `${above}/${along === "deg" ? "rad" : along}2` };
+  const keys = keyTable.sections.find(({ path }) => path === "motion.segment").keys;
+  // The velocity that the end has now, per degree.
+  const present = ({ at }) => {
     const places = view.columns[view.place];
-    const value = column ? between(view.columns[column], locate(places, places[0] + segment.at[1] - segments[0].at[0])) : null;
-    return value === null || value === undefined ? "" : `${shown(inNumber(value, units[1]) * perDegree, 3)} ${unit.velocity}`;
+    const value = column && between(column, locate(places, places[0] + at[1] - segments[0].at[0]));
+    return typeof value === "number" ? `${shown(inNumber(value, units[1]) * (along === "deg" && units[1] === "mm" ? Math.PI / 180 : 1), 3)} ${unit.velocity}` : "";
   };
   return (index, name) => {
-    const segment = segments[index];
     const path = `motion.segment[${index}].${name}`;
-    const key = keyTable.sections.find(({ path: of, repeated }) => of === "motion.segment" && repeated)?.keys.find((one) => one.name === name);
-    const typed = (answer.values ?? {})[path] ?? "";
+    const { about, words: list } = keys.find((one) => one.name === name);
     const isGiven = answer.given.includes(path);
-    const label = `${text("segment")} ${index + 1}: ${text(`end_${name}`)}`;
-    // A dwell rests, and only these laws continue what was before.
-    const disabled = !isGiven && (segment.law === "dwell" || (name === "start" && !BY_STATES.includes(segment.law)));
-    const list = { end: ["rest", "turn", "moving"], start: ["continued", "free"] }[name];
-    let input;
-    if (list) {
-      input = make("select", { "aria-label": label, disabled, title: key?.about ?? "", "data-end": `${index}-${name}` }, make("option", { value: "" }, "–"), ...list.map((word_) => make("option", { value: word_ }, text(`end_${word_}`))));
-      input.value = isGiven ? typed.toLowerCase() : "";
-    } else {
-      input = make("input", { type: "text", value: isGiven ? typed : "", disabled, placeholder: name === "velocity" ? present(segment) : "", title: key?.about ?? "", "aria-label": label, "data-end": `${index}-${name}` });
-      const choices = { inflection: ["smooth", "match"], velocity: ["auto"], acceleration: ["auto"] }[name];
-      input.setAttribute("list", `end-words-${name}`);
-      if (!byId(`end-words-${name}`)) byId("motion").append(make("datalist", { id: `end-words-${name}` }, ...choices.map((word_) => make("option", { value: word_ }))));
+    const typed = isGiven ? answer.values?.[path] ?? "" : "";
+    const { law } = segments[index];
+    // A dwell rests, and only some laws continue what was before.
+    const same = { "aria-label": `${text("segment")} ${index + 1}: ${text(`end_${name}`)}`, title: about, "data-end": `${index}-${name}`, disabled: !isGiven && (law === "dwell" || (name === "start" && !BY_STATES.includes(law))) };
+    const input = list ? make("select", same, ...["", ...list].map((word_) => make("option", { value: word_ }, word_ || "–"))) : make("input", { ...same, type: "text", placeholder: name === "velocity" ? present(segments[index]) : "" });
+    input.value = list ? typed.toLowerCase() : typed;
+    if (!list) {
+      const words_ = `end-words-${name}`;
+      input.setAttribute("list", words_);
+      if (!byId(words_)) byId("motion").append(make("datalist", { id: words_ }, ...(name === "inflection" ? ["smooth", "match"] : ["auto"]).map((value) => make("option", { value }))));
     }
     input.addEventListener("change", () => {
       const value = input.value.trim().replace(/^([+-]?[\d.]*),(\d+)$/, "$1.$2");

@@ -81,7 +81,7 @@ function listenToTabs() {
     };
     if (!other || other.lastCam) return show();
     // A design of a tab that was not shown yet is made first.
-    ask(() => ({ name: other.name, toml: other.now.toml, files: other.files, command: other.now.command, rpm: other.now.rpm, page: STEPS.rest, tolerance: other.tolerance }), (answer) => {
+    ask(() => requestOf({ page: STEPS.rest, tolerance: other.tolerance }, other), (answer) => {
       if (!answer.cam?.views) return complain(answer.faults ?? [{ message: text("refused") }]);
       for (const view of answer.cam.views) view.columns = closed(view);
       other.lastCam = answer.cam;

@@ -46,23 +46,20 @@ function peakNear({ places, values, view }, best, sign) {
   return null;
 }
 
-/** The sizes that the report of a cam has in a unit: in its figures, and of the rates of its segments. */
-function reportedSizes(cam, unit, order, factor) {
-  const isUnit = (of) => of === unit;
-  const inSections = cam.sections.flatMap(({ values }) => values.filter(([, value, of]) => typeof value === "number" && isUnit(of)).map(([, value]) => value));
-  const inChecks = cam.checks.filter(({ unit: of, value }) => isUnit(of) && value !== null).map(({ value }) => value);
-  // Rates of segments are those of the unit of the motion: of an angle they are in degrees.
+/** The sizes that the report of a cam has in a unit: in its figures and checks, and of the rates of its segments, which are in the unit of the motion. */
+function reportedSizes({ sections, checks }, unit, order, factor) {
   const name = [null, "velocity", "acceleration", "jerk"][order];
-  const motion = cam.sections.find(({ key }) => key === "motion")?.values ?? [];
+  const motion = sections.find(({ key }) => key === "motion")?.values ?? [];
   const angle = motion.some(([label, value]) => label === "unit" && value === "deg") ? Math.PI / 180 : 1;
-  const ofSegments = name ? motion.filter(([label, , of]) => label.endsWith(`: ${name}`) && (of === "" || of.startsWith("mm/"))).map(([, value]) => value * angle * factor) : [];
-  return [...inSections, ...inChecks, ...ofSegments].map(Math.abs);
+  const rates = motion.filter(([label, , of]) => name && label.endsWith(`: ${name}`) && (of === "" || of.startsWith("mm/"))).map(([, value]) => value * angle * factor);
+  const figures = [...sections.flatMap(({ values }) => values), ...checks.map(({ value, unit: of }) => ["", value, of])];
+  return [...rates, ...figures.filter(([, value, of]) => typeof value === "number" && of === unit).map(([, value]) => value)].map(Math.abs);
 }
 
-/** An extreme as the report has it, where the report has this one: the same size to what rows can tell. */
+/** An extreme with the digits of the report, where the report has a figure of the same size to what rows can tell. */
 function asReported(value, { view, unit, order = 0, factor = 1 }) {
-  const cam = cams.find(({ views }) => views.includes(view));
   const size = Math.abs(value);
-  const nearest = reportedSizes(cam, unit, order, factor).reduce((best, other) => (Math.abs(other - size) < Math.abs(best - size) ? other : best), Infinity);
+  const sizes = reportedSizes(cams.find(({ views }) => views.includes(view)), unit, order, factor);
+  const nearest = sizes.reduce((best, other) => (Math.abs(other - size) < Math.abs(best - size) ? other : best), Infinity);
   return Math.abs(nearest - size) <= SAME_FIGURE * size ? Math.sign(value) * nearest : value;
 }

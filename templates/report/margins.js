@@ -1,14 +1,7 @@
 // The answer first: the verdict, and how much of each limit the cam uses.
 
-/** Words of the strip; the live page has them in each language. */
-const PHRASES = {
-  verdictPass: "PASS", verdictFail: "FAIL", verdictWarn: "WARN", verdictRefused: "REFUSED", verdictInfo: "SHOWN",
-  checksPassed: "{passed} of {all}", provenFile: "proved on the written file", noLimits: "nothing to judge",
-  asCut: "As cut, filled on purpose", moreChecks: "{count} more, all with room", allChecks: "all checks", ofLimit: "{value} {side} {limit}", atPlace: "at {place}", used: "{used} %",
-  atMost: "of at most", atLeast: "of at least", otherSide: "limit",
-  margins: "Tightest margins", loads: "Motion and loads", moreCurves: "+ curves",
-};
-let phrase = (name, values = {}) => PHRASES[name].replace(/\{(\w+)\}/g, (_, key) => values[key]);
+/** The words of the strip by their names, with values in the places of {names}: of the report, or of the live page in its language. */
+let phrase;
 /** The name of a check in the language of the page. */
 let checkName = (check) => words(check.check);
 

@@ -153,18 +153,8 @@ function tables() {
   fill("missing", ...cams.map(missingOf));
 }
 
-/** Where the curves are stacked, the diagrams with all their curves and legends are folded. */
+/** The box in which the report folds its diagrams below the stack. */
 let allDiagrams = null;
-function foldDiagrams() {
-  if (!usesStack()) return;
-  watchers.push(stack);
-  if (!byId("lead")) return;
-  byId("moving").classList.add("stacked");
-  byId("curves-choice").hidden = false;
-  allDiagrams = make("details", {}, make("summary", {}, byId("curves-title")), byId("plots"));
-  byId("curves").append(allDiagrams);
-  allDiagrams.addEventListener("toggle", () => isPrinting() || drawPlots());
-}
 
 function redraw() {
   drawPlots();
@@ -242,7 +232,7 @@ function start() {
     byId("solid").hidden = false;
     byId("solid").append(...solids.map((solid) => solid.figure));
   }
-  foldDiagrams();
+  if (usesStack()) watchers.push(stack);
   faster(1);
   begin();
   // What is above the mechanism takes its room.

@@ -4,7 +4,7 @@
 const LANES = [["lift", "s"], ["velocity", "v"], ["acceleration", "a"], ["jerk", "j"], ["pressure-angle", "α"], ["torque", "T"], ["residual", "F"], ["force", "F"], ["balance", "F"], ["press", "x"], ["profile-curvature", "1/ρ"], ["pitch-curvature", "1/ρ"]];
 const MOST_LANES = 6;
 /** Room for names at the left and values at the right, px; on a narrow screen names stand above their curves. */
-const STACK = { left: 114, right: 78, narrow: 430, head: 8, foot: 34, gap: 7, least: 58 };
+const STACK = { left: 114, right: 78, narrow: 430, head: 8, foot: 34, gap: 7 };
 /** The largest share of the height of a lane between two samples of a curve that is continuous: a larger one is a step. */
 const STEP = 0.3;
 

@@ -275,6 +275,83 @@ def forms(browser, binary, directory, generator):
         live.close()
 
 
+# Every field as it is shown, and the text that comes of another value in each: the form's own changes, all in one evaluation. The page asks the program
+# for the changed text alone, and is told that the value is refused, so that its design stays as it was.
+EVERY_KEY = """async (withAbsent) => {
+  const real = window.fetch, texts = [], asked = [];
+  const packed = (answer) => { const head = new TextEncoder().encode(JSON.stringify({ files: [], ...answer })); const all = new Uint8Array(4 + head.length); new DataView(all.buffer).setUint32(0, head.length, true); all.set(head, 4); return new Response(all); };
+  window.fetch = async (path, options) => {
+    const request = path === '/engine' ? JSON.parse(options.body) : {};
+    if (!request.changes?.length) return real(path, options);
+    if (request.report) return packed({ toml: request.toml, faults: [{ message: 'not now' }] });
+    // The texts are made side by side, while the page goes on.
+    texts.push(real(path, { ...options, body: JSON.stringify({ ...request, task: 'text', page: null }) }).then((made) => made.arrayBuffer()).then((bytes) =>
+      JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, new DataView(bytes).getUint32(0, true)))).toml));
+    return packed({ toml: request.toml, faults: [{ message: 'not now' }] });
+  };
+  const numbered = (typed) => typed.replace(/[\\d.]+/, (number) => String(Number((Number(number) * 1.25 + 1).toFixed(3))));
+  for (const box of document.querySelectorAll('.field')) {
+    if (!withAbsent && box.classList.contains('absent')) continue;
+    const field = box.querySelector('input[type=text], select'), shown = field.value, key = field.id.slice(4);
+    const options = [...(field.options ?? [])].map(({ value }) => value).filter((value) => value !== shown && value && !value.startsWith('\\0'));
+    const sample = shown || (field.placeholder ?? '').replace(/^e\\.g\\. /, '');
+    const value = field.options ? options.at(-1) : /\\d/.test(sample) ? numbered(sample) : `${sample}x`;
+    asked.push({ key, shown, value, isGiven: !box.classList.contains('absent') });
+    if (value === undefined) continue;
+    field.value = value;
+    field.dispatchEvent(new Event('change'));
+    field.value = shown;
+  }
+  const count = asked.filter(({ value }) => value !== undefined).length;
+  while (texts.length < count) await new Promise((resolve) => setTimeout(resolve, 5));
+  window.fetch = real;
+  const made = await Promise.all(texts);
+  return asked.map((one) => ({ ...one, toml: one.value === undefined ? null : made.shift() }));
+}"""
+
+
+# Designs of which the keys that the file does not give are written too: of a cam, and of a press.
+WITH_ABSENT = ("lever", "dpi")
+
+
+def twin(key):
+    """The other name of a radius or a diameter, of which a file has one."""
+    return key.replace("diameter", "radius") if "diameter" in key else key.replace("radius", "diameter")
+
+
+def every_key(browser, binary, directory):
+    """All keys of all embedded designs and their commands: each field shows the value of the file, and another value changes this key alone; of some also all absent keys."""
+    shown = written = 0
+    for name, commands in DESIGNS.items():
+        with Serving(binary, directory, name) as address:
+            live = Live(browser, address, "http://127.0.0.1:")
+            for command in commands:
+                if command != commands[0]:
+                    live.after(lambda: live.page.select_option("#command", command))
+                before = keys_of(live.toml())
+                fields = live.page.evaluate(EVERY_KEY, name in WITH_ABSENT and command == commands[0])
+                for one in fields:
+                    key, what = one["key"], (name, command, one)
+                    given = str(before.get(key, ""))
+                    if isinstance(before.get(key), list):
+                        assert re.sub(r"[^\w.+-]", "", given) == re.sub(r"[^\w.+-]", "", one["shown"].replace('"', "'")), what
+                    elif one["isGiven"]:
+                        assert number_of(one["shown"]) == number_of(given) or one["shown"].lower() == given.lower(), what
+                    shown += one["isGiven"]
+                    if one["toml"] is None:
+                        continue
+                    after = keys_of(one["toml"])
+                    changed = {other for other in before.keys() | after.keys() if before.get(other) != after.get(other)}
+                    assert key in changed and changed <= {key, twin(key)}, (changed, what)
+                    assert number_of(after[key]) == number_of(one["value"]) or re.sub(r"[^\w.+-]", "", str(after[key])).lower() == re.sub(r"[^\w.+-]", "", one["value"]).lower(), (after[key], what)
+                    written += 1
+                # A key that has no field is one of other commands, or of no cam at all.
+                lacking = (set(before) if command == commands[0] else lacking) - {one["key"] for one in fields}
+            live.close()
+            assert all(key.startswith("translating.") for key in lacking) and (not lacking or "translating" not in commands), (name, lacking)
+    return shown, written
+
+
 def undone(live, sent):
     """Undo leads back to the text as it was sent."""
     while live.page.is_enabled("#undo"):
@@ -904,6 +981,7 @@ def main():
         for name in names:
             print("live:", judge(browser, options, directory, name.split(":")[0], known[name], generator), flush=True)
         outdated(browser, directory, names[0].split(":")[0])
+        print("live: {} values shown as in their files, {} keys written, each alone".format(*every_key(browser, options.binary, directory)), flush=True)
         forms(browser, options.binary, directory, generator)
         tabled(browser, options.binary, directory)
         usual_names(browser, options.binary, directory)
