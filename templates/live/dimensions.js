@@ -146,8 +146,12 @@ function dimensionBoxes() {
     const radiusOf = (label) => sizeInReport(label) / pixel;
     put(circle, "r", "0");
     for (const one of boxes) {
+      // Until the fields of another design are there, a box of the one before may measure what this one has not.
+      const [needsPivot, needsRoller] = [["arm", "pivot"], ["arm", "roller"]].map((kinds) => kinds.includes(one.kind));
+      one.input.hidden = (needsPivot && !pivot) || (needsRoller && !roller);
+      if (one.input.hidden) continue;
       const side = roller && roller[0] < centre[0] ? -1 : 1;
-      if (one.kind === "pivot" && pivot) length(one, centre, pivot, [-1, 0], centre[0] - Math.max(wide / 2 + 4, Math.min(toScreen([view.box[0], 0])[0] - 12, centre[0] - 60)));
+      if (one.kind === "pivot") length(one, centre, pivot, [-1, 0], centre[0] - Math.max(wide / 2 + 4, Math.min(toScreen([view.box[0], 0])[0] - 12, centre[0] - 60)));
       if (one.kind === "arm") {
         const reach = Math.hypot(roller[0] - pivot[0], roller[1] - pivot[1]) || 1;
         const way = roller[0] < pivot[0] ? -1 : 1;
