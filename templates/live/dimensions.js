@@ -1,7 +1,7 @@
 // Dimensions in the picture of the cam, in boxes: a click to type, a drag to change.
 
 /** Sizes on the screen, px: of a box, the distance of a line from an arm, an arrow head, the least travel that is a drag, and the least picture that has dimensions. */
-const DIMENSION = { wide: 56, high: 22, away: 30, arrow: 6, drag: 3, picture: 300 };
+const DIMENSION = { wide: 62, high: 22, away: 30, arrow: 6, drag: 3, picture: 300 };
 
 /** The figure of the report with a name, mm. */
 function sizeInReport(label) {
