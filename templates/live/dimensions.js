@@ -146,9 +146,8 @@ function dimensionBoxes() {
     const radiusOf = (label) => sizeInReport(label) / pixel;
     put(circle, "r", "0");
     for (const one of boxes) {
-      // Until the fields of another design are there, a box of the one before may measure what this one has not.
-      const [needsPivot, needsRoller] = [["arm", "pivot"], ["arm", "roller"]].map((kinds) => kinds.includes(one.kind));
-      one.input.hidden = (needsPivot && !pivot) || (needsRoller && !roller);
+      // Until the fields of another design are there, a box may measure what it has not.
+      one.input.hidden = { base: [], roller: [roller], arm: [pivot, roller], pivot: [pivot] }[one.kind].includes(undefined);
       if (one.input.hidden) continue;
       const side = roller && roller[0] < centre[0] ? -1 : 1;
       if (one.kind === "pivot") length(one, centre, pivot, [-1, 0], centre[0] - Math.max(wide / 2 + 4, Math.min(toScreen([view.box[0], 0])[0] - 12, centre[0] - 60)));
@@ -160,7 +159,7 @@ function dimensionBoxes() {
       if (one.kind === "roller") round(one, roller, radiusOf("roller radius"), [side * 0.94, 0.34], [side * (wide / 2 + 22), 14]);
       if (one.kind === "base") {
         const radius = radiusOf("base radius");
-        Object.entries({ cx: centre[0], cy: centre[1], r: radius }).forEach(([name, value]) => put(circle, name, String(value)));
+        for (const [name, value] of [["cx", centre[0]], ["cy", centre[1]], ["r", radius]]) put(circle, name, String(value));
         round(one, centre, radius, [Math.SQRT1_2, Math.SQRT1_2], [46, 40]);
       }
     }
