@@ -8,7 +8,7 @@ use camgen::body::{RateTolerance, Request};
 use camgen::document::Input;
 use camgen::domains::press::MachineOfPress;
 use camgen::domains::press::SpecOfPress;
-use camgen::pipeline::{Cam, Output, Proven, Spec};
+use camgen::pipeline::{Assembly, AssemblyDrawing, Output, ProvenAssembly, Spec};
 use camgen::report::Report;
 use camgen::write::record::{WriteInputs, refuse_protected, stage_recorded};
 use camgen::write::{html, json, svg};
@@ -38,8 +38,8 @@ pub(super) fn run(args: &SideBySideArgs) -> Result<Outcome, Failure> {
         report.files = vec![camgen::report::listed_path(&args.out.join(&name))];
     }
     let page = {
-        let shown = a.rendering(&one, SAMPLES, svg::TEMPLATE).map_err(Failure::new)?;
-        let second = b.rendering(&two, SAMPLES, svg::TEMPLATE).map_err(Failure::new)?;
+        let shown = a.first().rendering(&one, SAMPLES, svg::TEMPLATE).map_err(Failure::new)?;
+        let second = b.first().rendering(&two, SAMPLES, svg::TEMPLATE).map_err(Failure::new)?;
         html::side_by_side(&shown, &second).map_err(Failure::new)?
     };
     let inputs = [("first", &one), ("second", &two)]
@@ -53,8 +53,8 @@ pub(super) fn run(args: &SideBySideArgs) -> Result<Outcome, Failure> {
 }
 
 impl SideBySideArgs {
-    /// The disc cam of a file, and the stem of its files.
-    fn solved(&self, name: &str) -> Result<(Cam, String), Failure> {
+    /// The disc cam of a file with the cams that belong to it, and the stem of its files.
+    fn solved(&self, name: &str) -> Result<(Assembly, String), Failure> {
         let (machine, stem) = machine_of_a_cam(name, &self.set)?;
         let spec = match (machine.press().map(|press| press.design_rpm), machine.motion()) {
             (Err(_), Some(_)) => Spec::of_program(machine, self.rpm),
@@ -67,13 +67,13 @@ impl SideBySideArgs {
         if spec.machine().program().is_some_and(|program| program.stroke().is_some()) {
             return Err(Failure(format!("{name}: side-by-side compares cams that turn, and this one is a plate")));
         }
-        Ok((spec.solve().map_err(|error| Failure(format!("{name}: {error}")))?, stem))
+        Ok((spec.assemble().map_err(|error| Failure(format!("{name}: {error}")))?, stem))
     }
 
-    fn proven(&self, cam: &Cam) -> Result<Proven, Failure> {
+    fn proven(&self, cams: &Assembly) -> Result<ProvenAssembly, Failure> {
         let rates = [None, Some(RateTolerance::Share(ACCELERATION))];
         let request = Request { rates, strict: [false; 2], ..Request::within(self.tolerance.unwrap_or(TOLERANCE)) };
-        cam.draw(request).and_then(camgen::pipeline::Drawing::prove).map_err(Failure::new)
+        cams.draw(request).and_then(AssemblyDrawing::prove).map_err(Failure::new)
     }
 
     fn show(&self, reports: &[&Report]) -> Result<(), Failure> {

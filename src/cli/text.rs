@@ -61,6 +61,8 @@ fn written(first: &str, report: &Report, page: Page) -> String {
         lines.push("  checks".into());
     }
     lines.extend(checks(&report.checks, report.units, page));
+    let failed = report.other_checks.iter().filter(|finding| finding.verdict == Verdict::Fail);
+    lines.extend(checks(&failed.cloned().collect::<Vec<_>>(), report.units, page));
     let terms = glossary::terms_in(&lines.join("\n"));
     let notes: Vec<String> = report.notes.iter().map(|note| note.in_unit(report.units)).collect();
     let lists =
@@ -93,7 +95,9 @@ fn cells(finding: &Finding, units: LengthUnit) -> [String; 5] {
     let value = finding.shown_value(units);
     let place = if finding.place == Place::default() { String::new() } else { finding.place.text().in_unit(units) };
     let limit = finding.limit_words(units).unwrap_or_default();
-    [finding.check.to_string(), value.number, value.unit.into_owned(), limit, place]
+    let check =
+        finding.part.as_ref().map_or_else(|| finding.check.to_string(), |part| format!("{part}: {}", finding.check));
+    [check, value.number, value.unit.into_owned(), limit, place]
 }
 
 /// A line for each check, in columns, and one below where there is more to say.

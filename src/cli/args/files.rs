@@ -42,7 +42,7 @@ pub(in crate::cli) struct OutputArgs {
     #[arg(long, value_name = "UNIT", ignore_case = true, value_parser = word::<LengthUnit>())]
     pub(in crate::cli) units: Option<LengthUnit>,
 
-    /// Template of the SVG review sheet instead of the built-in one, templates/sheet.svg
+    /// Template of the SVG sheets instead of the built-in one, templates/sheet.svg
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) template: Option<PathBuf>,
 
@@ -83,7 +83,7 @@ pub(in crate::cli) struct OutlineArgs {
 /// What is written, where, and how.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct FileArgs {
-    /// Formats to write: dxf, svg, step, csv, json, html (the moving report), pdf (the review sheet and the motion diagram), diagram (the motion diagram as SVG), points, gcode (a program for a milling machine), servo-csv, servo-xyva (CODESYS), servo-twincat and servo-isg (tables for a servo drive), inspect (places for a measuring machine), gauge (the lift of a gauge follower), and stl for a conoid
+    /// Formats to write: dxf, svg, step, csv, json, html (the moving report), pdf (drawing, review sheet and motion diagram), diagram (the motion diagram as SVG), points, gcode (a program for a milling machine), servo-csv, servo-xyva (CODESYS), servo-twincat and servo-isg (tables for a servo drive), inspect (places for a measuring machine), gauge (the lift of a gauge follower), and stl for a conoid
     /// [default: dxf,svg,step,csv]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
     pub(in crate::cli) format: Option<Vec<String>>,

@@ -139,8 +139,8 @@ Measured points: camgen import points.csv --follower roller,diameter=24mm --ball
 
 pub(super) const COMPARE: &str = "\
 Examples:
-  camgen compare measured.csv lifter.toml --ball 3mm
-      centres of a ball of radius 3 mm, turned to fit; exit code 1 where a point leaves title.profile_tolerance
+  camgen compare centres.csv lifter.toml --ball 3mm
+      centres of a ball of radius 3 mm, turned to fit; exit code 1 where a point leaves cam.profile_tolerance
   camgen compare measured.csv lifter.toml --fit centre --format csv,svg,html
       also the centre is fitted: the report has the eccentricity";
 

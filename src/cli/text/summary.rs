@@ -18,6 +18,8 @@ const BAR: u8 = 10;
 const FULLEST_PASS: f64 = 0.999;
 /// Lines of a note that is shown before facts are left out.
 const SHORT_NOTE: usize = 2;
+/// The section with the design that an analysis found.
+const DESIGN: &str = "design";
 /// Notes and missing data that are named one by one.
 const MOST_NOTES: usize = 2;
 
@@ -83,6 +85,7 @@ fn summary_within(report: &Report, beside: Beside<'_>, page: Page, height: usize
     if summary.facts.is_empty() && report.sections.iter().all(|section| section.table.is_none()) {
         blocks.extend(words_of_sections(report, page));
     }
+    blocks.extend(design(report));
     blocks.extend(margins(&summary, units, page));
     blocks.extend(notes(report, page));
     blocks.extend(files(report, page));
@@ -145,8 +148,12 @@ fn sentence(finding: &Finding, units: LengthUnit) -> String {
     format!("{} {}{limit}{place}", finding.title(), finding.brief_value(units))
 }
 
-/// "jump speed 343.9 rpm, at least 650 rpm is asked, at 299.2°".
+/// "jump speed 343.9 rpm, at least 650 rpm is asked, at 299.2°"; the note of a check that fails although its figure keeps the limit.
 fn asked(finding: &Finding, units: LengthUnit) -> String {
+    let keeps = finding.margin().is_some_and(|used| used <= 1.0);
+    if let Some(note) = finding.note.as_ref().filter(|_| finding.verdict == Verdict::Fail && keeps) {
+        return format!("{}: {}", finding.title(), note.in_unit(units));
+    }
     let limit = limit_words(finding, units).map_or_else(String::new, |limit| format!(", {limit} is asked"));
     let place = place(finding, units);
     let place = if place.is_empty() { place } else { format!(", at {place}") };
@@ -185,10 +192,10 @@ fn causes(report: &Report, summary: &Summary<'_>, remedy: Option<&TriedRemedy>, 
         without.or_else(|| finding.note.clone()).filter(|note| !note.is_empty())
     };
     for (index, failed) in summary.failed.iter().enumerate() {
-        let label = if index == 0 { "cause" } else { "" };
         // The first is in the headline.
         let name = if index == 0 { Text::default() } else { Text::from(failed.title()) };
         if let Some(why) = why(failed) {
+            let label = if blocks.is_empty() { "cause" } else { "" };
             let lines = labelled(label, &name.and(": ", why).in_unit(units), page);
             blocks.push(Block { keep: if index == 0 { 9 } else { 4 }, lines });
         }
@@ -252,6 +259,17 @@ fn words_of_sections(report: &Report, page: Page) -> Vec<Block> {
     report.sections.iter().flat_map(words_of).collect()
 }
 
+/// The table of a machine file that an analysis found, to be pasted there.
+fn design(report: &Report) -> Option<Block> {
+    let section = report.sections.iter().find(|section| section.key == DESIGN && section.facts.is_empty())?;
+    let line = |(index, words): (usize, &camgen::report::ReportLine)| {
+        let label = if index == 0 { DESIGN } else { "" };
+        format!("  {label:<width$}{}", plain(&words.text.in_unit(report.units)), width = TEXT - 2)
+    };
+    let lines = std::iter::once(String::new()).chain(section.words.iter().enumerate().map(line)).collect();
+    Some(Block { keep: 9, lines })
+}
+
 /// The checks that use most of their limits, those with room in a line, and those of what was written.
 fn margins(summary: &Summary<'_>, units: LengthUnit, page: Page) -> Vec<Block> {
     let mut blocks = Vec::new();
@@ -304,7 +322,8 @@ fn margin(finding: &Finding, units: LengthUnit, page: Page) -> String {
     let limit = limit_words(finding, units).unwrap_or_default();
     let (title, value, place) = (finding.title(), finding.brief_value(units).to_string(), short_place(finding, units));
     // What is wide takes the blanks of its neighbour.
-    let name = format!("    {title:<20}{value:>11}");
+    let rest = 31_usize.saturating_sub(title.chars().count()).max(value.chars().count() + 1);
+    let name = format!("    {title}{value:>rest$}");
     let row = format!("{name}  {limit:<17}{share:>7}  {bar:<10} {place:>6}");
     painted_word(row.trim_end(), page)
 }

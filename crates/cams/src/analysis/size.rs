@@ -273,10 +273,12 @@ fn sizes(disc: &Disc) -> Vec<SizeRow> {
 
 /// The smallest cam, what keeps it from being smaller, and the place of the follower that would allow the smallest one.
 fn summarised(disc: &Disc, size: &Size, section: Section) -> Section {
-    let smallest = size
-        .figures
-        .smallest_base_radius_mm
-        .map(|radius| text!("the smallest base radius that keeps every limit is {}", Length::mm(radius).brief()));
+    let smallest = size.figures.smallest_base_radius_mm.map(|radius| {
+        text!(
+            "the smallest base radius with which pressure angle, curvature, wall and stress pass is {}",
+            Length::mm(radius).brief()
+        )
+    });
     let chosen = text!(
         "base R{}, prime R{}",
         Length::mm(size.base_radius_mm).nominal(),

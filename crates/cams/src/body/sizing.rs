@@ -78,7 +78,7 @@ pub fn no_radius(binding: Option<&'static str>, of_program: bool) -> String {
             "no base radius would pass: the velocity of the follower jumps; avoid that by another transition.kind, such as \"run-up\""
                 .into()
         }
-        Some(limit) => format!("no base radius would pass: limits.{limit} is broken at any"),
+        Some(check) => format!("no base radius would pass: {} fails at any", check.replace('_', " ")),
         None => "no base radius that would pass was found".into(),
     }
 }

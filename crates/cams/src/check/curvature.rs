@@ -65,5 +65,8 @@ pub fn min_convex_radius(least: &Worst, roller: Option<f64>, subject: &Subject<'
     let limit = limits.convex_radius(roller);
     let kept = least.value >= limit * (1.0 - ROUNDING);
     let note = if kept { None } else { (subject.remedy)() };
-    Some(MIN_CONVEX_RADIUS.measure(1e3 * least.value, Some(1e3 * limit)).kept(kept).noted(note).at(subject, least))
+    // The profile is sharper than the pitch curve by the radius of the roller.
+    let named = (roller > 0.0).then_some("pitch curve radius");
+    let measure = Measure { named, ..MIN_CONVEX_RADIUS.measure(1e3 * least.value, Some(1e3 * limit)) };
+    Some(measure.kept(kept).noted(note).at(subject, least))
 }

@@ -4,7 +4,7 @@ use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
 use crate::report::{Bound, Verdict};
 use camgen_kernel::follower::{Carrier, FaceMiddle};
 use camgen_kernel::profile::{Worst, extremes};
-use camgen_kernel::text::{KeyChange, Length, text};
+use camgen_kernel::text::{KeyChange, Length, Remedy, Text, text};
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -51,13 +51,22 @@ pub fn measure(subject: &Subject<'_>) -> Option<Measure> {
         (Some(_), Carrier::Stem { offset, tilt }) => {
             let middle = offset + 0.5 * (least.value + most.value) * libm::cos(tilt);
             let narrowest = 1e3 * (most.value - least.value);
+            let moved = (middle - offset).abs() > ROUNDING;
             let change = KeyChange::new(format!("{path}.offset"), format!("{:.3} mm", 1e3 * middle));
-            Some(text!("with {} it needs {}", change.to_string(), Length::mm(narrowest).decimals(3)))
+            let narrower =
+                moved.then(|| text!("with {} it needs {}", change.to_string(), Length::mm(narrowest).decimals(3)));
+            Some(wider(path, needed).and("; ", narrower))
         }
-        (Some(_), _) => Some("a face as wide as this, from the contact nearest to the pivot on, would pass".into()),
+        (Some(_), _) => Some(wider(path, needed).and("", ", from the contact nearest to the pivot on")),
     };
     let worst = Worst { value: place.value, at: place.at, z: 0.0 };
     let note = contacts.and("; ", remedy.unwrap_or_default());
     let measure = CHECK.measure(1e3 * needed, face.width.map(|width| 1e3 * width)).judged(verdict).noted(note);
     Some(measure.at(subject, &worst))
+}
+
+/// The change to a face that is as wide as it must be, m, in whole millimetres.
+fn wider(path: &str, needed: f64) -> Text {
+    let width = KeyChange::new(format!("{path}.width"), format!("{} mm", (1e3 * needed - 1e-6).ceil()));
+    text!("{} would pass", Remedy::new([width]))
 }

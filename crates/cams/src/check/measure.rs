@@ -20,6 +20,8 @@ pub struct Measure {
     pub place: Place,
     /// A note on it, and a change that would keep the limit.
     pub note: Option<Text>,
+    /// The name of the finding for people, where it is another than that of the check.
+    pub named: Option<&'static str>,
     /// What a summary says of it among its facts.
     pub fact: Option<Fact>,
     /// What its verdict rests on without having been given.
@@ -98,6 +100,7 @@ impl Measure {
         Finding {
             place: self.place,
             note: self.note.clone(),
+            named: self.named,
             fact: self.fact.clone(),
             assumes: self.assumes.clone(),
             missing: self.missing.clone(),

@@ -110,6 +110,7 @@ impl Check {
             limit,
             place: Place::default(),
             note: None,
+            named: None,
             fact: None,
             assumes: None,
             verdict: None,
@@ -129,6 +130,7 @@ impl Check {
     pub fn found(&self, value: f64, limit: Option<f64>, verdict: Verdict) -> Finding {
         Finding {
             check: self.name.into(),
+            part: None,
             value,
             limit,
             bound: limit.map(|_| self.explained.bound),
@@ -138,6 +140,7 @@ impl Check {
             missing: None,
             about: Some(self.about),
             is_as_cut: self.on.is_as_cut(),
+            named: None,
             fact: None,
             assumes: None,
             note: None,

@@ -36,7 +36,11 @@ pub fn measure((exact, place): (f64, Option<Worst>), written: &AsWritten<'_>, su
     let about_holes = limits.wall.map_or(ABOUT_HOLES, |wall| 1e3 * wall);
     let customary = limits.wall.is_none().then(|| Text::from("the customary limit"));
     if let Some(holes) = written.walls.about_holes.filter(|wall| wall.distance < about_holes - written.tolerance_mm) {
-        let note = Text::from("about a balance hole; a narrower cam.balance leaves more");
+        let note = Text::from(if subject.machine.holes.is_empty() {
+            "about a balance hole; a narrower cam.balance leaves more"
+        } else {
+            "about a hole; another circle or angle in cam.holes, a smaller diameter, or a narrower cam.balance leaves more"
+        });
         return CHECK.measure(holes.distance, Some(about_holes)).kept(false).noted(note).placed(holes.place);
     }
     // Of a cam whose sections differ the thinnest place may lie between those that are written.

@@ -240,6 +240,16 @@ impl ProvenAssembly {
         self.others.iter().map(|(name, cam)| (name.as_str(), failed(cam))).collect()
     }
 
+    /// What the checks of the other cams found, those of the written files only where they failed.
+    fn other_checks(&self) -> Vec<Finding> {
+        let of = |(name, cam): &(String, Proven)| -> Vec<Finding> {
+            let told = |finding: &&Finding| !finding.is_as_cut || finding.verdict == Verdict::Fail;
+            let named = |finding: &Finding| Finding { part: Some(name.clone()), fact: None, ..finding.clone() };
+            cam.findings().iter().filter(told).map(named).collect()
+        };
+        self.others.iter().flat_map(of).collect()
+    }
+
     /// Why there is no outline of a cam that has none.
     #[must_use]
     pub fn no_outline(&self) -> Option<&str> {
@@ -249,7 +259,8 @@ impl ProvenAssembly {
     /// The report of the first cam, with what all do together, without files.
     #[must_use]
     pub fn report(&self) -> Report {
-        self.first.report_with(self.joint_sections(), self.no_outline())
+        let report = self.first.report_with(self.joint_sections(), self.no_outline());
+        Report { other_checks: self.other_checks(), ..report }
     }
 
     /// The sections of that report with these figures, by their paths; `None` for all.

@@ -110,9 +110,18 @@ impl Explanation {
         self.changes.iter().filter(|change| change.value.is_some()).count()
     }
 
-    fn words(&self) -> String {
+    /// In words: a cause only where it leaves no more than `most` mm.
+    fn words(&self, most: f64) -> String {
         let changes: Vec<&str> = self.changes.iter().map(|change| &*change.words).collect();
-        format!("It would be this cam {}: {:.4} mm remain", changes.join(" and "), self.remaining_mm)
+        let changes = changes.join(" and ");
+        if self.remaining_mm <= most {
+            format!("It would be this cam {changes}: {:.4} mm remain", self.remaining_mm)
+        } else {
+            format!(
+                "It comes near this cam {changes}, but {:.4} mm remain: another cause, or a further one",
+                self.remaining_mm
+            )
+        }
     }
 }
 
@@ -441,7 +450,10 @@ impl Search<'_> {
                  bulges are not those of this cam inverted, lost or at other vertices",
                 self.distance
             )],
-            all => all.iter().map(Explanation::words).collect(),
+            all => {
+                let most = TELLING * MILLIMETRES * self.tolerance;
+                all.iter().map(|found| found.words(most)).collect()
+            }
         };
         Section::new("diagnosis", &self.explanations).with_words(words)
     }

@@ -112,6 +112,7 @@ impl Judged {
             inputs: Inputs::of(&self.inputs()),
             sections: analysis.sections.iter().cloned().chain(sections).collect(),
             checks: self.findings.clone(),
+            other_checks: Vec::new(),
             notes: analysis.notes.iter().cloned().map(Text::from).chain(notes).collect(),
             not_modelled,
             files: Vec::new(),

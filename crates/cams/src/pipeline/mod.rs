@@ -178,6 +178,7 @@ fn report(body: &dyn Body, inputs: Inputs, sections: Vec<Section>, checks: Vec<c
         inputs,
         sections,
         checks,
+        other_checks: Vec::new(),
         notes: machine
             .idle_key_notes(kind.keys, kind.noun)
             .into_iter()

@@ -159,6 +159,9 @@ const ROUNDING: f64 = 1e-6;
 pub struct Finding {
     /// Name of the check.
     pub check: Cow<'static, str>,
+    /// The cam of several that it is about, by its name: "counter"; `None` of the first.
+    #[serde(default)]
+    pub part: Option<String>,
     /// The value that was found; not finite when there is nothing to measure (no concave part, for example), which JSON writes as null.
     #[serde(deserialize_with = "or_nan")]
     pub value: f64,
@@ -183,6 +186,9 @@ pub struct Finding {
     /// Whether it is about the outline as it was written, whose tolerance is filled on purpose, and not about the cam that was designed.
     #[serde(skip)]
     pub is_as_cut: bool,
+    /// Its name for people, where it is another than that of the check.
+    #[serde(skip)]
+    pub named: Option<&'static str>,
     /// What a summary says of it among its facts, where the finding was not read from a report.
     #[serde(skip)]
     pub fact: Option<Fact>,
@@ -199,6 +205,9 @@ impl Serialize for Finding {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("check", &self.check)?;
+        if let Some(part) = &self.part {
+            map.serialize_entry("part", part)?;
+        }
         // JSON has no infinity.
         map.serialize_entry("value", &Some(self.value).filter(|value| value.is_finite()))?;
         map.serialize_entry("limit", &self.limit)?;
@@ -275,7 +284,8 @@ impl Finding {
     #[must_use]
     pub fn title(&self) -> String {
         let words = self.check.replace('_', " ");
-        words.strip_prefix("min ").map_or_else(|| words.clone(), str::to_owned)
+        let title = self.named.unwrap_or_else(|| words.strip_prefix("min ").unwrap_or(&words)).to_owned();
+        self.part.as_ref().map_or_else(|| title.clone(), |part| format!("{part}: {title}"))
     }
 
     /// The value as a summary shows it: four significant digits, and more where they would read as the limit; shares in percent.
@@ -413,6 +423,7 @@ mod tests {
         let place = Place::default();
         Finding {
             check: check.into(),
+            part: None,
             value: 1.0,
             limit: None,
             bound: None,
@@ -422,6 +433,7 @@ mod tests {
             missing: None,
             about: None,
             is_as_cut: false,
+            named: None,
             fact: None,
             assumes: None,
             note: None,

@@ -210,6 +210,8 @@ pub struct Report {
     pub sections: Vec<Section>,
     /// Every check.
     pub checks: Vec<Finding>,
+    /// The checks of the other cams that are made with it, such as the counter disc of a pair.
+    pub other_checks: Vec<Finding>,
     /// What else the user should know, such as keys that have no effect.
     pub notes: Vec<Text>,
     /// What the model leaves out, a sentence each.
@@ -254,7 +256,7 @@ impl Report {
     /// The warning for a cam that breaks a limit.
     #[must_use]
     pub fn warning(&self) -> Option<String> {
-        warning(&self.checks)
+        warning(&self.all_checks().cloned().collect::<Vec<_>>())
     }
 
     /// The values of a section.
@@ -266,7 +268,12 @@ impl Report {
     /// Whether no check failed.
     #[must_use]
     pub fn passed(&self) -> bool {
-        passed(&self.checks)
+        passed(&self.checks) && passed(&self.other_checks)
+    }
+
+    /// The checks of the cam and of the others that are made with it.
+    pub fn all_checks(&self) -> impl Iterator<Item = &Finding> {
+        self.checks.iter().chain(&self.other_checks)
     }
 
     /// The figures for the review sheet.
@@ -307,6 +314,9 @@ impl Serialize for Report {
             map.serialize_entry(&section.key, &section.value)?;
         }
         map.serialize_entry("checks", &self.checks)?;
+        if !self.other_checks.is_empty() {
+            map.serialize_entry("other_checks", &self.other_checks)?;
+        }
         if !self.notes.is_empty() {
             map.serialize_entry("notes", &self.notes.iter().map(Text::to_string).collect::<Vec<_>>())?;
         }
@@ -344,6 +354,7 @@ impl<'de> Visitor<'de> for ReportVisitor {
             inputs: Inputs::default(),
             sections: Vec::new(),
             checks: Vec::new(),
+            other_checks: Vec::new(),
             notes: Vec::new(),
             not_modelled: Vec::new(),
             files: Vec::new(),
@@ -359,6 +370,7 @@ impl<'de> Visitor<'de> for ReportVisitor {
                 "shaft_of_cam" => report.shaft = Some(map.next_value()?),
                 "inputs" => report.inputs = map.next_value()?,
                 "checks" => report.checks = map.next_value()?,
+                "other_checks" => report.other_checks = map.next_value()?,
                 "notes" => report.notes = map.next_value::<Vec<String>>()?.into_iter().map(Text::from).collect(),
                 "not_modelled" => report.not_modelled = map.next_value()?,
                 "files" => report.files = map.next_value()?,
@@ -400,6 +412,7 @@ mod tests {
             sections: vec![Section::new("cam", &serde_json::json!({"base_radius_mm": 69.0, "area_mm2": null}))],
             checks: vec![Finding {
                 check: "wall".into(),
+                part: None,
                 value: 44.0,
                 limit: Some(5.0),
                 bound: Some(Bound::AtLeast),
@@ -409,10 +422,12 @@ mod tests {
                 missing: None,
                 about: None,
                 is_as_cut: false,
+                named: None,
                 fact: None,
                 assumes: None,
                 note: None,
             }],
+            other_checks: Vec::new(),
             notes: vec!["`cam.balance` has no effect on a conoid".into()],
             not_modelled: vec!["Temperature: all sizes are those of the drawing.".into()],
             files: vec!["a.dxf".into()],

@@ -37,7 +37,7 @@ impl<'a> Summary<'a> {
     /// The summary of a report.
     #[must_use]
     pub fn of(report: &'a Report) -> Self {
-        let with = |verdict: Verdict| report.checks.iter().filter(move |finding| finding.verdict == verdict);
+        let with = |verdict: Verdict| report.all_checks().filter(move |finding| finding.verdict == verdict);
         let (failed, warnings): (Vec<_>, Vec<_>) = (with(Verdict::Fail).collect(), with(Verdict::Warn).collect());
         let passed: Vec<&Finding> = with(Verdict::Pass).collect();
         let margins_of = |as_cut: bool| {

@@ -21,7 +21,6 @@ pub(crate) fn section(found: &Closure, main: &dyn Body, (counter_body, checks): 
         "counter_base_radius_mm": prime - roller,
         "counter_roller_radius_mm": roller,
         "closure": found,
-        "counter_checks": checks,
     });
     let size = text!(
         "counter disc: base radius {}, roller Ø{}, prime radius {}",

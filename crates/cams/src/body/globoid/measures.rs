@@ -113,7 +113,7 @@ impl SweptMeasures for Globoid {
         let found = first_that_keeps(distance, LARGEST_GROWTH * distance, keeps).map(rounded_up)?;
         keeps(found)
             .then(|| KeyChange::new("cam.turret_distance", format!("{} mm", shown(MILLIMETRES * found))))
-            .map(|change| text!("{} would keep every limit", Remedy::new([change])))
+            .map(|change| text!("with {} pressure angle, flanks and walls would pass", Remedy::new([change])))
     }
 
     fn longest(&self) -> f64 {

@@ -81,7 +81,8 @@ pub(super) fn judge(evidence: &Evidence<'_>, tables: &[WrittenServo]) -> Option<
     let (value, found, words) = worst?;
     let share = found.velocity / largest_velocity(evidence.body).max(f64::MIN_POSITIVE);
     let kept = value <= limit && share <= VELOCITY_SHARE;
-    let note = format!("{words}; the velocity off by {} of the largest", shown(share));
+    let allowed = if share > VELOCITY_SHARE { format!(", at most {VELOCITY_SHARE} is allowed") } else { String::new() };
+    let note = format!("{words}; the velocity off by {} of the largest{allowed}", shown(share));
     let place = evidence.body.place(found.at);
     Some(Finding { place, note: Some(note.into()), ..CHECK.found(value, Some(limit), Verdict::of(kept)) })
 }
