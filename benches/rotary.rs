@@ -70,10 +70,10 @@ fn stages(criterion: &mut Criterion) {
     let proven = solved.draw(5e-6).expect("an outline").prove().expect("one outline");
     let report = proven.lazy_report();
     let rendering = proven.rendering(&report, 720, svg::TEMPLATE).expect("an outline");
-    let sheet = svg::sheet(&rendering).expect("a sheet");
+    let sheet = svg::drawing(&rendering, "1/2").expect("a sheet");
     let entities = part.entities();
     criterion.bench_function("output/dxf", |b| b.iter(|| dxf::write(black_box(&entities), Version::R2000)));
-    criterion.bench_function("drawing/sheet", |b| b.iter(|| svg::sheet(black_box(&rendering))));
+    criterion.bench_function("drawing/sheet", |b| b.iter(|| svg::drawing(black_box(&rendering), "1/2")));
     criterion.bench_function("output/svg", |b| b.iter(|| svg::write(black_box(&sheet), svg::TEMPLATE)));
     criterion.bench_function("drawing/table", |b| b.iter(|| Table::from_rows(&black_box(&cam).rows(720))));
     let points = cam.rows(10_000);

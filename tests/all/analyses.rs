@@ -433,7 +433,7 @@ fn a_compensating_cam_takes_the_torque() {
     let mut names = written(&made);
     names.retain(|name| name.contains("-compensator."));
     assert_eq!(names.len(), 4, "{names:?}");
-    assert_eq!(told["files"].as_array().map(Vec::len), Some(8), "those of both discs");
+    assert_eq!(told["files"].as_array().map(Vec::len), Some(10), "those of both discs");
     let kept = run(0, &[&["rotary", "--format", "dxf,json"], &SPRING[..]].concat());
     let inside = fs::read_to_string(file(&kept, "dpi-rotary-35rpm.json")).expect("a report");
     assert_eq!(inside.matches("-compensator.").count(), 2, "its own report names the files of the second disc");
@@ -510,7 +510,7 @@ fn a_compensating_cam_is_judged_with_its_cam() {
     let out = &refused.out;
     assert!(out.contains("of the compensating cam: pressure_angle") && out.contains("would pass"), "{out}");
     assert!(written(&refused).is_empty());
-    assert_eq!(written(&run(1, &[&args[..], &["--force"]].concat())).len(), 8);
+    assert_eq!(written(&run(1, &[&args[..], &["--force"]].concat())).len(), 10);
     for (keys, why) in [
         ("spring_rate=100N/mm", "missing key `compensator.preload`"),
         ("spring_rate=100N/mm,preload=0N", "must be above 0"),

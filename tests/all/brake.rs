@@ -133,7 +133,13 @@ fn the_disc_holds_the_tension() {
     {
         let made = run(0, &[&["brake", "--cam"], more].concat());
         let names = files(&made.directory.path().join("output"));
-        let cam = ["roll-brake-cam.csv", "roll-brake-cam.dxf", "roll-brake-cam.step", "roll-brake-cam.svg"];
+        let cam = [
+            "roll-brake-cam-review.svg",
+            "roll-brake-cam.csv",
+            "roll-brake-cam.dxf",
+            "roll-brake-cam.step",
+            "roll-brake-cam.svg",
+        ];
         assert_eq!(names, [&cam[..], &["roll-brake.csv", "roll-brake.svg"]].concat());
         let told = table(&made, "roll-brake.csv");
         assert_eq!(told.0, [&COLUMNS[..], &["cam_deg", "cam_moment_nm", "lift_mm"]].concat());

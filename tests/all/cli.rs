@@ -8,7 +8,7 @@ fn the_main_job() {
     let run = camgen(&["rotary", "--rpm", "35"]);
     assert_eq!(run.code, 0, "{}", run.err);
     let stem = "dpi-rotary-35rpm";
-    let expected = ["csv", "dxf", "step", "svg"].map(|extension| format!("{stem}.{extension}"));
+    let expected = ["-review.svg", ".csv", ".dxf", ".step", ".svg"].map(|ending| format!("{stem}{ending}"));
     assert_eq!(files(run.directory.path()), expected);
     assert!(run.out.contains("pressure_angle") && run.err.is_empty(), "{} {}", run.out, run.err);
     assert!(run.directory.path().join("output").is_dir());
@@ -115,7 +115,7 @@ fn a_cam_that_breaks_a_limit_is_refused_with_the_radius_that_would_pass() {
 
     let forced = camgen(&[&refused[..], &["--force"]].concat());
     assert_eq!(forced.code, 1);
-    assert_eq!(files(forced.directory.path()).len(), 4);
+    assert_eq!(files(forced.directory.path()).len(), 5);
     assert_eq!(camgen(&["rotary", "dpi-paper"]).code, 0, "with an automatic radius it is huge, and passes");
 }
 
@@ -128,12 +128,12 @@ fn an_undercut_cam_is_told_what_it_loses() {
     assert!(run.out.contains("FAIL  undercut") && run.out.contains("motion is lost from 358."), "{}", run.out);
     assert!(run.out.contains("FAIL  rolling") && run.out.contains("metal is missing"), "{}", run.out);
     assert!(files(run.directory.path()).is_empty());
-    assert_eq!(files(camgen(&[&undercut[..], &["--force"]].concat()).directory.path()).len(), 4);
+    assert_eq!(files(camgen(&[&undercut[..], &["--force"]].concat()).directory.path()).len(), 5);
 
     // A slight one has its crossing, too, and its loss.
     let slight = ["rotary", "--force", "--set", "cam.base_radius=32mm", "--set", "follower.roller.radius=67mm"];
     let run = camgen(&slight);
-    assert!(run.out.contains("0.389°, 0.000011 mm") && files(run.directory.path()).len() == 4, "{}", run.out);
+    assert!(run.out.contains("0.389°, 0.000011 mm") && files(run.directory.path()).len() == 5, "{}", run.out);
 
     // Under this plate the branches would meet beyond the end of the stroke.
     let sets = ["translating.roller_radius=400mm", "translating.plate_height=900mm"];
@@ -474,7 +474,7 @@ fn on_lifter(args: &[&str]) -> Run {
 fn a_motion_program_becomes_a_cam() {
     let run = on_lifter(&["make", "lifter.toml", "--out", "out", "--samples", "360", "--json"]);
     assert_eq!(run.code, 0, "{}", run.err);
-    let expected = ["csv", "dxf", "step", "svg"].map(|extension| format!("lifter-make-120rpm.{extension}"));
+    let expected = ["-review.svg", ".csv", ".dxf", ".step", ".svg"].map(|ending| format!("lifter-make-120rpm{ending}"));
     assert_eq!(files(&run.directory.path().join("out")), expected);
     let report = report(&run);
     assert_eq!((&report["command"], &report["rpm"]), (&"make".into(), &120.0.into()), "{report}");
@@ -517,7 +517,10 @@ fn a_forced_flat_face_has_a_sheet() {
     let run = camgen_in(directory, &args);
     assert_eq!(run.code, 1, "{}", run.err);
     assert!(run.out.contains("FAIL  undercut"), "{}", run.out);
-    assert_eq!(files(&run.directory.path().join("out")), ["cam.csv", "cam.dxf", "cam.step", "cam.svg"]);
+    assert_eq!(
+        files(&run.directory.path().join("out")),
+        ["cam-review.svg", "cam.csv", "cam.dxf", "cam.step", "cam.svg"]
+    );
 }
 
 /// Names of formats and versions as the programs that read them write them.
@@ -563,7 +566,7 @@ fn the_template_makes_a_cam() {
     let run = camgen_in(directory, &["rotary", "mine.toml", "--out", "out"]);
     assert_eq!(run.code, 0, "{} {}", run.out, run.err);
     // It tells no thickness, so there is no solid.
-    let expected = ["csv", "dxf", "svg"].map(|extension| format!("mine-rotary-35rpm.{extension}"));
+    let expected = ["-review.svg", ".csv", ".dxf", ".svg"].map(|ending| format!("mine-rotary-35rpm{ending}"));
     assert_eq!(files(&run.directory.path().join("out")), expected);
 }
 

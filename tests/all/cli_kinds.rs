@@ -8,7 +8,8 @@ use std::fs;
 fn a_plate_is_written_with_the_names_of_the_contract() {
     let run = camgen(&["translating", "--rpm", "35", "--samples", "9"]);
     assert_eq!(run.code, 0, "{}", run.err);
-    let expected = ["csv", "dxf", "step", "svg"].map(|extension| format!("dpi-translating-35rpm.{extension}"));
+    let expected =
+        ["-review.svg", ".csv", ".dxf", ".step", ".svg"].map(|ending| format!("dpi-translating-35rpm{ending}"));
     assert_eq!(files(run.directory.path()), expected);
     let csv = fs::read_to_string(run.directory.path().join("output/dpi-translating-35rpm.csv")).expect("a table");
     let header =
@@ -110,8 +111,18 @@ fn a_conoid_has_a_cut_for_each_speed_and_the_same_bytes_on_any_number_of_threads
     let (one, four) = (on("1"), on("4"));
     assert_eq!(one.code, 0, "{}", one.err);
     assert_eq!(one.out, four.out);
-    let expected =
-        ["c-20rpm.dxf", "c-25rpm.dxf", "c-30rpm.dxf", "c-35rpm.dxf", "c.csv", "c.json", "c.step", "c.stl", "c.svg"];
+    let expected = [
+        "c-20rpm.dxf",
+        "c-25rpm.dxf",
+        "c-30rpm.dxf",
+        "c-35rpm.dxf",
+        "c-review.svg",
+        "c.csv",
+        "c.json",
+        "c.step",
+        "c.stl",
+        "c.svg",
+    ];
     assert_eq!(files(one.directory.path()), expected);
     for name in expected {
         let read = |run: &Run| fs::read(run.directory.path().join("output").join(name)).expect("a file");

@@ -246,7 +246,7 @@ fn the_embedded_pair_is_made_and_each_file_is_found_again() {
         report(&run)["checks"].as_array().map(|checks| checks.iter().any(|check| check["check"] == "closure")),
         Some(true)
     );
-    assert_eq!(files(&run.directory.path().join("out")).len(), 9);
+    assert_eq!(files(&run.directory.path().join("out")).len(), 11);
     for forgotten in [false, true] {
         if forgotten {
             std::fs::remove_file(run.directory.path().join("out/.camgen.json")).expect("a record");
@@ -306,7 +306,7 @@ fn the_torque_of_a_pair_is_told_once() {
     assert_eq!(run.code, 0, "{}", run.err);
     let text = |name: &str| std::fs::read_to_string(run.directory.path().join("out").join(name)).expect("a file");
     assert!(!text("p-main.csv").contains("torque_left_nm"));
-    let sheet = text("p-main.svg");
+    let sheet = text("p-main-review.svg");
     assert!(sheet.contains("Torque on the shaft") && !sheet.contains("compensating cam"));
     assert!(sheet.contains("mm apart along the path") && run.out.contains("mm apart along the path"), "{}", run.out);
     assert!(run.out.contains("checks of the counter disc"), "{}", run.out);

@@ -178,9 +178,9 @@ fn the_diagram_is_a_page_and_a_file() {
     writing.formats = Some(vec!["diagram".into(), "pdf".into()]);
     let files = proven("make", "feeder", &[]).files(&writing).expect("files");
     let text = String::from_utf8(files.bytes("feeder-diagram.svg").expect("an SVG").to_vec()).expect("UTF-8");
-    assert!(text.contains("motion diagram") && text.contains(">\n2/2\n<"), "its title block");
+    assert!(text.contains("motion diagram") && text.contains(">\n1/1\n<"), "its title block");
     if let Some(pdf) = files.bytes("feeder.pdf") {
-        assert_eq!(String::from_utf8_lossy(pdf).matches("/MediaBox").count(), 2, "two pages");
+        assert_eq!(String::from_utf8_lossy(pdf).matches("/MediaBox").count(), 3, "three pages");
     }
 }
 
@@ -214,7 +214,8 @@ fn nothing_overlaps_whatever_the_law() {
                 let machine = Machine::from_toml("case", &text, &[]).expect("valid");
                 let cam = Spec::of_program(machine, None).expect("a motion").solve().expect("a cam");
                 let diagram = motion_diagram(cam.body(), None).expect("a motion");
-                let found = faults(&camgen::report::motion_diagram::sheet(&diagram, &report, &facts, "±0.005 mm"));
+                let found =
+                    faults(&camgen::report::motion_diagram::sheet(&diagram, &report, &facts, "±0.005 mm", "1/1"));
                 assert!(found.is_empty(), "{text}: {found:#?}");
                 shown += 1;
             }

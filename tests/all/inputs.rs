@@ -153,6 +153,11 @@ fn machine(section: &KeySection, sets: &[String]) -> Option<Machine> {
         let text = format!("{press}\n[spring_buffer.body]\nstress = \"700 MPa\"\n{shape}");
         return Machine::from_toml("springs.toml", &text, sets).ok();
     }
+    if section.path == "cam.holes" {
+        let press = include_str!("../../profiles/dpi.toml");
+        let text = format!("{press}\n[[cam.holes]]\ndiameter = \"6 mm\"\ncircle_diameter = \"80 mm\"\n");
+        return Machine::from_toml("holes.toml", &text, sets).ok();
+    }
     if section.path.starts_with("brake") {
         let roll = include_str!("../../profiles/roll.toml");
         let text = if section.path == "brake.ends" {
@@ -236,7 +241,7 @@ fn another(key: &Key, share: f64, index: u32) -> String {
             format!("[{0}, {0}, {0}, {1}]", 0.1 * share, 1.0 - 0.3 * share)
         }
         KeyForm::Numbers(_) if key.name == "amplitudes" => format!("[7, {share}, -2]"),
-        KeyForm::Number(_) if ["tool", "program", "decimals", "samples", "seed"].contains(&key.name) => {
+        KeyForm::Number(_) if ["tool", "program", "decimals", "samples", "seed", "count"].contains(&key.name) => {
             (3 + index % 4).to_string()
         }
         KeyForm::Number(_) if key.name.starts_with("waves_") => (20 + index).to_string(),
@@ -400,7 +405,7 @@ fn files_carry_the_hash() {
         let read = |ending: &str| {
             fs::read_to_string(run.directory.path().join("output").join(format!("cam.{ending}"))).expect("a file")
         };
-        assert_eq!(files(run.directory.path()).len(), 4);
+        assert_eq!(files(run.directory.path()).len(), 5);
         assert!(read("dxf").starts_with(&format!("999\n{mark}\n  0\nSECTION\n")));
         assert!(read("svg").contains(&format!("<!-- {mark} -->")));
         assert!(read("step").contains(&format!("'{mark}'")));

@@ -36,6 +36,7 @@ mod gcode;
 mod groove;
 mod groove_cam;
 mod heads;
+mod holes;
 mod html;
 mod importing;
 mod inches;

@@ -40,13 +40,13 @@ fn a_motion_of_one_s_own_becomes_files() {
     let set = proven.files(&Writing::to(&out, "wave")).expect("files");
     assert!(!out.exists(), "nothing is written before it is committed");
     let names: Vec<&str> = set.outputs().iter().map(|output| output.name.as_str()).collect();
-    assert_eq!(names, ["wave.dxf", "wave.svg", "wave.step", "wave.csv"]);
+    assert_eq!(names, ["wave.dxf", "wave.svg", "wave-review.svg", "wave.step", "wave.csv"]);
     assert_eq!(set.bytes(".dxf"), Some(&proven.cut_files()[0][..]), "what is written is what was proved");
     assert_eq!(set.directory(), out);
     let outputs = set.outputs().to_vec();
     let report = set.commit().expect("written");
     assert_eq!(report.machine, "a \"wave\"");
-    assert_eq!(report.files.len(), 4);
+    assert_eq!(report.files.len(), 5);
     for output in outputs {
         assert!(fs::read(out.join(&output.name)).expect("a file") == output.bytes, "{}", output.name);
     }
@@ -67,7 +67,7 @@ fn a_cam_that_breaks_a_limit_is_refused_unless_forced() {
         other => panic!("{other:?}"),
     }
     let forced = proven.files(&Writing { force: true, ..writing }).expect("files");
-    assert!(!forced.report().passed() && forced.outputs().len() == 4);
+    assert!(!forced.report().passed() && forced.outputs().len() == 5);
 }
 
 #[test]

@@ -72,7 +72,7 @@ fn a_program_with_states_is_cut_as_known() {
     assert_eq!(made.code, 0, "{}", made.err);
     assert_eq!(
         files(&made.directory.path().join("output")),
-        ["csv", "dxf", "svg"].map(|end| format!("cam-make-120rpm.{end}"))
+        ["-review.svg", ".csv", ".dxf", ".svg"].map(|end| format!("cam-make-120rpm{end}"))
     );
     let csv = fs::read_to_string(made.directory.path().join("output/cam-make-120rpm.csv")).expect("a table");
     let mut lines = csv.lines();

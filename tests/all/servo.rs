@@ -140,7 +140,7 @@ fn a_velocity_that_jumps_is_refused() {
 #[test]
 fn places_lie_on_the_profile_and_the_ball_touches_there() {
     for (name, count) in [("feeder", 1), ("groove", 2), ("lever", 1)] {
-        let cam = cam(name, &["title.profile_tolerance=0.03 mm"]);
+        let cam = cam(name, &["cam.profile_tolerance=0.03 mm"]);
         let inspection = Some(Inspection { ball_radius: 2e-3 });
         let request = Request { inspection, ..Request::within(TOLERANCE) };
         let files = files(&cam, request, "inspection", &["inspect"]);

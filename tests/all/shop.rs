@@ -77,7 +77,7 @@ fn a_file_keeps_the_zone_that_its_sheet_states() {
         report["checks"].as_array().expect("checks").iter().find(|check| check["check"] == "outline").expect("outline");
     let note = outline["note"].as_str().expect("a note");
     assert_eq!((refused.code, outline["limit"].as_f64()), (1, Some(0.002)), "{note}");
-    assert!(note.contains("title.profile_tolerance permits 0.002 mm; --tolerance 1um"), "{note}");
+    assert!(note.contains("cam.profile_tolerance permits 0.002 mm; --tolerance 1um"), "{note}");
     assert_eq!(files(refused.directory.path()), Vec::<String>::new());
     assert_eq!(make(&["--tolerance", "1um"]).code, 0);
 }

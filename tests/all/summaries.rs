@@ -59,13 +59,13 @@ fn the_verdict_stands_first_and_last() {
     let run = summary_of(&["rotary", "--rpm", "35"]);
     let lines: Vec<&str> = run.out.lines().collect();
     assert_eq!(lines[1], "PASS 17 of 17 · tightest: pressure angle 29.996° of at most 30° at 45.8°");
-    assert_eq!(lines.last().copied(), Some("PASS 17 of 17 · may be cut · 4 files in output/"));
+    assert_eq!(lines.last().copied(), Some("PASS 17 of 17 · may be cut · 5 files in output/"));
     for fact in
         ["base R69 mm", "21.29 kN on the roller", "1186 N·m", "hardened steel is assumed", "1.773 N of 21.29 kN"]
     {
         assert!(run.out.contains(fact), "{fact}: {}", run.out);
     }
-    assert!(run.out.contains("output/dpi-rotary-35rpm .dxf .svg .step .csv"), "{}", run.out);
+    assert!(run.out.contains("output/dpi-rotary-35rpm .dxf .svg -review.svg .step .csv"), "{}", run.out);
 }
 
 /// A pass never reads as the whole of its limit, and what is filled on purpose does not hide the margins of the design.

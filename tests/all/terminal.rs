@@ -28,8 +28,32 @@ fn prepared() -> tempfile::TempDir {
     let table = ["make", "lifter.toml", "--format", "csv", "--name", "measured", "--out", ".", "--quiet"];
     let run = camgen_in(run.directory, &table);
     assert_eq!(run.code, 0, "{}", run.err);
+    let table = fs::read_to_string(run.directory.path().join("measured.csv")).expect("a table");
+    fs::write(run.directory.path().join("centres.csv"), ball_centres(&table, 3.0)).expect("written");
     fs::write(run.directory.path().join("lift.csv"), lift_table()).expect("written");
     run.directory
+}
+
+/// The centres of a ball of a radius, mm, that touches the profile of a table.
+fn ball_centres(table: &str, radius: f64) -> String {
+    let mut lines = table.lines();
+    let heads: Vec<&str> = lines.next().expect("heads").split(',').collect();
+    let columns = ["profile_x_mm", "profile_y_mm"].map(|name| heads.iter().position(|head| *head == name).expect(name));
+    let places: Vec<[f64; 2]> = lines
+        .map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            columns.map(|column| cells[column].parse().expect("a number"))
+        })
+        .collect();
+    let count = places.len();
+    let centre = |index: usize| {
+        let ([ax, ay], [x, y], [bx, by]) =
+            (places[(index + count - 1) % count], places[index], places[(index + 1) % count]);
+        let (tx, ty) = (bx - ax, by - ay);
+        let length = tx.hypot(ty);
+        format!("{},{}\n", x + radius * ty / length, y - radius * tx / length)
+    };
+    format!("x,y\n{}", (0..count).map(centre).collect::<String>())
 }
 
 /// A lift table: up by a cycloid, a dwell, down, a dwell.

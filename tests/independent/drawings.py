@@ -1,8 +1,8 @@
 """Sheets of random cams as a shop gets them: nothing lies over anything else, and the table of the profile is the outline that is cut.
 
-Of each design: every text of the SVG lies inside the frame, over no other text and on no straight line, circle or curve of the drawing; the
-table is read from the PDF by PDFium, and each of its rows lies on the outline of the DXF file as ezdxf reads it, to the rounding of the table;
-the cam angle and the lift of a row are those of the CSV file at the same place of the profile.
+Of each design: every text of the drawing and of the review sheet lies inside the frame, has letters of at least 2.5 mm, and lies over no other text
+and on no straight line, circle or curve; each row of the drawing's table lies on the outline of the DXF file as ezdxf reads it, to the rounding of
+the table; the cam angle and the lift of a row are those of the CSV file at the same place of the profile; PDFium finds the table in the PDF.
 
 usage: drawings.py CAMGEN_BINARY DIRECTORY [--count N] [--seed S] [--jobs N]
 """
@@ -22,7 +22,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 ROUNDING = 0.0005 + 0.0002
 # Texts nearer than this touch for the eye, mm.
 APART = 0.05
-ASCENT, DESCENT = 0.75, 0.22
+ASCENT, DESCENT, CAPITAL = 0.75, 0.22, 0.688
 # PDFium is not for several threads at once.
 ONE_READER = threading.Lock()
 FOLLOWERS = ["roller", "offset-roller", "knife", "flat", "swinging-roller", "swinging-flat"]
@@ -115,6 +115,9 @@ def overlaps(path):
     left, top, width, height = (float(n) for n in root.get("viewBox").split())
     fields, wrong = texts(root), []
     boxes = np.array([field for _, field in fields])
+    for text in root.iter(f"{SVG}text"):
+        if float(text.get("font-size")) * CAPITAL < 2.5 - 1e-3:
+            wrong.append(f"`{''.join(text.itertext()).strip()}` has letters of {float(text.get('font-size')) * CAPITAL:.2f} mm")
     for index, (words, field) in enumerate(fields):
         if field[0] < left or field[1] > left + width or field[3] > -top or field[2] < -top - height:
             wrong.append(f"`{words}` leaves the sheet")
@@ -122,7 +125,8 @@ def overlaps(path):
         over = (rest[:, 0] < field[1] - APART) & (rest[:, 1] > field[0] + APART) & (rest[:, 2] < field[3] - APART) & (rest[:, 3] > field[2] + APART)
         wrong += [f"`{words}` over `{fields[index + 1 + other][0]}`" for other in np.flatnonzero(over)]
     for of, chain in chains(root):
-        if len(chain) < 2:
+        # Texts stand on tinted rows.
+        if len(chain) < 2 or of == "area":
             continue
         low, high = chain.min(axis=0), chain.max(axis=0)
         near = np.flatnonzero((boxes[:, 0] < high[0]) & (boxes[:, 1] > low[0]) & (boxes[:, 2] < high[1]) & (boxes[:, 3] > low[1]))
@@ -130,24 +134,28 @@ def overlaps(path):
     return sorted(set(wrong))
 
 
+CELL = re.compile(r"-?\d+\.\d{3}|\d+\.\d{1,2}|\d+|–")
+
+
 def table(path):
-    """Rows of ψ, R, θ and lift of the table of the profile in a PDF."""
+    """Rows of ψ, R, θ and lift of the table of the profile on a drawing."""
+    all_texts = ["".join(text.itertext()).strip() for group in ElementTree.parse(path).getroot().iter(f"{SVG}g")
+                 if group.get("class") == "facts" for text in group.findall(f"{SVG}text")]
+    if "Profile R at polar angle ψ (TED)" not in all_texts:
+        return None
+    behind = all_texts[all_texts.index("Profile R at polar angle ψ (TED)"):]
+    behind = behind[:behind.index("Files of this part")]
+    cells = [cell for cell in behind if CELL.fullmatch(cell)]
+    return np.array([[float("nan") if cell == "–" else float(cell) for cell in cells[at:at + 4]] for at in range(0, len(cells), 4)])
+
+
+def in_pdf(path):
+    """Whether the first page of a PDF has the table."""
     with ONE_READER:
         document = pypdfium2.PdfDocument(path)
         text = document[0].get_textpage().get_text_range()
         document.close()
-    if "Profile on the part" not in text:
-        return None
-    behind = re.split(r"lift\s+there", text.split("Profile on the part", 1)[1], maxsplit=1)[1]
-    cells = re.findall(r"(?<![\w.,])(?:-?\d+\.\d{3}|-?\d+\.\d{2}|\d+|–)(?![\w.,])", re.split(r"Legal\s*owner", behind)[0])
-    rows, at = [], 0
-    while at + 4 <= len(cells):
-        four = cells[at:at + 4]
-        if not re.fullmatch(r"\d+", four[0]):
-            break
-        rows.append([float("nan") if cell == "–" else float(cell) for cell in four])
-        at += 4
-    return np.array(rows)
+    return "Profile R at polar angle" in text
 
 
 def sampled(vertices):
@@ -180,14 +188,14 @@ def outermost(points, psi):
 
 
 def table_faults(directory, name):
-    rows = table(directory / f"{name}.pdf")
-    if rows is None:
+    rows = table(directory / f"{name}.svg")
+    if rows is None or not in_pdf(directory / f"{name}.pdf"):
         return ["no table on the sheet"]
-    if len(rows) not in (12, 24, 36, 72):
+    regular = {psi for psi, *_ in rows if psi % 5 == 0}
+    if not any(set(range(0, 360, step)) <= regular for step in (5, 10, 15, 30)) or (np.diff(rows[:, 0]) <= 0).any():
         return [f"{len(rows)} rows in the table"]
     _, vertices = polyline(directory / f"{name}.dxf")
     points, wrong = sampled(vertices), []
-    step = 360 // len(rows)
     with open(directory / f"{name}.csv", newline="") as file:
         curve = list(csv.DictReader(line for line in file if not line.startswith("#")))
     column = lambda key: np.array([float(row[key]) for row in curve])
@@ -196,11 +204,11 @@ def table_faults(directory, name):
     profile = np.stack([closed(column("profile_x_mm")), closed(column("profile_y_mm"))], axis=1)
     lift = closed(column("lift_deg" if "lift_deg" in curve[0] else "lift_mm"))
     tolerance = 0.02 + 0.002 * np.abs(profile).max()
-    for index, (psi, radius, angle, raised) in enumerate(rows):
-        if psi != index * step:
-            return [f"row {index} is for ψ = {psi}"]
-        there = outermost(points, np.radians(psi))
-        if not abs(there - radius) < ROUNDING:
+    for psi, radius, angle, raised in rows:
+        # The polar angle of a change of segment is rounded to 0.01°.
+        around = [outermost(points, np.radians(psi + by)) for by in ((0,) if psi % 5 == 0 else (-0.005, 0, 0.005))]
+        there = around[len(around) // 2]
+        if not min(around) - ROUNDING < radius < max(around) + ROUNDING:
             wrong.append(f"ψ = {psi}: R {radius}, the outline {there:.4f}")
         if np.isnan(angle):
             continue
@@ -228,7 +236,9 @@ def main():
             lines = run.stderr.strip().splitlines()
             is_known = any(part in run.stderr for part in ("cannot be", "no outline", "reach", "undercut", "below base_radius", "narrower"))
             return f"{kind} exit {run.returncode} without files", [] if is_known else lines or [f"exit {run.returncode}"], " ".join(command)
-        wrong = overlaps(words.directory / f"{name}.svg") + table_faults(words.directory, name)
+        wrong = table_faults(words.directory, name)
+        for sheet in (f"{name}.svg", f"{name}-review.svg"):
+            wrong += [f"{sheet}: {fault}" for fault in overlaps(words.directory / sheet)]
         return f"{kind} exit {run.returncode}", wrong, " ".join(command)
 
     states, failed = cases.judged(words, one)

@@ -1,5 +1,5 @@
-"""The review sheets as PDF, read by PDFium: page size, fonts, the ruler, the outline in its scale, and no text over another; the motion diagram
-on the second page, whose largest and least values are those of the CSV.
+"""The sheets as PDF, read by PDFium: page size, fonts, the ruler, the outline in its scale, the review sheet on the second page; the motion diagram
+on the third, whose largest and least values are those of the CSV.
 
     sheets.py BINARY DIRECTORY
 """
@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 import pypdfium2
 import pypdfium2.raw as raw
 
-PAPERS = {"A4": (210, 297), "A3": (420, 297), "A2": (594, 420), "A1": (841, 594)}
+PAPERS = {"A3": (420, 297), "A2": (594, 420), "A1": (841, 594)}
 POINT = 25.4 / 72  # mm
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -82,7 +82,7 @@ def diagram(name, page, table):
     assert all(fonts(page).values()), name
     text = page.get_textpage().get_text_range()
     flat = re.sub(r"\s", "", text)
-    assert "motiondiagram" in flat and "2/2" in flat, name
+    assert "motiondiagram" in flat and "3/3" in flat, name
     speed = re.search(r"ω=([\d.]+)rad/s", flat)
     speed = float(speed.group(1)) if speed else 1.0
     labels = [float(number) for number in re.findall(r"(?:max|min)(-?[\d.]+(?:e-?\d+)?)at", flat)]
@@ -119,8 +119,10 @@ def check(name, arguments, binary, directory):
     assert tuple(size) in PAPERS.values(), (name, size)
     document, (page, *others) = pages(out / f"{name}.pdf")
     # A conoid has a motion for each of its sections.
-    assert len(others) == (0 if arguments[0] == "conoid" else 1), (name, len(others))
-    compared = sum(diagram(name, other, out / f"{name}.csv") for other in others)
+    assert len(others) == (1 if arguments[0] == "conoid" else 2), (name, len(others))
+    compared = sum(diagram(name, other, out / f"{name}.csv") for other in others[1:])
+    review = re.sub(r"\s", "", others[0].get_textpage().get_text_range())
+    assert ("FAILED" if forced else "passed") in review and "reviewsheet" in review, name
     for told, read in zip(size, page.get_size()):
         assert abs(told - read * POINT) < 0.1, (name, told, read * POINT)
     used = fonts(page)
@@ -130,7 +132,7 @@ def check(name, arguments, binary, directory):
     assert abs(ruler - 100) < 0.02, (name, ruler)
     text = page.get_textpage().get_text_range()
     flat = re.sub(r"\s", "", text)
-    for words in ("100mmonpaper", report["inputs"]["hash"], "NOTFORMANUFACTURE" if forced else "passed"):
+    for words in ("100mmonpaper", report["inputs"]["hash"], "NOTFORMANUFACTURE" if forced else "partdrawing"):
         assert words in flat, (name, words)
     if not forced:
         assert "NOTFORMANUFACTURE" not in flat, name

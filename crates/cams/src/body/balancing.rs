@@ -203,17 +203,22 @@ fn quarters((distance, apart): Rectangle, count: u32) -> Vec<Rectangle> {
 }
 
 /// The row of the fewest holes within a band of radii (mm) that cancels the moment of the face, with `wall` (mm) of metal, at
-/// least a millimetre, to the outline, to the bore with its keyway, and between holes. A disc whose centre of mass is nearer to
+/// least a millimetre, to the outline, to the bore with its keyway and to other holes, and between holes. A disc whose centre of mass is nearer to
 /// the shaft than `negligible` (mm) needs none.
 #[must_use]
-pub fn balance(outline: &Contour, bore: Option<&Contour>, band: (f64, f64), wall: f64, negligible: f64) -> Balancing {
-    let moment = moment(outline) - bore.map_or_else(Vector2::zeros, moment);
+pub fn balance(
+    (outline, bore, others): (&Contour, Option<&Contour>, &[Contour]),
+    band: (f64, f64),
+    wall: f64,
+    negligible: f64,
+) -> Balancing {
+    let moment = bore.into_iter().chain(others).fold(moment(outline), |left, hole| left - moment(hole));
     let before = moment.norm();
     let none = Balancing { holes: Vec::new(), before, after: before, unbalanced: None };
     if before <= negligible * outline.area_and_centroid().0 {
         return none;
     }
-    let bore_edges = bore.map_or_else(Vec::new, |bore| bore.edges().collect());
+    let bore_edges = bore.into_iter().chain(others).flat_map(Contour::edges).collect();
     let (wall, heavy) = (wall.max(LEAST_WALL), moment / before);
     let face = Face { outline: outline.edges().collect(), bore: bore_edges, heavy, band, wall };
     match face.row_for(before) {
@@ -252,7 +257,7 @@ mod tests {
         let disc = Contour::circle(Vector2::new(3.0, 4.0), 100.0);
         assert!((moment(&disc).norm() - 5.0 * PI * 1e4).abs() < 1e-8);
         for (band, count) in [((10.0, 80.0), 1), ((20.0, 80.0), 2)] {
-            let balancing = balance(&disc, None, band, 2.0, 1e-9);
+            let balancing = balance((&disc, None, &[]), band, 2.0, 1e-9);
             assert_eq!(balancing.holes.len(), count, "{balancing:?}");
             assert!(balancing.after < 1e-9 * balancing.before);
             for (centre, radius) in &balancing.holes {
@@ -260,10 +265,10 @@ mod tests {
                 assert!(centre.dot(&Vector2::new(3.0, 4.0)) > 0.0, "on the heavy side");
             }
         }
-        let narrow = balance(&disc, None, (60.0, 61.0), 2.0, 1e-9);
+        let narrow = balance((&disc, None, &[]), (60.0, 61.0), 2.0, 1e-9);
         assert!(narrow.holes.is_empty() && narrow.after == narrow.before, "{narrow:?}");
         let centred = Contour::circle(Vector2::zeros(), 100.0);
-        assert_eq!(balance(&centred, None, (20.0, 80.0), 2.0, 1e-9).holes.len(), 0);
+        assert_eq!(balance((&centred, None, &[]), (20.0, 80.0), 2.0, 1e-9).holes.len(), 0);
     }
 
     /// A thin band about a centred bore, where the largest row is known: twelve holes, each as wide as the band. The
@@ -271,7 +276,7 @@ mod tests {
     #[test]
     fn the_least_unbalance_is_that_of_the_largest_row() {
         let disc = Contour::circle(Vector2::new(6.0, 0.0), 100.0);
-        let balancing = balance(&disc, Some(&Contour::circle(Vector2::zeros(), 20.0)), (60.0, 70.0), 2.0, 1e-9);
+        let balancing = balance((&disc, Some(&Contour::circle(Vector2::zeros(), 20.0)), &[]), (60.0, 70.0), 2.0, 1e-9);
         let unbalanced = balancing.unbalanced.expect("too narrow");
         let known = |count: u32| {
             let apart = 2.0 * libm::asin(5.0 * (1.0 + 0.5 * BETWEEN) / 65.0).max(libm::asin((5.0 + 1.0) / 65.0));
@@ -283,7 +288,9 @@ mod tests {
         assert!(unbalanced.least <= balancing.before - most + 1e-6, "a true bound");
         assert!(unbalanced.least >= balancing.before - most * 1.004, "a near one");
         let band = unbalanced.band.expect("a wider band does");
-        assert!(balance(&disc, Some(&Contour::circle(Vector2::zeros(), 20.0)), band, 2.0, 1e-9).unbalanced.is_none());
+        assert!(
+            balance((&disc, Some(&Contour::circle(Vector2::zeros(), 20.0)), &[]), band, 2.0, 1e-9).unbalanced.is_none()
+        );
     }
 
     /// Area moment and least distance by points on the contours: nothing of the code's own forms. A keyway on the heavy side is
@@ -305,7 +312,7 @@ mod tests {
             ],
         };
         let wall = 4.0;
-        let balancing = balance(&disc, Some(&bore), (36.0, 95.0), wall, 1e-9);
+        let balancing = balance((&disc, Some(&bore), &[]), (36.0, 95.0), wall, 1e-9);
         assert!(!balancing.holes.is_empty(), "{balancing:?}");
         let holes: Vec<Contour> =
             balancing.holes.iter().map(|(centre, radius)| Contour::circle(*centre, *radius)).collect();

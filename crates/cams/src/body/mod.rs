@@ -23,6 +23,8 @@ pub mod loaded;
 pub mod mesh;
 pub mod motion_diagram;
 pub mod part;
+mod part_drawing;
+pub mod part_tolerance;
 pub mod picture;
 pub mod rib;
 pub mod roller_bearing;
@@ -530,6 +532,11 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         swinging.map_or(1.0, |curves| curves.follower.leverage(&Jet::default()).abs())
     }
 
+    /// Which of its followers the forces and angles of a row are those of, where it has several: "outer roller".
+    fn row_follower(&self) -> Option<&'static str> {
+        None
+    }
+
     /// The stretches of its motion on which the values of a row are smooth, each with its piece.
     fn smooth_stretches(&self) -> Vec<(usize, (f64, f64))> {
         let pieces = self.follower_motion().map_or(&[][..], |motion| motion.pieces());
@@ -545,11 +552,24 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// What is not modelled of it, and why, a sentence each.
     fn not_modelled(&self) -> Vec<&'static str>;
 
+    /// The largest error of the lift along the follower's path that the machine permits, m, and what sets it.
+    fn permitted_path_error(&self) -> Option<(f64, &'static str)> {
+        None
+    }
+
     /// What its review sheet shows.
     ///
     /// # Errors
     /// [`OutlineError`] when a curve for viewing cannot be drawn.
     fn view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError>;
+
+    /// What its drawing for manufacture shows: the part and nothing else.
+    ///
+    /// # Errors
+    /// [`OutlineError`] when a curve for viewing cannot be drawn.
+    fn part_view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
+        Ok(part_drawing::without_mechanism(self.view(drawn)?))
+    }
 }
 
 /// Motion and follower that roll on the first cut of a body; `None` where it is cut of a surface.

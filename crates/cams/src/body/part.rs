@@ -1,10 +1,12 @@
 //! The cut drawing of one section: outline, bore, holes.
 
 use super::balancing::{self, Balancing};
-use crate::machine::{Machine, Rotation};
+use crate::machine::{HolePattern, Machine, Rotation};
+use crate::report::sheet::Dimensions;
 use crate::report::{OutlineMeasures, Weight};
 use camgen_kernel::geometry::contour::{Contour, Extents, Vertex};
 use camgen_kernel::geometry::cubics::{CurveRun, runs};
+use camgen_kernel::geometry::edge_tree::EdgeTree;
 use camgen_kernel::geometry::solid::{CheckedSolid, pocketed, prism};
 use camgen_kernel::geometry::{Entity, MILLIMETRES};
 use camgen_kernel::profile::outline::Outline;
@@ -134,6 +136,8 @@ pub struct Part {
     pub outline: Outline,
     /// The bore, a circle or, with a keyway, a contour; counter-clockwise.
     pub bore: Option<Entity>,
+    /// Holes of the machine file, centre and radius, mm.
+    pub drilled: Vec<(Vector2<f64>, f64)>,
     /// Holes that balance the disc, when they were requested.
     pub balancing: Option<Balancing>,
     /// Of a part whose roller runs within it.
@@ -157,7 +161,7 @@ impl Part {
     /// An outline and nothing else.
     #[must_use]
     pub fn solid_plate(outline: Outline) -> Self {
-        Self { name: "", rpm: None, z: 0.0, outline, bore: None, balancing: None, track: None }
+        Self { name: "", rpm: None, z: 0.0, outline, bore: None, drilled: Vec::new(), balancing: None, track: None }
     }
 
     /// A section of a machine's turning cam: the outline of a clockwise one turned as the machine's, with its bore.
@@ -171,17 +175,58 @@ impl Part {
     pub(crate) fn balanced(self, machine: &Machine) -> Self {
         let wall = MILLIMETRES * machine.limits.wall.unwrap_or(0.0);
         let round = self.bore.as_ref().map(Entity::contour);
+        let drilled: Vec<Contour> =
+            self.drilled.iter().map(|(centre, radius)| Contour::circle(*centre, *radius)).collect();
         let balancing = machine.cam.balance.map(|(inner, outer)| {
             let band = (MILLIMETRES * inner, MILLIMETRES * outer);
-            balancing::balance(&self.outline.contour, round.as_ref(), band, wall, NEGLIGIBLE_MM)
+            balancing::balance((&self.outline.contour, round.as_ref(), &drilled), band, wall, NEGLIGIBLE_MM)
         });
         Self { balancing, ..self }
+    }
+
+    /// With the holes of the machine file.
+    pub(crate) fn drilled(self, machine: &Machine) -> Self {
+        let of = |pattern: &HolePattern| -> Vec<(Vector2<f64>, f64)> {
+            let radius = MILLIMETRES * pattern.radius;
+            pattern.centres().map(|centre| (point_as_turned(machine, centre * MILLIMETRES), radius)).collect()
+        };
+        Self { drilled: machine.holes.iter().flat_map(of).collect(), ..self }
+    }
+
+    /// Why a hole of the machine file cannot be drilled, with a remedy: where it does not lie in the metal, clear of what is cut otherwise.
+    pub(crate) fn hole_fault(&self, machine: &Machine) -> Option<Refusal> {
+        let rims: Vec<EdgeTree> = self.rims_without_holes().iter().map(EdgeTree::new).collect();
+        let patterns = machine.holes.iter().enumerate();
+        let holes = patterns.flat_map(|(index, pattern)| std::iter::repeat_n((index, pattern), pattern.count as usize));
+        for (place, ((index, pattern), (centre, radius))) in holes.zip(&self.drilled).enumerate() {
+            let room = rims.iter().filter_map(|rim| rim.nearest(*centre)).map(|nearest| nearest.left);
+            let to_others = self.drilled.iter().take(place).map(|(other, size)| (centre - other).norm() - size);
+            let room = room.chain(to_others).fold(f64::INFINITY, f64::min);
+            if room <= *radius {
+                let units = machine.units();
+                let what = format!(
+                    "cam.holes[{index}]: a hole of Ø{} {} on the circle Ø{} at {:.1}° does not lie in the metal",
+                    units.dimension(2.0 * radius),
+                    units.symbol(),
+                    units.dimension(2.0 * MILLIMETRES * pattern.circle_radius),
+                    libm::atan2(centre.y, centre.x).to_degrees().rem_euclid(360.0)
+                );
+                return Some(Refusal::new(what).remedy("give another circle_diameter or angle, or a smaller diameter"));
+            }
+        }
+        None
+    }
+
+    /// Everything that bounds its metal but the holes of the machine file and those that balance it, the metal on its left.
+    fn rims_without_holes(&self) -> Vec<Contour> {
+        let bare = Self { drilled: Vec::new(), balancing: None, ..self.clone() };
+        bare.walls().into_iter().map(|(contour, _)| contour).collect()
     }
 
     /// What is cut in addition to an outline (mm) of a machine's turning cam: bore and balance holes, counter-clockwise.
     pub(crate) fn holes_within(machine: &Machine, contour: &Contour) -> Vec<Entity> {
         let outline = Outline { contour: contour.clone(), ..Outline::empty() };
-        Self { bore: bore(machine), ..Self::solid_plate(outline) }.balanced(machine).holes()
+        Self { bore: bore(machine), ..Self::solid_plate(outline) }.drilled(machine).balanced(machine).holes()
     }
 
     /// What is cut, layer by layer; holes clockwise.
@@ -243,7 +288,7 @@ impl Part {
     /// Bore and balance holes, counter-clockwise.
     #[must_use]
     pub fn holes(&self) -> Vec<Entity> {
-        let drilled = self.balancing.iter().flat_map(|balancing| &balancing.holes);
+        let drilled = self.drilled.iter().chain(self.balancing.iter().flat_map(|balancing| &balancing.holes));
         self.bore.iter().cloned().chain(drilled.map(|(centre, radius)| Entity::Circle(*centre, *radius))).collect()
     }
 

@@ -2,18 +2,18 @@
 
 use super::balancing::Balancing;
 use super::part::point_as_turned;
+use super::part_tolerance::PartTolerance;
 use super::{curves_of, torque};
-use crate::machine::fit::{self, HoleFit};
+use crate::machine::fit::HoleFit;
 use crate::machine::{Keyway, Machine, Rotation, parallel_key};
 use crate::report::sheet::Dimensions;
-use crate::report::sheet::{Mark, PlaceTable, ProfileTolerance, ShapeGroup, SheetShape, rounded};
+use crate::report::sheet::{Mark, PlaceRow, PlaceTable, ShapeGroup, SheetShape, ToleranceSign, rounded};
 use crate::report::trace::Trace;
 use camgen_kernel::geometry::contour::{Contour, Extents};
 use camgen_kernel::geometry::{Entity, MILLIMETRES, polar};
 use camgen_kernel::motion::Quantity;
 use camgen_kernel::profile::Curves;
 use camgen_kernel::profile::followed::FollowerOnChain;
-use camgen_kernel::profile::outline::Outline;
 use camgen_kernel::text::{Text, text};
 use camgen_kernel::units::LengthUnit;
 use nalgebra::Vector2;
@@ -113,36 +113,6 @@ fn fit_words(fit: HoleFit, size: f64, units: LengthUnit) -> String {
     }
 }
 
-/// Grade of the widest zone that is proposed: a machining centre holds it in usual work. The machine may permit far more.
-const CUSTOMARY_GRADE: u8 = 8;
-
-/// The zone for the manufacture of a profile: as given, else proposed from a permitted error along the follower's path (m), at a
-/// pressure angle (rad), less what the file itself deviates; no wider than the customary grade.
-pub(crate) fn profile_tolerance(
-    machine: &Machine,
-    permitted: Option<(f64, &'static str)>,
-    pressure_angle: f64,
-    outline: &Outline,
-) -> Option<ProfileTolerance> {
-    if let Some(width) = machine.title.profile_tolerance {
-        return Some(ProfileTolerance { width_mm: MILLIMETRES * width, proposed_from: None });
-    }
-    let of_lift = machine.title.lift_tolerance.map(|lift| (lift, "tolerance of the lift"));
-    let (along_path, from) = of_lift.or(permitted)?;
-    let half = MILLIMETRES * along_path * libm::cos(pressure_angle) - outline.deviation;
-    let size = outline.contour.extents().size().max() / MILLIMETRES;
-    // Two digits, rounded down.
-    let customary = fit::standard_tolerance(CUSTOMARY_GRADE, size).map(|width| MILLIMETRES * width);
-    let (width, from) = match customary {
-        Some(customary) if customary < 2.0 * half => (customary, "IT8 of its size"),
-        _ => (2.0 * half, from),
-    };
-    let step = libm::pow(10.0, libm::floor(libm::log10(width)) - 1.0);
-    // A width of round digits must not lose its last one to rounding.
-    let width_mm = step * (width / step + 1e-9).floor();
-    (half > 0.0 && width_mm > 0.0).then_some(ProfileTolerance { width_mm, proposed_from: Some(from) })
-}
-
 /// The standard of the zone of a profile on a drawing in a unit.
 fn zone_standard(units: LengthUnit) -> &'static str {
     match units {
@@ -169,18 +139,17 @@ pub fn tolerance_note(machine: &Machine) -> Vec<Text> {
         .collect()
 }
 
-/// The frame of that zone at one of some places of the profile, each with the direction outwards, with the datums that the machine's part has.
+/// The frame of the zone of a profile at one of some places of it, each with the direction outwards, with the datums that the machine's part has.
 pub(crate) fn tolerance_frame(
     machine: &Machine,
-    tolerance: ProfileTolerance,
+    tolerance: PartTolerance,
     places: Vec<(Vector2<f64>, Vector2<f64>)>,
 ) -> Mark {
     let cam = &machine.cam;
     let datums = [cam.bore_radius.map(|_| "A"), cam.bore_radius.and(cam.keyway).map(|_| "B")];
-    let width = machine.units().zone(tolerance.width_mm);
+    let width = machine.units().zone(MILLIMETRES * tolerance.width);
     let cells = std::iter::once(width).chain(datums.into_iter().flatten().map(str::to_owned)).collect();
-    let behind = tolerance.proposed_from.map_or_else(String::new, |from| format!("proposal: {from}"));
-    Mark::Tolerance { places, cells, behind }
+    Mark::Tolerance { sign: ToleranceSign::ProfileAllAround, places, cells, behind: String::new() }
 }
 
 fn size_with(fit: bool, length: f64, units: LengthUnit) -> String {
@@ -298,7 +267,7 @@ const CELLS: u32 = 720;
 const EVERY: [(u32, usize); 4] = [(5, 1), (10, 2), (15, 3), (30, 6)];
 
 /// The polar angles of a table of profiles, degrees, and the directions there.
-fn rays() -> (Vec<f64>, Vec<Vector2<f64>>) {
+pub(crate) fn rays_of() -> (Vec<f64>, Vec<Vector2<f64>>) {
     let angles: Vec<f64> = (0..ROWS).map(|index| 360.0 * f64::from(index) / f64::from(ROWS)).collect();
     let ray = |degrees: &f64| {
         let (sin, cos) = libm::sincos(degrees.to_radians());
@@ -322,17 +291,18 @@ pub fn length_cell(value: Option<f64>, units: LengthUnit) -> String {
 /// The profiles of several sections as a shop plots them: R of each at the polar angles ψ, with the head of its column.
 #[must_use]
 pub fn section_profiles(sections: &[(String, &Contour)], units: LengthUnit) -> Vec<PlaceTable> {
-    let (angles, rays) = rays();
+    let (angles, rays) = rays_of();
     let radii: Vec<Vec<Option<f64>>> = sections.iter().map(|(_, contour)| polar::outermost(contour, &rays)).collect();
     let row = |(index, degrees): (usize, &f64)| {
         let of = |radii: &Vec<Option<f64>>| length_cell(radii.get(index).copied().flatten(), units);
-        std::iter::once(cell(Some(*degrees), 0)).chain(radii.iter().map(of)).collect()
+        PlaceRow::regular(index, std::iter::once(cell(Some(*degrees), 0)).chain(radii.iter().map(of)).collect())
     };
-    let rows: Arc<[Vec<String>]> = angles.iter().enumerate().map(row).collect();
+    let rows: Arc<[PlaceRow]> = angles.iter().enumerate().map(row).collect();
     let heads: Vec<String> =
         std::iter::once("ψ, °".to_owned()).chain(sections.iter().map(|(head, _)| head.clone())).collect();
     let table = |(degrees, every): &(u32, usize)| PlaceTable {
         title: format!("Profiles of the sections: radius R, {}, at polar angle ψ, each {degrees}°", units.symbol()),
+        remarks: Vec::new(),
         heads: heads.clone(),
         rows: Arc::clone(&rows),
         every: *every,
@@ -368,60 +338,27 @@ pub fn side_view(
     (groups, vec![size])
 }
 
-/// The profile on the part as a shop plots it: polar angle ψ and radius R of the drawn outline each 5° or, where there is less room, coarser, with the cam angle at
-/// which the follower touches that place and its lift there.
-pub(crate) fn profile_table(machine: &Machine, curves: Curves<'_>, outline: &Contour) -> Vec<PlaceTable> {
-    let swings = curves.motion.quantity() == Quantity::Angle;
-    let units = machine.units();
-    let unit = units.symbol();
-    let (angles, rays) = rays();
-    let radii = polar::outermost(outline, &rays);
-    let touched = touched(machine, curves, &rays, &radii);
-    let row = |((degrees, radius), at): ((f64, &Option<f64>), &Option<f64>)| {
-        let lift = at.map(|at| {
-            let (piece, angle) = curves.motion.locate(at);
-            let lift = curves.motion.jet(piece, angle).s;
-            if swings { cell(Some(lift.to_degrees()), 3) } else { units.cell(MILLIMETRES * lift) }
-        });
-        let touches = cell(at.map(|at| turn(at.to_degrees())), 2);
-        vec![cell(Some(degrees), 0), length_cell(*radius, units), touches, lift.unwrap_or_else(|| cell(None, 3))]
+/// The tables of places of the drawing, from the finest to the coarsest.
+pub(crate) fn tables_of(title: &str, heads: &[String], remarks: &[String], rows: Vec<PlaceRow>) -> Vec<PlaceTable> {
+    let rows: Arc<[PlaceRow]> = rows.into();
+    let table = |(_, every): &(u32, usize)| PlaceTable {
+        title: title.to_owned(),
+        heads: heads.to_vec(),
+        remarks: remarks.to_vec(),
+        rows: Arc::clone(&rows),
+        every: *every,
     };
-    let rows: Arc<[Vec<String>]> = angles.into_iter().zip(&radii).zip(&touched).map(row).collect();
-    EVERY
-        .iter()
-        .map(|(degrees, every)| PlaceTable {
-            title: profile_title("Profile", *degrees),
-            heads: vec![
-                "ψ, °".to_owned(),
-                format!("R, {unit}"),
-                "θ, °".to_owned(),
-                format!("lift, {}", if swings { "°" } else { unit }),
-            ],
-            rows: Arc::clone(&rows),
-            every: *every,
-        })
-        .collect()
-}
-
-fn profile_title(surface: &str, degrees: u32) -> String {
-    format!("{surface} on the part: radius R at polar angle ψ, each {degrees}°; cam angle θ of contact, lift there")
-}
-
-/// Names the surface whose profile the tables of [`profile_table`] list, where a part has more than one.
-pub(crate) fn name_profile(tables: &mut [PlaceTable], surface: &str) {
-    for (table, (degrees, _)) in tables.iter_mut().zip(&EVERY) {
-        table.title = profile_title(surface, *degrees);
-    }
-}
-
-/// An angle of a whole turn, degrees, to two decimals: 359.996 is 0.
-fn turn(degrees: f64) -> f64 {
-    ((100.0 * degrees).round() / 100.0) % 360.0
+    EVERY.iter().map(table).collect()
 }
 
 /// The cam angle, rad, at which the follower touches the profile on each ray; of several the one whose radius is nearest to that of the
 /// outline.
-fn touched(machine: &Machine, curves: Curves<'_>, rays: &[Vector2<f64>], radii: &[Option<f64>]) -> Vec<Option<f64>> {
+pub(crate) fn touched(
+    machine: &Machine,
+    curves: Curves<'_>,
+    rays: &[Vector2<f64>],
+    radii: &[Option<f64>],
+) -> Vec<Option<f64>> {
     let point = |at: f64| {
         let (piece, angle) = curves.motion.locate(at);
         point_as_turned(machine, curves.profile(piece, angle).point * MILLIMETRES)

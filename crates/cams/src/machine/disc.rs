@@ -151,6 +151,22 @@ const ROTATION: Field<Rotation> = Field::words(
 .only(TURNING)
 .also(&["direction", "sense", "turns"]);
 
+const PROFILE_TOLERANCE: Field<f64> = Field::quantity(
+    "profile_tolerance",
+    "width of the zone in which the manufactured profile must lie, ISO 1101: half of it on either side of the drawn profile, for the drawing, the inspection list and measured cams; 0.04 mm, customary for a milled profile, when absent",
+    Optional("0.03 mm"),
+    Length,
+    above(0.0, LARGEST_TOLERANCE),
+)
+.also(&["tolerance"]);
+/// Larger than any tolerance of a cam, m.
+pub(super) const LARGEST_TOLERANCE: f64 = 0.01;
+
+/// The zone of the profile, m, as `[cam]` gives it.
+pub(super) fn profile_tolerance(reader: &Reader<'_>) -> Option<f64> {
+    reader.table(&SECTION).get(&PROFILE_TOLERANCE)
+}
+
 /// `[cam]`.
 pub(super) const SECTION: KeySection = KeySection {
     path: "cam",
@@ -167,6 +183,7 @@ pub(super) const SECTION: KeySection = KeySection {
         MATERIAL.key,
         CONTACT_LIMIT.key,
         BALANCE.key,
+        PROFILE_TOLERANCE.key,
         ROTATION.key,
     ],
 };
@@ -299,7 +316,7 @@ fn base_radius_and_bore(table: &TableReader<'_>) {
     }
 }
 
-fn read_fit(table: &TableReader<'_>, field: &Field<String>) -> Option<HoleFit> {
+pub(super) fn read_fit(table: &TableReader<'_>, field: &Field<String>) -> Option<HoleFit> {
     let text = table.get(field)?;
     text.parse().map_err(|why| table.fail(field, why, Some(format!("give {}", fit::KNOWN)))).ok()
 }

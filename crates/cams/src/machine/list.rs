@@ -1,6 +1,8 @@
 //! The tables of a machine file.
 
-use super::{ROOT, as_made, barrel, bearing, cutting, disc, dynamics, limits, output, plate, title, track, turret};
+use super::{
+    ROOT, as_made, barrel, bearing, cutting, disc, dynamics, hole_pattern, limits, output, plate, title, track, turret,
+};
 use camgen_kernel::document::KeySection;
 use camgen_kernel::follower::FOLLOWERS;
 use camgen_kernel::motion::program;
@@ -23,6 +25,7 @@ const BODY_TABLES: &[&KeySection] = &[
     &turret::SECTION,
     &plate::SECTION,
     &disc::KEYWAY,
+    &hole_pattern::SECTION,
     &track::COUNTER,
     &as_made::SECTION,
     &limits::SECTION,

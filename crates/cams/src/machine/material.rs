@@ -170,6 +170,13 @@ const GRADES: &[Grade] = &[
     ),
 ];
 
+/// Case-hardening steels by their first names (ISO 683-3); the other hardened grades are hardened through.
+const CASE_HARDENED: [&str; 4] = ["16MnCr5", "20MnCr5", "18CrNiMo7-6", "C15"];
+
+fn is_case_hardened(names: &[&str]) -> bool {
+    names.first().is_some_and(|name| CASE_HARDENED.contains(name))
+}
+
 /// The letters and digits of a name: `42 CrMo 4` is `42CrMo4`.
 fn folded(name: &str) -> String {
     name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
@@ -258,6 +265,28 @@ impl CamMaterial {
                 Some(format!("{}, {state},", grade.names.first().unwrap_or(&"")))
             }
             (Some(_), _) | (None, Source::Other) => None,
+        }
+    }
+
+    /// The treatment, with the hardness, that a limit which nobody has stated presumes, as a drawing asks for it; `None` where the file gives the
+    /// limit, or where the material is used as it is cast or drawn.
+    #[must_use]
+    pub fn presumed_treatment(&self) -> Option<String> {
+        if self.limit.is_some() || self.class != Material::Steel {
+            return None;
+        }
+        match self.source {
+            Source::Grade(Grade { treatment: Treatment::Normalised(hardness), .. }) => {
+                Some(format!("normalised, {hardness}+30 HB"))
+            }
+            Source::Grade(Grade { treatment: Treatment::Tempered(hardness), .. }) => {
+                Some(format!("quenched, tempered, {hardness}+40 HV"))
+            }
+            Source::Grade(Grade { treatment: Treatment::Hardened, names, .. }) if is_case_hardened(names) => {
+                Some("case-hardened, 58+4 HRC, CHD 0.8+0.4".to_owned())
+            }
+            Source::Grade(_) | Source::Class => Some("hardened, 58+4 HRC".to_owned()),
+            Source::Other => None,
         }
     }
 

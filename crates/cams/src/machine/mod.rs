@@ -13,6 +13,7 @@ mod disc;
 mod dynamics;
 mod embedded;
 pub mod fit;
+mod hole_pattern;
 mod lift_table;
 mod limits;
 mod list;
@@ -38,6 +39,7 @@ pub use cutting::{Controller, CuttingData, CuttingForm, MillingDirection, Radius
 pub use disc::{CamData, Keyway, Rotation};
 pub use dynamics::{DampingAgainst, Dynamics, GuideData, SpringData, VibrationData};
 pub use embedded::{EMBEDDED, Embedded};
+pub use hole_pattern::HolePattern;
 pub(crate) use lift_table::read as read_lift_table;
 pub use limits::{Limits, OvershootLimit, customary_stress, customary_stress_of, stress_at_rest};
 pub use list::sections;
@@ -138,6 +140,8 @@ pub struct Machine {
     dynamics: Dynamics,
     /// Disc.
     pub cam: CamData,
+    /// Its holes in addition to the bore.
+    pub holes: Vec<HolePattern>,
     /// Errors of the cam and its follower as they are made.
     pub(crate) as_made: Option<AsMadeData>,
     /// The material of the disc as the file calls it.
@@ -267,11 +271,12 @@ impl Machine {
             motion,
             timed: None,
             cam,
+            holes: hole_pattern::read(reader),
             as_made,
             material_name: disc::material_name(reader),
             dynamics: Dynamics::read(reader, &follower, quantity),
             limits: limits::read(reader, &*follower.shape, quantity)?,
-            title: title::read(reader),
+            title: title::read(reader, disc::profile_tolerance(reader)),
             units: output::read(reader),
             cutting: cutting::read(reader),
             parts,

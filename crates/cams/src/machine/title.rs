@@ -1,5 +1,6 @@
 //! The texts of the title block of the review sheet: who owns the drawing, drew it and approved it.
 
+use super::disc::LARGEST_TOLERANCE;
 use camgen_kernel::document::Presence::Optional;
 use camgen_kernel::document::{Field, KeySection, Occurrence, Reader, above};
 use camgen_kernel::units::Dimension::Length;
@@ -70,7 +71,7 @@ const HEAT_TREATMENT: Field<String> =
 const EDGES: Field<String> = Field::text("edges", "how edges are broken", Optional("0.3 x 45°"));
 const PROFILE_TOLERANCE: Field<f64> = Field::quantity(
     "profile_tolerance",
-    "width of the zone in which the manufactured profile must lie, ISO 1101: half of it on either side of the drawn profile",
+    "the same as cam.profile_tolerance, under its older name",
     Optional("0.03 mm"),
     Length,
     above(0.0, LARGEST_TOLERANCE),
@@ -82,8 +83,6 @@ const LIFT_TOLERANCE: Field<f64> = Field::quantity(
     Length,
     above(0.0, LARGEST_TOLERANCE),
 );
-/// Larger than any tolerance of a cam, m.
-const LARGEST_TOLERANCE: f64 = 0.01;
 
 /// `[title]`.
 pub(super) const SECTION: KeySection = KeySection {
@@ -109,8 +108,13 @@ pub(super) const SECTION: KeySection = KeySection {
     ],
 };
 
-pub(super) fn read(reader: &Reader<'_>) -> Title {
+/// The title block; the zone of the profile may be given in `[cam]` (m) or here.
+pub(super) fn read(reader: &Reader<'_>, profile_tolerance: Option<f64>) -> Title {
     let table = reader.table(&SECTION);
+    if profile_tolerance.is_some() && table.has(&PROFILE_TOLERANCE) {
+        let message = "`title.profile_tolerance` is another name of `cam.profile_tolerance`, which is given as well";
+        table.fail(&PROFILE_TOLERANCE, message.into(), Some("leave one of them out".into()));
+    }
     Title {
         owner: table.get(&OWNER),
         part_number: table.get(&PART_NUMBER),
@@ -124,7 +128,7 @@ pub(super) fn read(reader: &Reader<'_>) -> Title {
         case_depth: table.get(&CASE_DEPTH),
         heat_treatment: table.get(&HEAT_TREATMENT),
         edges: table.get(&EDGES),
-        profile_tolerance: table.get(&PROFILE_TOLERANCE),
+        profile_tolerance: profile_tolerance.or_else(|| table.get(&PROFILE_TOLERANCE)),
         lift_tolerance: table.get(&LIFT_TOLERANCE),
     }
 }

@@ -188,7 +188,7 @@ fn fits(reader: &Reader<'_>, follower: &FollowerData) {
 }
 
 /// A whole number.
-fn whole(table: &TableReader<'_>, field: &Field<f64>) -> Option<u32> {
+pub(super) fn whole(table: &TableReader<'_>, field: &Field<f64>) -> Option<u32> {
     let typed = table.get(field)?;
     if typed.fract() != 0.0 {
         table.fail(field, format!("`{}` must be a whole number, not {typed}", field.key.name), None);

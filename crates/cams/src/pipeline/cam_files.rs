@@ -2,11 +2,12 @@
 
 use super::{Error, FileSet, Proven, ProvenAssembly, Writing};
 use crate::body::Body;
-use crate::report::{LazyReport, Report};
-use crate::tool_files::Listed;
+use crate::report::{LazyReport, Report, sha256};
+use crate::tool_files::{Format, Listed};
 use crate::verify::WrittenOutline;
-use crate::write::Rendering;
+use crate::write::{PartFile, Rendering};
 use camgen_kernel::numeric::parallel;
+use camgen_kernel::refusal::Refusal;
 use std::sync::LazyLock;
 
 impl Proven {
@@ -22,7 +23,7 @@ impl Proven {
     /// let writing = Writing::to("output", "eccentric");
     /// let files = proven.files(&writing)?;
     /// let names: Vec<&str> = files.outputs().iter().map(|file| file.name.as_str()).collect();
-    /// assert_eq!(names, ["eccentric.dxf", "eccentric.svg", "eccentric.step", "eccentric.csv"]);
+    /// assert_eq!(names, ["eccentric.dxf", "eccentric.svg", "eccentric-review.svg", "eccentric.step", "eccentric.csv"]);
     ///
     /// assert!(matches!(proven.files(&writing.formats(&["dwg"])), Err(Error::NoSuchFormat { .. })));
     /// # Ok::<(), Error>(())
@@ -103,6 +104,47 @@ fn names(proven: &Proven, writing: &Writing) -> Result<Vec<String>, Error> {
     Ok(endings.concat().iter().map(|ending| format!("{}{ending}", writing.stem)).collect())
 }
 
+/// The files of formats, each with the place of its format in the list of all.
+fn made_of(
+    formats: &[(usize, &Format)],
+    make: impl Fn(&(usize, &Format)) -> Result<Vec<Vec<u8>>, Refusal> + Sync,
+) -> Result<Vec<(usize, Vec<Vec<u8>>)>, Error> {
+    let made = parallel::map(formats, |format| make(format).map(|files| (format.0, files)));
+    made.into_iter().collect::<Result<_, _>>().map_err(Error::Format)
+}
+
+/// The format that has the profile.
+const PROFILE: &str = "dxf";
+/// What a drawing calls the files of a format from which the part is made.
+const ROLES: [(&str, &str); 4] =
+    [(PROFILE, "Profile, 1:1"), ("step", "Solid"), ("gcode", "Program"), ("inspect", "Places to inspect")];
+
+/// The files from which the part is made, those of this run and always the profile.
+fn part_files(
+    proven: &Proven,
+    rendering: &Rendering<'_>,
+    made: &[(usize, Vec<Vec<u8>>)],
+    formats: &[(usize, &Format)],
+    stem: &str,
+) -> Result<Vec<PartFile>, Error> {
+    let is_made = formats.iter().any(|(_, format)| format.name == PROFILE);
+    let profile = crate::tool_files::formats()
+        .find(|format| !is_made && format.name == PROFILE && format.unfit(proven.body()).is_none());
+    let of_profile = profile.as_ref().map(|format| proven.written_in(format, rendering).map_err(Error::Format));
+    let of_profile = of_profile.transpose()?;
+    let all = formats.iter().map(|(_, format)| *format).zip(made.iter().map(|(_, files)| files));
+    let all = all.chain(profile.as_ref().zip(of_profile.as_ref()));
+    let mut found = Vec::new();
+    for (role, format, files) in ROLES.iter().flat_map(|(name, role)| {
+        all.clone().filter(move |(format, _)| format.name == *name).map(move |(format, files)| (*role, format, files))
+    }) {
+        for (ending, bytes) in proven.endings(format)?.iter().zip(files) {
+            found.push(PartFile { role, name: format!("{stem}{ending}"), sha256: sha256(bytes) });
+        }
+    }
+    Ok(found)
+}
+
 /// The files of the first cam of an assembly, whose report also names those of the other cams.
 fn of_first(whole: &ProvenAssembly, writing: &Writing, other_names: &[String]) -> Result<FileSet, Error> {
     let proven = whole.first();
@@ -118,7 +160,8 @@ fn of_first(whole: &ProvenAssembly, writing: &Writing, other_names: &[String]) -
         // The solid of one section would take its place.
         return Err(Error::Unfit { format: format.name, why: "the flank of this cam was not drawn (Request::flank)" });
     }
-    let names = names(proven, &ProvenAssembly::writing(whole.name(), writing))?;
+    let writing_of_first = ProvenAssembly::writing(whole.name(), writing);
+    let names = names(proven, &writing_of_first)?;
     let placed = names.iter().chain(other_names).map(|name| crate::report::listed_path(&writing.directory.join(name)));
     let files: Vec<String> = placed.collect();
     let assembly = whole.clone();
@@ -144,8 +187,17 @@ fn of_first(whole: &ProvenAssembly, writing: &Writing, other_names: &[String]) -
     if filled.len() > 1 {
         LazyLock::force(&report);
     }
-    let made = parallel::map(&filled, |format| proven.written_in(format, &rendering));
-    let bytes: Vec<Vec<Vec<u8>>> = made.into_iter().collect::<Result<_, _>>().map_err(Error::Format)?;
+    // The drawing names the files from which the part is made, with their hashes: they are made before it.
+    let (of_part, shown): (Vec<_>, Vec<_>) =
+        filled.into_iter().enumerate().partition(|(_, format)| !matches!(format.source, Listed::View(_)));
+    let make = |(_, format): &(usize, &Format)| proven.written_in(format, &rendering);
+    let mut bytes = made_of(&of_part, make)?;
+    let part_files = part_files(proven, &rendering, &bytes, &of_part, &writing_of_first.stem)?;
+    let rendering = Rendering { part_files: &part_files, ..rendering };
+    let make = |(_, format): &(usize, &Format)| proven.written_in(format, &rendering);
+    bytes.extend(made_of(&shown, make)?);
+    bytes.sort_by_key(|(place, _)| *place);
+    let bytes: Vec<Vec<Vec<u8>>> = bytes.into_iter().map(|(_, files)| files).collect();
     Ok(FileSet::new(
         writing,
         (proven.body().machine().name(), proven.inputs().to_vec()),

@@ -334,6 +334,7 @@ impl Proven {
             report,
             samples,
             template,
+            part_files: &[],
             #[cfg(feature = "live")]
             live: None,
             created: None,

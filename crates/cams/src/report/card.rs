@@ -6,8 +6,7 @@ use camgen_kernel::geometry::contour::Extents;
 use nalgebra::Vector2;
 
 /// A5, ISO 216; too small for the border of ISO 5457.
-const PAPER: PaperSize =
-    PaperSize { name: "A5", size: Vector2::new(148.0, 210.0), lettering: &[1.0], border: SheetBorder::Iso };
+const PAPER: PaperSize = PaperSize { name: "A5", size: Vector2::new(148.0, 210.0), border: SheetBorder::Iso };
 /// Margin around the frame, and within it, mm.
 const MARGIN: f64 = 7.0;
 const INSIDE: f64 = 4.0;

@@ -6,11 +6,10 @@ use nalgebra::Vector2;
 
 /// Most lines across for the values of a diagram.
 const LINES: f64 = 6.0;
-/// Over the lettering of an A4, mm: texts, and the room to the left of the field, above and below it.
-const TEXT: f64 = 2.8;
-const LEFT: f64 = 15.0;
-const ABOVE: f64 = 7.0;
-const BELOW: f64 = 11.0;
+/// Room to the left of the field, above and below it, mm.
+const LEFT: f64 = 18.0;
+const ABOVE: f64 = 12.0;
+const BELOW: f64 = 13.0;
 const RIGHT: f64 = 6.0;
 
 /// A curve over another: a place, and two values there.
@@ -55,9 +54,9 @@ fn from_start(points: &[[f64; 3]], period: Option<f64>) -> Vec<[f64; 3]> {
     start.into_iter().chain(behind).chain(before).collect()
 }
 
-/// The diagram within a field of paper, with this lettering; nothing where there is no value.
+/// The diagram within a field of paper; nothing where there is no value.
 #[must_use]
-pub(crate) fn within(field: &Extents, k: f64, trace: &Trace) -> Vec<ShapeGroup> {
+pub(crate) fn within(field: &Extents, trace: &Trace) -> Vec<ShapeGroup> {
     let trace = &Trace { points: from_start(&trace.points, trace.period), ..trace.clone() };
     let values = trace.points.iter().flat_map(|[_, motion, cut]| [*motion, *cut]);
     let (low, high) = values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
@@ -65,13 +64,11 @@ pub(crate) fn within(field: &Extents, k: f64, trace: &Trace) -> Vec<ShapeGroup> 
     if !(high > low && last > first && (high - low).is_finite()) {
         return Vec::new();
     }
-    let size = TEXT * k;
+    let size = font::SMALLEST;
     let step = round_step(high - low, LINES);
     let (low, high) = ((low / step).floor() * step, (high / step).ceil() * step);
-    let inner = Extents {
-        least: field.least + Vector2::new(LEFT, BELOW) * k,
-        largest: field.largest - Vector2::new(RIGHT, ABOVE) * k,
-    };
+    let inner =
+        Extents { least: field.least + Vector2::new(LEFT, BELOW), largest: field.largest - Vector2::new(RIGHT, ABOVE) };
     let (width, height) = (inner.size().x, inner.size().y);
     let at = |place: f64, value: f64| {
         let share = Vector2::new((place - first) / (last - first), (value - low) / (high - low));
@@ -83,7 +80,7 @@ pub(crate) fn within(field: &Extents, k: f64, trace: &Trace) -> Vec<ShapeGroup> 
         grid.push(SheetShape::Line(at(*first, value), at(*last, value)));
         let place = at(*first, value) - Vector2::new(0.5, 0.35) * size;
         let text = rounded((value / step).round() * step);
-        let (text, size) = font::fitted_in_one(&text, size, (LEFT - 2.0) * k);
+        let (text, size) = font::fitted_in_one(&text, size, LEFT - 2.0);
         grid.push(words(place, size, TextAnchor::End, text));
         value += step;
     }
@@ -95,12 +92,13 @@ pub(crate) fn within(field: &Extents, k: f64, trace: &Trace) -> Vec<ShapeGroup> 
         };
         vec![SheetShape::Path(trace.points.iter().filter_map(point).collect())]
     };
-    let (head, head_size) = font::fitted_in_one(&trace.head, size, width);
+    let heads = font::wrapped(&trace.head, size, width);
+    let head = heads.iter().rev().zip(0_u32..).map(|(line, above)| {
+        let up = (0.8 + font::LEADING * f64::from(above)) * size;
+        words(Vector2::new(inner.least.x, inner.largest.y + up), size, TextAnchor::Start, line.clone())
+    });
     let below = Vector2::new(0.5 * (inner.least.x + inner.largest.x), inner.least.y - 2.7 * size);
-    let names = vec![
-        words(Vector2::new(inner.least.x, inner.largest.y + 0.8 * size), head_size, TextAnchor::Start, head),
-        words(below, size, TextAnchor::Middle, trace.places),
-    ];
+    let names = head.chain([words(below, size, TextAnchor::Middle, trace.places)]).collect();
     vec![
         ShapeGroup::new("trace-grid", "lines of the diagram", grid),
         ShapeGroup::new("trace-cut", "as cut", curve(2)),

@@ -23,7 +23,7 @@ pub(super) const CHECK: FileCheck = FileCheck {
         explained: CheckExplanation {
             bound: Bound::AtMost,
             formula: "max over both curves of the distance to the nearest point of the other (Hausdorff distance), bounded between places",
-            usual: "the tolerance; half of title.profile_tolerance where that is less",
+            usual: "the tolerance; half of cam.profile_tolerance where that is less",
             change: "a finer --tolerance in the program that wrote the file; where the file is another cam, the report says how it differs",
         },
     },
@@ -64,7 +64,7 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
         zone.filter(|zone| !kept && worst.distance > *zone && worst.without.is_none()).map(|zone| {
             let finer = to_type(1e3 * 0.5 * zone);
             text!(
-                "title.profile_tolerance permits {}; --tolerance {}um leaves half of it to manufacture",
+                "cam.profile_tolerance permits {}; --tolerance {}um leaves half of it to manufacture",
                 Length::mm(zone),
                 finer
             )

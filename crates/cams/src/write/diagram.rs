@@ -21,6 +21,11 @@ pub const FORMAT: View = View {
     of_analysis: None,
 };
 
+/// Whether a body has a motion diagram.
+pub(super) fn fits(body: &dyn Body) -> bool {
+    unfit(body).is_none()
+}
+
 /// A cam whose sections differ has a motion for each of them.
 fn unfit(body: &dyn Body) -> Option<&'static str> {
     let moves = || body.follower_motion().is_some() && body.row_on(0, 0.0).is_some();
@@ -32,8 +37,19 @@ fn unfit(body: &dyn Body) -> Option<&'static str> {
 /// # Errors
 /// [`Refusal`] when a curve of its drawing cannot be drawn, from which its title block is.
 pub fn sheet(cam: &Rendering<'_>) -> Result<Option<Sheet>, Refusal> {
+    numbered(cam, "1/1")
+}
+
+/// The motion diagram as one of several sheets, such as "3/3".
+pub(super) fn numbered(cam: &Rendering<'_>, number: &str) -> Result<Option<Sheet>, Refusal> {
     let outline = cam.outlines.first().map(|outline| &outline.contour);
     let Some(diagram) = motion_diagram(cam.body, outline) else { return Ok(None) };
     let facts = cam.body.view(cam.drawn).map_err(Refusal::of)?.facts;
-    Ok(Some(motion_diagram::sheet(&diagram, cam.report, &facts, &svg::deviation_words(&cam.fit, cam.report.units))))
+    Ok(Some(motion_diagram::sheet(
+        &diagram,
+        cam.report,
+        &facts,
+        &svg::deviation_words(&cam.fit, cam.report.units),
+        number,
+    )))
 }

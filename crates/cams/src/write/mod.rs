@@ -57,13 +57,38 @@ pub struct Rendering<'a> {
     pub report: &'a (dyn Deref<Target = Report> + Sync),
     /// Rows of the table over a turn or a stroke.
     pub samples: u32,
-    /// The template of the review sheet.
+    /// The template of the sheets.
     pub template: &'a str,
+    /// The files from which the part is made, that the drawing names.
+    pub part_files: &'a [PartFile],
     /// The design with which the moving report is made live.
     #[cfg(feature = "live")]
     pub live: Option<&'a html::live::LiveDesign>,
     /// The time stamp of the files, seconds since 1970 UTC.
     pub created: Option<u64>,
+}
+
+/// A file from which a part is made.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PartFile {
+    /// What it has of the part: "Profile".
+    pub role: &'static str,
+    /// Its name.
+    pub name: String,
+    /// SHA-256 of its bytes, hexadecimal.
+    pub sha256: String,
+}
+
+/// Digits of a hash that a drawing has.
+const HASH_DIGITS: usize = 12;
+
+impl PartFile {
+    /// The line of the drawing that names it.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let Self { role, name, sha256 } = self;
+        format!("{role}: {name}, sha256 {}…", sha256.get(..HASH_DIGITS).unwrap_or(sha256))
+    }
 }
 
 /// An analysis, as the formats receive it.

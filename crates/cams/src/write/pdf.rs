@@ -1,4 +1,4 @@
-//! The review sheet as PDF: the SVG of the sheet on a page of its size, with the font in the file.
+//! The sheets as PDF: the SVG of each on a page of its size, with the font in the file.
 
 use super::{AnalysisFormat, FormatSelection, Rendering, View, diagram, fits_all, svg};
 use crate::report::sheet::Sheet;
@@ -11,7 +11,7 @@ use krilla::page::PageSettings;
 use krilla_svg::{SurfaceExt, SvgSettings};
 use std::sync::Arc;
 
-/// The review sheet, for printing.
+/// All sheets of a cam, for printing.
 pub const FORMAT: View = View {
     name: "pdf",
     when: FormatSelection::Asked,
@@ -19,9 +19,10 @@ pub const FORMAT: View = View {
     unfit: fits_all,
     endings: |_| vec![".pdf".into()],
     write: |cam: &Rendering<'_>| {
-        let diagram = diagram::sheet(cam)?;
-        let number = if diagram.is_some() { "1/2" } else { "1/1" };
-        let sheets: Vec<Sheet> = std::iter::once(svg::numbered(cam, number)?).chain(diagram).collect();
+        let count = if diagram::fits(cam.body) { 3 } else { 2 };
+        let number = |index: u32| format!("{index}/{count}");
+        let mut sheets = vec![svg::drawing(cam, &number(1))?, svg::review(cam, &number(2))?];
+        sheets.extend(diagram::numbered(cam, &number(3))?);
         Ok(vec![write_pages(&sheets, cam.template)?])
     },
     of_analysis: Some(AnalysisFormat {

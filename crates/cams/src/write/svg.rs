@@ -1,12 +1,12 @@
-//! The review sheet as SVG at true size: one user unit is a millimetre, arcs are arcs, y is flipped once, in the
+//! The sheets as SVG at true size: one user unit is a millimetre, arcs are arcs, y is flipped once, in the
 //! coordinates.
 
 use super::path_data::PathData;
 use super::template;
-use super::{AnalysisFormat, FormatSelection, Rendering, View, fits_all};
+use super::{AnalysisFormat, FormatSelection, PartFile, Rendering, View, fits_all};
 use crate::body;
 use crate::machine::Catalogue;
-use crate::report::sheet::{ShapeGroup, Sheet, SheetExtras, SheetShape, TextAnchor, compose, font};
+use crate::report::sheet::{ShapeGroup, Sheet, SheetExtras, SheetKind, SheetShape, TextAnchor, compose, font};
 use crate::report::{Finding, Verdict, shown};
 use camgen_kernel::geometry::contour::{Contour, Segment};
 use camgen_kernel::geometry::{Entity, MILLIMETRES};
@@ -15,14 +15,17 @@ use camgen_kernel::refusal::Refusal;
 use camgen_kernel::units::LengthUnit;
 use svg::node::{self, Node, element};
 
-/// The review sheet.
+/// The drawing of the part and its review sheet.
 pub const FORMAT: View = View {
     name: "svg",
     when: FormatSelection::Usual,
     flank: false,
     unfit: fits_all,
-    endings: |_| vec![".svg".into()],
-    write: |cam| Ok(vec![fill(&sheet(cam)?, cam.template, true, &cam.report.mark())?]),
+    endings: |_| vec![".svg".into(), "-review.svg".into()],
+    write: |cam| {
+        let sheets = [drawing(cam, "1/2")?, review(cam, "2/2")?];
+        sheets.iter().map(|sheet| fill(sheet, cam.template, true, &cam.report.mark())).collect()
+    },
     of_analysis: Some(AnalysisFormat {
         endings: |analysis| analysis.picture.endings().iter().map(|ending| format!("{ending}.svg")).collect(),
         write: |account| {
@@ -33,24 +36,46 @@ pub const FORMAT: View = View {
     }),
 };
 
-/// The review sheet of a proven cam.
+/// The drawing from which a shop makes the part of a proven cam, as one of several sheets, such as "1/2".
 ///
 /// # Errors
 /// [`Refusal`] when a curve for viewing cannot be drawn.
-pub fn sheet(cam: &Rendering<'_>) -> Result<Sheet, Refusal> {
-    numbered(cam, "1/1")
+pub fn drawing(cam: &Rendering<'_>, number: &str) -> Result<Sheet, Refusal> {
+    let view = cam.body.part_view(cam.drawn).map_err(Refusal::of)?;
+    let file_deviates = deviation_words(&cam.fit, cam.report.units);
+    let files: Vec<String> = cam.part_files.iter().map(PartFile::words).collect();
+    let extras = SheetExtras {
+        kind: SheetKind::Drawing,
+        files: &files,
+        file_deviates: &file_deviates,
+        number,
+        traces: &[],
+        checks: &[],
+        passed_otherwise: 0,
+    };
+    Ok(compose(&view, cam.report, &extras))
 }
 
-/// The review sheet as one of several, such as "1/2".
-pub(super) fn numbered(cam: &Rendering<'_>, number: &'static str) -> Result<Sheet, Refusal> {
+/// The review sheet of a proven cam, as one of several sheets.
+///
+/// # Errors
+/// [`Refusal`] when a curve for viewing cannot be drawn.
+pub fn review(cam: &Rendering<'_>, number: &str) -> Result<Sheet, Refusal> {
     let view = cam.body.view(cam.drawn).map_err(Refusal::of)?;
     let outline = cam.outlines.first().map(|outline| &outline.contour);
     let second = cam.other_cams.first().and_then(|(body, outlines)| Some((*body, &outlines.first()?.contour)));
     let traces = outline.map_or_else(Vec::new, |outline| body::traces((cam.body, outline), second));
     let file_deviates = deviation_words(&cam.fit, cam.report.units);
     let (checks, passed_otherwise) = listed_checks(&cam.report.checks, cam.body.machine().catalogue());
-    let extras =
-        SheetExtras { file_deviates: &file_deviates, number, traces: &traces, checks: &checks, passed_otherwise };
+    let extras = SheetExtras {
+        kind: SheetKind::Review,
+        files: &[],
+        file_deviates: &file_deviates,
+        number,
+        traces: &traces,
+        checks: &checks,
+        passed_otherwise,
+    };
     Ok(compose(&view, cam.report, &extras))
 }
 
@@ -74,7 +99,7 @@ pub(crate) fn deviation_words(fit: &Fit, units: LengthUnit) -> String {
 pub const TEMPLATE: &str = include_str!("../../templates/sheet.svg");
 
 /// Classes of the groups that show an outline: they state their scale.
-const OUTLINES: [&str; 2] = ["profile", "section"];
+const OUTLINES: [&str; 3] = ["profile", "section", "outline"];
 /// Classes of the groups whose colour fills their shapes.
 const FILLED: [&str; 2] = ["area", "dot"];
 /// Decimals of a coordinate: a nanometre.

@@ -5,6 +5,7 @@ mod fit;
 pub mod measured;
 
 use super::{Analysis, Picture};
+use crate::body::part_tolerance::PartTolerance;
 use crate::body::{Body, Cut, Kind};
 use crate::check::{Check, CheckExplanation, CheckScope, Measure};
 use crate::report::plot::{Plot, PlotBand, PlotCurve, PlotPanel, PlotPoint, figure};
@@ -33,8 +34,8 @@ pub const DEVIATION: Check = Check {
     explained: CheckExplanation {
         bound: Bound::AtMost,
         formula: "max |distance of the point from the profile − radius of the ball|",
-        usual: "half of title.profile_tolerance, the zone of ISO 1101; only reported without it",
-        change: "the part: grind it again, or permit a wider title.profile_tolerance",
+        usual: "half of cam.profile_tolerance, the zone of ISO 1101; half of 0.04 mm, customary for a milled profile, without it",
+        change: "the part: grind it again, or permit a wider cam.profile_tolerance",
     },
 };
 
@@ -265,14 +266,17 @@ fn rows(exact: &ExactProfile<'_>, points: &[Vector2<f64>], moved: &MeasuredMove)
 fn measure(body: &dyn Body, rows: &[PointRow], round: bool) -> Measure {
     let worst = rows.iter().max_by(|a, b| a.place.deviation.abs().total_cmp(&b.place.deviation.abs()));
     let (value, at) = worst.map_or((f64::NAN, 0.0), |row| (row.place.deviation, row.place.angle));
-    let zone = body.machine().title.profile_tolerance;
-    let measure = DEVIATION.measure(value.abs(), zone.map(|zone| 0.5 * MILLIMETRES * zone));
+    let tolerance = PartTolerance::of(body);
+    let limit = tolerance.half_mm();
+    let measure = DEVIATION.measure(value.abs(), Some(limit));
     let what = if value > 0.0 { "too much metal there" } else { "too little metal there" };
-    let note = match zone {
-        Some(_) => Text::from(what),
-        None => text!("{}; title.profile_tolerance gives the limit", what),
+    let note = match tolerance.proposed_from {
+        None => Text::from(what),
+        Some(from) => text!("{}; the limit is proposed ({}): cam.profile_tolerance gives another", what, from),
     };
-    let kept = zone.is_some_and(|zone| value.abs() <= 0.5 * MILLIMETRES * zone);
+    let assumed = tolerance.proposed_from.map_or_else(Text::default, Text::from);
+    let measure = measure.assuming(assumed);
+    let kept = value.abs() <= limit;
     // A few places of a cam do not show that it is right.
     let measure = if kept && !round { measure.judged(Verdict::Warn) } else { measure };
     let note = if round { note } else { note.and("; ", "the points leave a part of the turn out") };
@@ -395,7 +399,7 @@ fn plot(body: &dyn Body, rows: &[PointRow], moved: &MeasuredMove, waves: &[[f64;
     let fitted = points(|row| row.place.deviation);
     let worst = fitted.iter().copied().reduce(|best, next| if next[1].abs() > best[1].abs() { next } else { best });
     let worst = worst.unwrap_or([0.0; 2]);
-    let half_zone = body.machine().title.profile_tolerance.map(|zone| 0.5 * 1e6 * zone);
+    let half_zone = Some(1e3 * PartTolerance::of(body).half_mm());
     let limit = |half: f64| {
         [
             PlotBand::above(half, format!("too much metal: over {} µm", figure(half))),

@@ -139,7 +139,7 @@ fn tables<R: BarrelRoller>(barrel: &Barrel<R>) -> Vec<PlaceTable> {
         }
         cells
     };
-    let rows: Arc<[Vec<String>]> = (0..ROWS).map(row).collect();
+    let rows = PlaceTable::regular_rows((0..ROWS).map(row));
     let [outside, floor] = [barrel.outer, barrel.floor()].map(|radius| units.dimension(MILLIMETRES * radius));
     let heads = ["θ", "φ above", "z above", "φ below", "z below", "φ above", "z above", "φ below", "z below"];
     let of = |every: usize| PlaceTable {
@@ -147,6 +147,7 @@ fn tables<R: BarrelRoller>(barrel: &Barrel<R>) -> Vec<PlaceTable> {
             "Both flanks, first on R {outside}, then on the floor R {floor}: angle φ, °, and height z, {}",
             units.symbol()
         ),
+        remarks: Vec::new(),
         heads: heads.map(str::to_owned).to_vec(),
         rows: Arc::clone(&rows),
         every,

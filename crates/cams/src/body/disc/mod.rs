@@ -423,7 +423,11 @@ impl Body for Disc {
             }
             other => other.into(),
         })?;
-        let part = Part::turning(&self.machine, outline).balanced(&self.machine);
+        let part = Part::turning(&self.machine, outline).drilled(&self.machine);
+        if let Some(fault) = part.hole_fault(&self.machine) {
+            return Err(DrawError::Refused(fault));
+        }
+        let part = part.balanced(&self.machine);
         let cutter_path = |radius: f64| {
             let path = outline::cutter_path(curves, radius, request.fit)?;
             Ok::<_, OutlineError>(Part::turning(&self.machine, path).outline)
@@ -487,6 +491,14 @@ impl Body for Disc {
 
     fn not_modelled(&self) -> Vec<&'static str> {
         mechanism::not_modelled(self)
+    }
+
+    fn permitted_path_error(&self) -> Option<(f64, &'static str)> {
+        self.duty.as_ref()?.permitted_path_error(self)
+    }
+
+    fn part_view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
+        Ok(super::part_drawing::of_plane_part(self, drawn, self.view(drawn)?))
     }
 
     fn view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {

@@ -3,9 +3,7 @@
 use super::{Disc, shop_views};
 use crate::body::figures;
 use crate::body::part::{as_turned, point_as_turned};
-use crate::body::sheet::{
-    PATH_OVER_RADIUS, axes, bore, lost_motion, overall, pressure_angle, profile_table, roller, turning,
-};
+use crate::body::sheet::{PATH_OVER_RADIUS, axes, bore, lost_motion, overall, pressure_angle, roller, turning};
 use crate::body::{Body, Drawn, Figures, Part, conjugate};
 use crate::report::sheet::Dimensions;
 use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView, TitleFacts, extents_of};
@@ -20,9 +18,6 @@ use nalgebra::Vector2;
 
 /// Half the length at which a flat face is shown, over the base radius.
 const FACE_OVER_BASE: f64 = 0.8;
-/// The note where the file itself takes what the tolerance of the lift permits.
-const NOTHING_LEFT: &str =
-    "no tolerance of the profile is proposed: the deviation of the file takes all that title.lift_tolerance permits";
 /// Points of a stretch of lost motion.
 const LOST_POINTS: u32 = 48;
 
@@ -67,8 +62,6 @@ pub(super) fn view(disc: &Disc, steepest: &Disc, drawn: &Drawn) -> Result<SheetV
     let zero = disc.duty.as_ref().map_or("θ = 0", |duty| duty.angle_origin());
     let at_zero =
         part.and_then(|part| polar::outermost(&part.outline.contour, &[Vector2::x()]).pop().flatten()).unwrap_or(base);
-    let tolerance = part.and_then(|part| shop_views::tolerance(disc, &part.outline));
-    let nothing_left = disc.machine.title.lift_tolerance.is_some() && tolerance.is_none();
     let marks = [
         overall(&outline, units),
         bore(&disc.machine, part.and_then(|part| part.balancing.as_ref())),
@@ -77,14 +70,14 @@ pub(super) fn view(disc: &Disc, steepest: &Disc, drawn: &Drawn) -> Result<SheetV
         farthest(part.map(|part| &part.outline.contour), units).into_iter().collect(),
         arm_marks,
         side_marks,
-        part.map_or_else(Vec::new, |part| shop_views::of_profile(disc, &part.outline, tolerance)),
+        part.map_or_else(Vec::new, |part| shop_views::of_profile(disc, &part.outline)),
     ];
     Ok(SheetView {
         groups,
         marks: marks.into_iter().flatten().collect(),
-        tables: part.map_or_else(Vec::new, |part| profile_table(&disc.machine, disc.curves(), &part.outline.contour)),
+        tables: Vec::new(),
         facts: TitleFacts::of(&disc.machine, part.and_then(|part| part.weight(&disc.machine).mass_kg)),
-        notes: nothing_left.then(|| NOTHING_LEFT.into()).into_iter().chain(rollers_of_pair(disc)).collect(),
+        notes: rollers_of_pair(disc).into_iter().collect(),
         lost: if disc.least_radius().value <= disc.curves().offset().abs() {
             figures::lost_motion(disc.curves(), &|at| disc.place(at))
         } else {

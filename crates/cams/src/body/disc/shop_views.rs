@@ -2,11 +2,12 @@
 //! tolerance of the profile.
 
 use super::Disc;
+use crate::body::Part;
 use crate::body::part::point_as_turned;
-use crate::body::sheet::{self, profile_tolerance, tolerance_frame};
-use crate::body::{Figures, Part};
+use crate::body::part_tolerance::PartTolerance;
+use crate::body::sheet::{self, tolerance_frame};
 use crate::report::sheet::Dimensions;
-use crate::report::sheet::{Mark, ProfileTolerance, ShapeGroup, SheetShape};
+use crate::report::sheet::{Mark, ShapeGroup, SheetShape};
 use camgen_kernel::follower::{Carrier, Element};
 use camgen_kernel::geometry::contour::Extents;
 use camgen_kernel::geometry::{Entity, MILLIMETRES, polar};
@@ -76,12 +77,6 @@ pub(super) fn side_view(disc: &Disc, part: Option<&Part>, front: &Extents) -> (V
     )
 }
 
-/// The tolerance of the profile, given or proposed.
-pub(super) fn tolerance(disc: &Disc, outline: &Outline) -> Option<ProfileTolerance> {
-    let permitted = disc.duty.as_ref().and_then(|duty| duty.permitted_path_error(disc));
-    profile_tolerance(&disc.machine, permitted, disc.pressure_angle().value.abs(), outline)
-}
-
 /// The path of the tool to the start of the cut, where one is drawn.
 pub(super) fn lead_in(part: &Part) -> Option<ShapeGroup> {
     let shape = SheetShape::Entity(Entity::Segment(part.outline.lead_in?));
@@ -89,7 +84,7 @@ pub(super) fn lead_in(part: &Part) -> Option<ShapeGroup> {
 }
 
 /// Where the cut starts, and the tolerance and the roughness of the profile.
-pub(super) fn of_profile(disc: &Disc, outline: &Outline, tolerance: Option<ProfileTolerance>) -> Vec<Mark> {
+pub(super) fn of_profile(disc: &Disc, outline: &Outline) -> Vec<Mark> {
     let start = outline.contour.edges().next().map(|first| {
         let along = first.start_tangent();
         Mark::Start { at: first.start(), along, outward: Vector2::new(along.y, -along.x) }
@@ -102,7 +97,7 @@ pub(super) fn of_profile(disc: &Disc, outline: &Outline, tolerance: Option<Profi
         let radii = polar::outermost(&outline.contour, &rays);
         rays.into_iter().zip(radii).filter_map(|(ray, radius)| Some((ray * radius?, ray))).collect()
     };
-    let frame = tolerance.map(|tolerance| tolerance_frame(&disc.machine, tolerance, places(225.0)));
+    let frame = Some(tolerance_frame(&disc.machine, PartTolerance::of(disc), places(225.0)));
     let roughness = &disc.machine.title.surface_roughness;
     let roughness = roughness.as_ref().map(|text| Mark::Roughness { places: places(135.0), text: text.clone() });
     start.into_iter().chain(frame).chain(roughness).collect()

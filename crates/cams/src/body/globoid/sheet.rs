@@ -150,7 +150,7 @@ fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
                     found.filter(|found| found.about_turret(globoid.turret.distance).abs() <= globoid.end_angle);
                 cells.extend(match inside {
                     Some(found) => [
-                        format!("{:.4}", globoid.groove.sense() * (angle + found.ahead()).to_degrees()),
+                        format!("{:.2}", globoid.groove.sense() * (angle + found.ahead()).to_degrees()),
                         units.cell(MILLIMETRES * found.radius()),
                         units.cell(MILLIMETRES * found.place.z),
                     ],
@@ -163,7 +163,7 @@ fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
         }
         i += 1.0;
     }
-    let rows: Arc<[Vec<String>]> = rows.into();
+    let rows = PlaceTable::regular_rows(rows);
     let group = ["φ above", "r above", "z above", "φ below", "r below", "z below"];
     let heads: Vec<String> = ["θ"].into_iter().chain(group).chain(group).map(str::to_owned).collect();
     let [outside, floor] = [globoid.outside, globoid.floor].map(|from| units.dimension(MILLIMETRES * from));
@@ -172,6 +172,7 @@ fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
             "Both flanks of groove 1, first at R {outside} about the turret, then at the floor R {floor}: angle φ, °, radius r and height z, {}",
             units.symbol()
         ),
+        remarks: Vec::new(),
         heads: heads.clone(),
         rows: Arc::clone(&rows),
         every,

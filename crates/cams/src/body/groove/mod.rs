@@ -13,6 +13,7 @@ use super::disc::delegate::body_of_its_disc;
 use super::disc::{self, Disc, DiscRole, Hold};
 use super::figures::with_subject;
 use super::part::{PartFlank, Track, as_turned};
+use super::part_drawing;
 use super::{Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Layer, Part, Request, WorstPlaces, largest};
 use crate::check::{Measures, contact_stress};
 use crate::machine::{Machine, Rotation};
@@ -207,7 +208,12 @@ impl Body for Groove {
 
     fn holes_within(&self, _: &Contour) -> Vec<Entity> {
         let blank = Entity::Circle(Vector2::zeros(), MILLIMETRES * self.blank_radius);
-        super::part::bore(self.machine()).into_iter().chain([blank]).collect()
+        Part { bore: super::part::bore(self.machine()), ..Part::solid_plate(Outline::empty()) }
+            .drilled(self.machine())
+            .holes()
+            .into_iter()
+            .chain([blank])
+            .collect()
     }
 
     fn measures(&self, of: &mut Measures<'_>) {
@@ -236,6 +242,10 @@ impl Body for Groove {
             depth: self.depth().map(|depth| MILLIMETRES * depth),
         };
         let part = Part { track: Some(track), bore: super::part::bore(machine), ..Part::solid_plate(first) };
+        let part = part.drilled(machine);
+        if let Some(fault) = part.hole_fault(machine) {
+            return Err(DrawError::Refused(fault));
+        }
         let path = |radius: f64| self.outlines(|curves| outline::cutter_path(curves, radius, request.fit));
         let mut paths = request.cutter_radius.map_or_else(Vec::new, path).into_iter();
         Ok(Drawn { cutter_path: paths.next(), other_cutter_paths: paths.collect(), ..Drawn::of(vec![part]) })
@@ -259,6 +269,10 @@ impl Body for Groove {
 
     fn mechanism(&self, drawn: &Drawn, samples: u32) -> MovingMechanism {
         self.disc.mechanism(drawn, samples)
+    }
+
+    fn part_view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
+        Ok(part_drawing::of_plane_part(self, drawn, self.view(drawn)?))
     }
 
     fn view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {

@@ -12,6 +12,7 @@ use super::disc::delegate::body_of_its_disc;
 use super::disc::{self, Disc, DiscRole, Hold};
 use super::figures::with_subject;
 use super::part::{PartFlank, Track, as_turned, point_as_turned};
+use super::part_drawing;
 use super::{Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Layer, Part, Request, broken_limit};
 use crate::check::{AsWritten, Measures};
 use crate::machine::{FollowerData, Machine, Rotation};
@@ -202,6 +203,10 @@ impl Body for Rib {
         self.outer.rows(samples).into_iter().map(|row| self.with_inner_flank(row)).collect()
     }
 
+    fn row_follower(&self) -> Option<&'static str> {
+        Some("outer roller")
+    }
+
     fn row_on(&self, piece: usize, parameter: f64) -> Option<Row> {
         self.outer.row_on(piece, parameter).map(|row| self.with_inner_flank(row))
     }
@@ -218,6 +223,10 @@ impl Body for Rib {
 
     fn mechanism(&self, drawn: &Drawn, samples: u32) -> MovingMechanism {
         self.outer.mechanism_with((&self.inner, 0.0), drawn, samples)
+    }
+
+    fn part_view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
+        Ok(part_drawing::of_plane_part(self, drawn, self.view(drawn)?))
     }
 
     fn view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {

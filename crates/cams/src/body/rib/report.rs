@@ -1,7 +1,6 @@
 //! What report and sheet say of a rib.
 
 use super::Rib;
-use crate::body::sheet::name_profile;
 use crate::body::{Body, DrawingEvidence, Drawn, Figures, Layer};
 use crate::report::sheet::Dimensions;
 use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView};
@@ -75,7 +74,6 @@ pub(super) fn view(rib: &Rib, drawn: &Drawn) -> Result<SheetView, OutlineError> 
     for group in view.groups.iter_mut().filter(|group| group.class == "profile") {
         group.label = "outer flank".into();
     }
-    name_profile(&mut view.tables, "Outer flank");
     let centres = rib.flanks().map(|(disc, _)| {
         let (piece, angle) = disc.curves().motion.locate(0.0);
         let radius = disc.curves().roller_radius().unwrap_or(f64::NAN);

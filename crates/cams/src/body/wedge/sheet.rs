@@ -1,9 +1,8 @@
 //! What the review sheet of a plate shows.
 
 use super::Wedge;
-use crate::body::sheet::{
-    length_cell, overall, pressure_angle, profile_tolerance, roller, side_view, tolerance_frame, travelled,
-};
+use crate::body::part_tolerance::PartTolerance;
+use crate::body::sheet::{length_cell, overall, pressure_angle, roller, side_view, tolerance_frame, travelled};
 use crate::body::{Body, Drawn, Figures};
 use crate::report::sheet::Dimensions;
 use crate::report::sheet::{Mark, PlaceTable, ShapeGroup, SheetShape, SheetView, TitleFacts, extents_of};
@@ -59,9 +58,7 @@ pub(super) fn view(wedge: &Wedge, drawn: &Drawn) -> Result<SheetView, OutlineErr
     seen.retain(|group| group.class == "side");
     groups.extend(seen);
     let weight = part.map(|part| part.weight(&wedge.machine));
-    let zone =
-        part.and_then(|part| profile_tolerance(&wedge.machine, None, wedge.pressure_angle().value, &part.outline));
-    let frame = zone.map(|zone| tolerance_frame(&wedge.machine, zone, flank_places(wedge)));
+    let frame = Some(tolerance_frame(&wedge.machine, PartTolerance::of(wedge), flank_places(wedge)));
     Ok(SheetView {
         groups,
         marks: [overall(&outline, wedge.machine.units()), thickness, names, angle, frame.into_iter().collect()]
@@ -143,12 +140,13 @@ fn places(wedge: &Wedge) -> Vec<PlaceTable> {
             cell(row.profile.map(|point| point.y)),
         ]
     };
-    let rows: Arc<[Vec<String>]> = wedge.rows(STEPS).iter().map(row).collect();
+    let rows = PlaceTable::regular_rows(wedge.rows(STEPS).iter().map(row));
     let heads = ["x, mm", "lift, mm", "flank x", "flank y"].map(|head| head.replace("mm", unit)).to_vec();
     let table = |every: usize| PlaceTable {
         title: format!(
             "Flank of the plate: travel x, lift there, place of contact, {unit} from the follower at x = 0, lift 0"
         ),
+        remarks: Vec::new(),
         heads: heads.clone(),
         rows: Arc::clone(&rows),
         every,

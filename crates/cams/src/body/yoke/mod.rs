@@ -10,6 +10,7 @@ use super::conjugate::CounterMotion;
 use super::disc::delegate::{body_of_its_disc, figures_of_its_disc};
 use super::disc::{Disc, DiscRole, Hold};
 use super::figures::with_subject;
+use super::part_drawing;
 use super::{Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Request, broken_limit};
 use crate::check::{AsWritten, Measure, Measures};
 use crate::machine::{FollowerData, Machine};
@@ -233,6 +234,10 @@ impl Body for Yoke {
 
     fn mechanism(&self, drawn: &Drawn, samples: u32) -> MovingMechanism {
         self.disc.mechanism_with((&self.opposite, PI), drawn, samples)
+    }
+
+    fn part_view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
+        Ok(part_drawing::of_plane_part(self, drawn, self.view(drawn)?))
     }
 
     fn view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {

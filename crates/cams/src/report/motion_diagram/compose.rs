@@ -6,7 +6,9 @@ use super::{DiagramPanel, DiagramSegment, MotionDiagram, figure, notes};
 use crate::report::Report;
 use crate::report::sheet::block::{self, TitleBlock};
 use crate::report::sheet::paper::{PaperSize, SheetBorder, frame_and_grid, papers};
-use crate::report::sheet::{STROKE, ShapeGroup, Sheet, SheetShape, TextAnchor, TitleFacts, font, rounded, words};
+use crate::report::sheet::{
+    STROKE, ShapeGroup, Sheet, SheetKind, SheetShape, TextAnchor, TitleFacts, font, rounded, words,
+};
 use crate::report::trace::round_step;
 use camgen_kernel::geometry::contour::Extents;
 use camgen_kernel::units::LengthUnit;
@@ -19,9 +21,11 @@ const PAPER_IN_INCHES: &str = "B";
 /// Room to the right of the panels, mm.
 const RIGHT: f64 = 6.0;
 /// Room for the names of the segments above the panels, for the axis below them, and between two panels, mm.
-const STRIP: f64 = 7.5;
-const AXIS: f64 = 8.0;
+const STRIP: f64 = 9.0;
+const AXIS: f64 = 10.5;
 const GAP: f64 = 1.6;
+/// Height of the notes at the left of the title block, mm.
+const NOTES: f64 = 56.0;
 /// Room between the frame and what is in it, mm.
 const PAD: f64 = 2.5;
 /// Degrees between the lines of the grid of a turn, and most lines of that of a travel.
@@ -32,15 +36,14 @@ const NEAR: f64 = 2.0;
 
 /// The motion diagram of a cam on its sheet; `deviation` is what the title block of its drawing has for the outline.
 #[must_use]
-pub fn sheet(diagram: &MotionDiagram, report: &Report, facts: &TitleFacts, deviation: &str) -> Sheet {
+pub fn sheet(diagram: &MotionDiagram, report: &Report, facts: &TitleFacts, deviation: &str, number: &str) -> Sheet {
     let name = if diagram.units == LengthUnit::Inch { PAPER_IN_INCHES } else { PAPER };
     let paper = papers(diagram.units).iter().find(|paper| paper.name == name).copied();
-    let paper =
-        paper.unwrap_or(PaperSize { name: "", size: Vector2::repeat(1.0), lettering: &[], border: SheetBorder::Iso });
+    let paper = paper.unwrap_or(PaperSize { name: "", size: Vector2::repeat(1.0), border: SheetBorder::Iso });
     let frame = paper.frame(Vector2::zeros());
     let mut groups = frame_and_grid(&paper, Vector2::zeros());
     let field = Extents {
-        least: Vector2::new(frame.least.x + PAD + TITLES + NUMBERS, frame.least.y + block::HEIGHT + AXIS),
+        least: Vector2::new(frame.least.x + PAD + TITLES + NUMBERS, frame.least.y + NOTES + AXIS),
         largest: Vector2::new(frame.largest.x - RIGHT, frame.largest.y - STRIP),
     };
     let grid = grid(diagram);
@@ -56,7 +59,7 @@ pub fn sheet(diagram: &MotionDiagram, report: &Report, facts: &TitleFacts, devia
     groups.push(segments(diagram, &field));
     groups.push(axis(diagram, &grid, &field));
     let corner = Vector2::new(frame.largest.x, frame.least.y);
-    let below = Extents { least: frame.least, largest: corner + Vector2::new(-block::WIDTH, block::HEIGHT) };
+    let below = Extents { least: frame.least, largest: corner + Vector2::new(-block::WIDTH, NOTES) };
     groups.push(ShapeGroup {
         id: "diagram-rule".into(),
         ..ShapeGroup::new(
@@ -71,11 +74,12 @@ pub fn sheet(diagram: &MotionDiagram, report: &Report, facts: &TitleFacts, devia
         report,
         paper: &paper,
         scale: String::new(),
+        kind: SheetKind::Review,
         document: "motion diagram",
-        number: "2/2",
+        number,
         file_deviates: deviation.into(),
     };
-    groups.extend(block.groups(corner, 1.0));
+    groups.extend(block.groups(corner));
     Sheet {
         title: format!("{}, motion diagram", report.title()),
         extents: Extents { least: Vector2::zeros(), largest: paper.size },

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 /// Radius of the mark of an extreme, mm.
 pub(super) const MARK: f64 = 0.7;
 /// Height of a label, mm.
-pub(super) const SIZE: f64 = 2.5;
+pub(super) const SIZE: f64 = crate::report::sheet::font::SMALLEST;
 /// Distances of a label from its place that are tried, mm, the nearest first; only a label that must be seen is put far away.
 const NEAR: [f64; 5] = [1.3, 2.0, 3.0, 4.5, 6.5];
 const FAR: [f64; 8] = [9.0, 12.0, 16.0, 22.0, 30.0, 40.0, 55.0, 75.0];

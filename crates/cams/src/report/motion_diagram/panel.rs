@@ -12,13 +12,15 @@ use camgen_kernel::geometry::contour::Extents;
 use nalgebra::Vector2;
 
 /// Room to the left of a panel for its name, and for the numbers of its values, mm.
-pub(super) const TITLES: f64 = 27.0;
-pub(super) const NUMBERS: f64 = 13.0;
-/// Most lines across for the values of a panel.
-const LINES: f64 = 5.0;
+pub(super) const TITLES: f64 = 38.0;
+pub(super) const NUMBERS: f64 = 17.0;
+/// Lines across for the values of a panel, at most: the most for which there is room.
+const LINES: [f64; 5] = [5.0, 4.0, 3.0, 2.0, 1.0];
+/// Least distance of two of them, so that their numbers are apart, mm.
+const LEAST_STEP: f64 = 1.2 * SIZE;
 /// Room above and below a curve, mm, and where labels need a band of their own.
 const PAD: f64 = 1.4;
-const BAND: f64 = 4.6;
+const BAND: f64 = 6.0;
 /// Length and width of the head of an arrow, mm.
 const HEAD: Vector2<f64> = Vector2::new(0.9, 2.2);
 /// Room between the frame of a panel and its labels, mm.
@@ -174,7 +176,10 @@ impl PanelPaper<'_> {
             let ends = [self.field.least.y, self.field.largest.y].map(|y| Vector2::new(x, y));
             grid.extend(around(ends[0], ends[1], fields));
         }
-        let step = round_step(scale.window.high - scale.window.low, LINES);
+        let range = scale.window.high - scale.window.low;
+        let is_apart = |step: &f64| (scale.at(first, *step) - scale.at(first, 0.0)).y.abs() >= LEAST_STEP;
+        let steps = LINES.into_iter().map(|lines| round_step(range, lines));
+        let step = steps.clone().find(is_apart).or_else(|| steps.last()).unwrap_or(range);
         let mut number = (scale.window.low / step).ceil();
         while number * step <= scale.window.high + 1e-9 * step {
             let [from, to] = [first, last].map(|place| scale.at(place, number * step));

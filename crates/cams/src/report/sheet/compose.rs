@@ -5,20 +5,22 @@ use super::marks::Marker;
 use super::panels::{self, PanelWriter, SheetPanel};
 use super::paper::{ENLARGEMENTS, PaperSize, REDUCTIONS, frame_and_grid, papers, rectangle};
 use super::placing::OccupiedPaper;
-use super::{Mark, STROKE, ShapeGroup, Sheet, SheetShape, SheetView, TextAnchor, TitleFacts, font, words};
+use super::{Mark, STROKE, ShapeGroup, Sheet, SheetKind, SheetShape, SheetView, TextAnchor, TitleFacts, font, words};
 use crate::report::trace::{self, Trace};
 use crate::report::{Finding, Report, failed};
 use camgen_kernel::geometry::contour::Extents;
+use camgen_kernel::text::Text;
 use camgen_kernel::units::LengthUnit;
 use nalgebra::Vector2;
 use std::borrow::Cow;
 
-/// Over the lettering of an A4, mm: room about the lines of a view, for each dimension line; height of the diagram
-/// and of the stamp; room between panels and frame.
+/// Room about the lines of a view of a review sheet and of a drawing, for each dimension line; height of the diagram and of the stamp; room between panels
+/// and frame, mm.
 const ROOM: Vector2<f64> = Vector2::new(10.0, 9.0);
+const ROOM_OF_DRAWING: Vector2<f64> = Vector2::new(30.0, 18.0);
 const DIMENSION_ROOM: f64 = 7.0;
-const DIAGRAM: f64 = 50.0;
-const STAMP: f64 = 17.0;
+const DIAGRAM: f64 = 56.0;
+const STAMP: f64 = 19.0;
 const PAD: f64 = 3.0;
 /// What covers less than this at true size, mm, is too small to be read.
 const SMALL: f64 = 60.0;
@@ -26,10 +28,14 @@ const SMALL: f64 = 60.0;
 /// Contents of a sheet other than view and report.
 #[derive(Debug, Clone, Copy)]
 pub struct SheetExtras<'a> {
+    /// What the sheet is for.
+    pub kind: SheetKind,
+    /// The files that belong to the part, a text each.
+    pub files: &'a [String],
     /// How far the profile of the file lies from the exact one, in words.
     pub file_deviates: &'a str,
     /// Which sheet of how many it is: "1/1".
-    pub number: &'static str,
+    pub number: &'a str,
     /// A diagram below the view.
     pub traces: &'a [Trace],
     /// The checks that a reader of paper needs.
@@ -42,7 +48,6 @@ pub struct SheetExtras<'a> {
 struct Layout {
     paper: &'static PaperSize,
     scale: f64,
-    k: f64,
     /// Lower left corner of the page.
     corner: Vector2<f64>,
     view: Extents,
@@ -64,30 +69,18 @@ pub fn compose(view: &SheetView, report: &Report, extras: &SheetExtras<'_>) -> S
     } else {
         Extents { least: Vector2::zeros(), largest: Vector2::zeros() }
     };
-    let attempt = |scale: f64, paper: &'static PaperSize, k: f64| LayoutAttempt {
-        view,
-        report,
-        extras,
-        covered,
-        paper,
-        scale,
-        k,
-    };
+    let attempt = |scale: f64, paper: &'static PaperSize| LayoutAttempt { view, report, extras, covered, paper, scale };
     let fitting = |partly: bool| {
         let scales = REDUCTIONS.iter().map(|reduction| 1.0 / reduction);
         let sheets = scales.flat_map(|scale| papers.iter().map(move |paper| (scale, paper)));
-        let tried = sheets.flat_map(|(scale, paper)| paper.lettering.iter().map(move |k| attempt(scale, paper, *k)));
-        let fits = tried.into_iter().find_map(|tried| tried.layout(partly))?;
+        let fits = sheets.map(|(scale, paper)| attempt(scale, paper)).find_map(|tried| tried.layout(partly))?;
         // A small cam is enlarged as far as its sheet allows, a very small one on the next larger sheet.
         let is_small = covered.size().max() < SMALL;
         let from = papers.iter().position(|paper| paper.name == fits.paper.name).unwrap_or(0);
         let larger = papers.iter().skip(from).take(if is_small { 2 } else { 1 });
         let enlarged = larger.flat_map(|paper| ENLARGEMENTS.iter().map(move |scale| (paper, scale)));
-        let mut attempts = enlarged.filter(|_| fits.scale >= 1.0).map(|(paper, scale)| {
-            let k = if paper.name == fits.paper.name { Some(fits.k) } else { paper.lettering.first().copied() };
-            attempt(*scale, paper, k.unwrap_or(fits.k)).layout(partly)
-        });
-        attempts.find_map(|found| found).or(Some(fits))
+        let mut attempts = enlarged.filter(|_| fits.scale >= 1.0).map(|(paper, scale)| attempt(*scale, paper));
+        attempts.find_map(|tried| tried.layout(partly)).or(Some(fits))
     };
     // Where no sheet holds every panel, those that do not fit are left out: the report has them.
     match fitting(false).or_else(|| fitting(true)) {
@@ -132,93 +125,80 @@ struct LayoutAttempt<'a> {
     covered: Extents,
     paper: &'static PaperSize,
     scale: f64,
-    k: f64,
 }
 
 impl LayoutAttempt<'_> {
     /// The layout, or `None` where it does not fit; `partly`: without the panels that do not fit.
     fn layout(&self, partly: bool) -> Option<Layout> {
-        let k = self.k;
         let frame = self.paper.frame(Vector2::zeros()).size();
-        let upright = self.paper.size.x < self.paper.size.y;
-        let diagram = if self.extras.traces.is_empty() { 0.0 } else { DIAGRAM * k };
-        let stamp = if self.report.passed() { 0.0 } else { STAMP * k };
-        let needed = self.covered.size() * self.scale + 2.0 * k * ROOM + self.dimensions();
-        let block = Vector2::new(block::WIDTH, block::HEIGHT) * k;
-        let (room, stacks) = if upright {
-            let wide = 0.5 * (frame.x - 3.0 * PAD * k);
-            let below = frame.y - block.y - diagram - stamp - needed.y - PAD * k;
-            (Vector2::new(frame.x, needed.y), vec![(wide, below), (wide, below)])
-        } else {
-            let column = (block.x - 2.0 * PAD * k, frame.y - block.y - PAD * k);
-            (Vector2::new(frame.x - block.x, frame.y - diagram - stamp), vec![column])
-        };
+        let diagram = if self.extras.traces.is_empty() { 0.0 } else { DIAGRAM };
+        let stamp = if self.report.passed() { 0.0 } else { STAMP };
+        let around = if self.extras.kind == SheetKind::Drawing { ROOM_OF_DRAWING } else { ROOM };
+        let needed = self.covered.size() * self.scale + 2.0 * around + self.dimensions();
+        let room = Vector2::new(frame.x - block::WIDTH, frame.y - diagram - stamp);
         if needed.x > room.x || needed.y > room.y {
             return None;
         }
-        let panels = self.panels(&stacks, partly)?;
-        Some(self.arrange(panels, diagram, stamp, upright))
+        let height = frame.y - block::height(self.extras.kind) - PAD;
+        let panels = self.panels(block::WIDTH - 2.0 * PAD, height, partly)?;
+        Some(self.arrange(panels, diagram, stamp))
     }
 
     /// Room for the dimension lines to the left and below, mm of paper.
     fn dimensions(&self) -> Vector2<f64> {
         let room = self.view.marks.iter().map(|mark| match mark {
-            Mark::Distance { away, .. } => away.map(|part| if part == 0.0 { 0.0 } else { DIMENSION_ROOM * self.k }),
+            Mark::Distance { away, .. } => away.map(|part| if part == 0.0 { 0.0 } else { DIMENSION_ROOM }),
             _ => Vector2::zeros(),
         });
         room.sum()
     }
 
-    /// Every panel with its column and its distance from the top, the tables of places as fine as there is room for.
-    fn panels(&self, stacks: &[(f64, f64)], partly: bool) -> Option<Vec<(usize, f64, SheetPanel)>> {
-        let choices = self.view.tables.iter().map(Some).chain(self.view.tables.is_empty().then_some(None));
-        let tried = choices.map(|table| flow(self.list(stacks.first()?.0, table), stacks, partly));
-        tried.flatten().next()
+    /// Every panel with its distance from the top, the tables of places as fine as there is room for.
+    fn panels(&self, width: f64, height: f64, partly: bool) -> Option<Vec<(f64, SheetPanel)>> {
+        let tables = if self.extras.kind == SheetKind::Review { &[][..] } else { &self.view.tables };
+        let choices = tables.iter().map(Some).chain(tables.is_empty().then_some(None));
+        choices.filter_map(|table| stack(self.list(width, table), height, partly)).next()
     }
 
     fn list(&self, width: f64, table: Option<&super::PlaceTable>) -> Vec<SheetPanel> {
-        let writer = || PanelWriter::new(self.k, width);
-        let mut list = vec![
-            panels::checks(writer(), self.extras.checks, self.extras.passed_otherwise, self.report.units),
-            panels::figures(writer(), self.report),
-            panels::legend(writer(), self.view),
-        ];
-        if !(self.view.notes.is_empty() && self.view.lost.is_empty() && self.report.notes.is_empty()) {
-            list.push(panels::notes(writer(), self.view, self.report));
+        let writer = || PanelWriter::new(width);
+        let notes = |of_report| {
+            let has_notes = !(self.view.notes.is_empty() && self.view.lost.is_empty() && of_report == &[] as &[Text]);
+            has_notes.then(|| panels::notes(writer(), self.view, self.report, of_report))
+        };
+        let table = table.map(|table| panels::places(writer(), table));
+        let files = (!self.extras.files.is_empty()).then(|| panels::files(writer(), self.extras.files));
+        match self.extras.kind {
+            // What camgen assumed is for the reviewer: the drawing has what follows from it.
+            SheetKind::Drawing => table.into_iter().chain(files).chain(notes(&[])).collect(),
+            SheetKind::Inspection => table.into_iter().chain(notes(&[])).collect(),
+            SheetKind::Review => {
+                let checks =
+                    panels::checks(writer(), self.extras.checks, self.extras.passed_otherwise, self.report.units);
+                let facts = [checks, panels::figures(writer(), self.report), panels::legend(writer(), self.view)];
+                facts.into_iter().chain(notes(&self.report.notes)).collect()
+            }
         }
-        list.extend(table.map(|table| panels::places(writer(), table)));
-        list
     }
 
     /// The regions, once it is known that all fits.
-    fn arrange(&self, panels: Vec<(usize, f64, SheetPanel)>, diagram: f64, stamp: f64, upright: bool) -> Layout {
-        let (k, covered) = (self.k, self.covered);
+    fn arrange(&self, panels: Vec<(f64, SheetPanel)>, diagram: f64, stamp: f64) -> Layout {
         let frame = self.paper.frame(Vector2::zeros());
-        let block = Vector2::new(block::WIDTH, block::HEIGHT) * k;
-        let deepest = panels.iter().map(|(_, down, panel)| down + panel.height).fold(0.0, f64::max);
-        // On an upright sheet the panels are above the title block, otherwise to the right of the view.
-        let low = if upright { frame.least.y + block.y + deepest + PAD * k } else { frame.least.y };
-        let right = if upright { frame.largest.x } else { frame.largest.x - block.x };
-        let region = Extents { least: Vector2::new(frame.least.x, low), largest: Vector2::new(right, frame.largest.y) };
+        let right = frame.largest.x - block::WIDTH;
+        let region = Extents { least: frame.least, largest: Vector2::new(right, frame.largest.y) };
         let view = Extents {
             least: region.least + Vector2::new(0.0, diagram),
             largest: region.largest - Vector2::new(0.0, stamp),
         };
         // The dimensions are to the left and below: the lines themselves are moved to the other side by half of that.
-        let middle = 0.5 * (covered.least + covered.largest) * self.scale - 0.5 * self.dimensions();
+        let middle = 0.5 * (self.covered.least + self.covered.largest) * self.scale - 0.5 * self.dimensions();
         // The origin of the drawing stays where it is; the page moves about it.
         let corner = middle - 0.5 * (view.least + view.largest);
         let moved = |field: Extents| Extents { least: field.least + corner, largest: field.largest + corner };
-        let left = |column: usize| {
-            #[expect(clippy::cast_precision_loss, reason = "two stacks")]
-            let column = column as f64;
-            if upright { frame.least.x + PAD * k + column * 0.5 * (frame.size().x - PAD * k) } else { right + PAD * k }
-        };
-        let top = if upright { low } else { frame.largest.y - PAD * k };
+        let top = corner + Vector2::new(right + PAD, frame.largest.y - PAD);
         Layout {
             paper: self.paper,
             scale: self.scale,
-            k,
             corner,
             view: moved(view),
             diagram: (diagram > 0.0).then(|| {
@@ -227,16 +207,13 @@ impl LayoutAttempt<'_> {
             stamp: (stamp > 0.0).then(|| {
                 moved(Extents { least: Vector2::new(frame.least.x, view.largest.y), largest: region.largest })
             }),
-            panels: panels
-                .into_iter()
-                .map(|(column, down, panel)| (corner + Vector2::new(left(column), top - down), panel))
-                .collect(),
+            panels: panels.into_iter().map(|(down, panel)| (top - Vector2::new(0.0, down), panel)).collect(),
         }
     }
 }
 
 /// The diagrams in equal parts of a field.
-fn in_a_row(field: &Extents, traces: &[Trace], k: f64) -> Vec<ShapeGroup> {
+fn in_a_row(field: &Extents, traces: &[Trace]) -> Vec<ShapeGroup> {
     #[expect(clippy::cast_precision_loss, reason = "a few diagrams")]
     let each = field.size().x / traces.len().max(1) as f64;
     let mut left = field.least.x;
@@ -244,32 +221,29 @@ fn in_a_row(field: &Extents, traces: &[Trace], k: f64) -> Vec<ShapeGroup> {
     for trace in traces {
         let part =
             Extents { least: Vector2::new(left, field.least.y), largest: Vector2::new(left + each, field.largest.y) };
-        groups.extend(trace::within(&part, k, trace));
+        groups.extend(trace::within(&part, trace));
         left += each;
     }
     groups
 }
 
-/// Puts panels into stacks one below the other; `None` where they do not fit.
-fn flow(list: Vec<SheetPanel>, stacks: &[(f64, f64)], partly: bool) -> Option<Vec<(usize, f64, SheetPanel)>> {
-    let (mut column, mut down, mut placed) = (0, 0.0, Vec::new());
+/// Puts panels one below the other; `None` where they do not fit.
+fn stack(list: Vec<SheetPanel>, height: f64, partly: bool) -> Option<Vec<(f64, SheetPanel)>> {
+    let (mut down, mut placed) = (0.0, Vec::new());
     for panel in list {
-        while down + panel.height > stacks.get(column).map_or(f64::INFINITY, |(_, height)| *height) {
-            (column, down) = (column + 1, 0.0);
-        }
-        if column >= stacks.len() {
+        if down + panel.height > height {
             return partly.then_some(placed);
         }
         let top = down;
         down += panel.height;
-        placed.push((column, top, panel));
+        placed.push((top, panel));
     }
     Some(placed)
 }
 
 impl Layout {
     fn sheet(self, view: &SheetView, report: &Report, extras: &SheetExtras<'_>, covered: Extents) -> Sheet {
-        let (k, scale) = (self.k, self.scale);
+        let scale = self.scale;
         let mut groups = frame_and_grid(self.paper, self.corner);
         let frame = self.paper.frame(self.corner);
         let mut taken = OccupiedPaper::none(self.view);
@@ -281,17 +255,17 @@ impl Layout {
             let (id, label, colour) = (group.id.clone(), group.label.clone(), group.colour.clone());
             groups.push(ShapeGroup { id, label, colour, shapes, ..*group });
         }
-        let ruler = ruler(&self.view, k, report.units);
+        let ruler = ruler(&self.view, report.units);
         for shape in &ruler {
             taken.put(shape);
         }
         groups.push(ShapeGroup::new("scale", "ruler of the paper", ruler));
         groups.extend(self.marks(view, covered, &mut taken));
-        groups.extend(self.diagram.iter().flat_map(|field| in_a_row(field, extras.traces, k)));
+        groups.extend(self.diagram.iter().flat_map(|field| in_a_row(field, extras.traces)));
         if let Some(field) = self.stamp {
-            groups.extend(stamp(&field, k, report));
+            groups.extend(stamp(&field, report));
         }
-        groups.push(ShapeGroup::new("rule", "rules", rules(&self.view, self.diagram.as_ref(), &frame, k)));
+        groups.push(ShapeGroup::new("rule", "rules", rules(&self.view, self.diagram.as_ref(), &frame)));
         for (corner, panel) in self.panels {
             groups.extend(panel.at(corner));
         }
@@ -300,15 +274,16 @@ impl Layout {
             report,
             paper: self.paper,
             scale: if scale < 1.0 { format!("1:{}", (1.0 / scale).round()) } else { format!("{scale}:1") },
-            document: "review sheet",
+            kind: extras.kind,
+            document: extras.kind.document(),
             number: extras.number,
             file_deviates: extras.file_deviates.into(),
         };
-        groups.extend(block.groups(Vector2::new(frame.largest.x, frame.least.y), k));
+        groups.extend(block.groups(Vector2::new(frame.largest.x, frame.least.y)));
         Sheet {
             title: report.title(),
             extents: Extents { least: self.corner, largest: self.corner + self.paper.size },
-            stroke: STROKE * k.min(1.4),
+            stroke: self.paper.stroke(),
             scale,
             groups: with_unique_ids(groups),
         }
@@ -317,14 +292,15 @@ impl Layout {
     fn marks(&self, view: &SheetView, covered: Extents, taken: &mut OccupiedPaper) -> Vec<ShapeGroup> {
         let scale = self.scale;
         let covered = Extents { least: covered.least * scale, largest: covered.largest * scale };
-        let mut marker = Marker { lettering: self.k, taken, covered, lines: [0.0; 2], texts: Vec::new() };
+        let mut marker = Marker { lettering: 1.0, taken, covered, lines: [0.0; 2], texts: Vec::new() };
         // Dimension lines come first, then what has a fixed place and datums; the texts take the rest, the longest first, since their leaders
         // are the longest as well and find no way between the others.
-        let is_text =
-            |mark: &&Mark| matches!(mark, Mark::Label { .. } | Mark::Tolerance { .. } | Mark::Roughness { .. });
+        let is_text = |mark: &&Mark| {
+            matches!(mark, Mark::Label { .. } | Mark::Flag { .. } | Mark::Tolerance { .. } | Mark::Roughness { .. })
+        };
         let (texts, mut fixed): (Vec<&Mark>, Vec<&Mark>) = view.marks.iter().partition(is_text);
         fixed.sort_by_key(|mark| match mark {
-            Mark::Distance { .. } => 0,
+            Mark::Distance { .. } | Mark::Size { .. } | Mark::CuttingLine { .. } | Mark::Caption { .. } => 0,
             Mark::Datum { .. } => 2,
             _ => 1,
         });
@@ -350,9 +326,9 @@ fn with_unique_ids(mut groups: Vec<ShapeGroup>) -> Vec<ShapeGroup> {
 }
 
 /// The line between view and diagram.
-fn rules(view: &Extents, diagram: Option<&Extents>, frame: &Extents, k: f64) -> Vec<SheetShape> {
+fn rules(view: &Extents, diagram: Option<&Extents>, frame: &Extents) -> Vec<SheetShape> {
     let mut lines = Vec::new();
-    if view.largest.x < frame.largest.x - k {
+    if view.largest.x < frame.largest.x - 1.0 {
         lines.push(SheetShape::Line(
             Vector2::new(view.largest.x, frame.least.y),
             Vector2::new(view.largest.x, frame.largest.y),
@@ -370,41 +346,41 @@ const RULER: f64 = 100.0;
 const RULER_INCHES: f64 = 4.0;
 
 /// A ruler in the lower left corner of the view, by which a print is measured.
-fn ruler(view: &Extents, k: f64, units: LengthUnit) -> Vec<SheetShape> {
+fn ruler(view: &Extents, units: LengthUnit) -> Vec<SheetShape> {
     let (length, text) = match units {
         LengthUnit::Millimetre => (RULER, format!("{RULER} mm on paper")),
         LengthUnit::Inch => (units.millimetres() * RULER_INCHES, format!("{RULER_INCHES} in on paper")),
     };
-    let start = view.least + Vector2::new(3.0, 2.0) * k;
-    let tick = 1.5 * k;
+    let start = view.least + Vector2::new(3.0, 2.0);
+    let tick = 1.5;
     let mut shapes = vec![SheetShape::Line(start, start + Vector2::new(length, 0.0))];
     for tenth in 0..=10 {
         let foot = start + Vector2::new(length * f64::from(tenth) / 10.0, 0.0);
         let long = if tenth % 5 == 0 { 1.6 } else { 1.0 };
         shapes.push(SheetShape::Line(foot, foot + Vector2::new(0.0, long * tick)));
     }
-    let end = start + Vector2::new(length + 2.0 * k, 0.0);
-    shapes.push(words(end, 2.6 * k, TextAnchor::Start, text));
+    let end = start + Vector2::new(length + 2.0, 0.0);
+    shapes.push(words(end, font::SMALLEST, TextAnchor::Start, text));
     shapes
 }
 
 /// The stamp on the sheet of a cam that breaks a limit.
-fn stamp(field: &Extents, k: f64, report: &Report) -> Vec<ShapeGroup> {
-    let inner = Extents { least: field.least.add_scalar(2.0 * k), largest: field.largest.add_scalar(-2.0 * k) };
+fn stamp(field: &Extents, report: &Report) -> Vec<ShapeGroup> {
+    let inner = Extents { least: field.least.add_scalar(2.0), largest: field.largest.add_scalar(-2.0) };
     let failed = failed(&report.checks);
-    let room = inner.size().x - 4.0 * k;
+    let room = inner.size().x - 4.0;
     let middle = 0.5 * (inner.least.x + inner.largest.x);
-    let (head, size) = font::fitted_in_one("NOT FOR MANUFACTURE", 6.5 * k, room);
+    let (head, size) = font::fitted_in_one("NOT FOR MANUFACTURE", 6.5, room);
     let mut shapes = rectangle(&inner);
-    let base = inner.largest.y - 1.2 * k - font::ASCENT * size;
+    let base = inner.largest.y - 1.2 - font::ASCENT * size;
     shapes.push(words(Vector2::new(middle, base), size, TextAnchor::Middle, head));
     let text = if failed.is_empty() {
         "there is no outline that could be cut".to_owned()
     } else {
         format!("failed: {}", failed.join(", "))
     };
-    let (text, small) = font::fitted_in_one(&text, 3.5 * k, room);
-    let base = inner.least.y + 1.0 * k + font::DESCENT * small;
+    let (text, small) = font::fitted_in_one(&text, font::SMALLEST, room);
+    let base = inner.least.y + 1.0 + font::DESCENT * small;
     shapes.push(words(Vector2::new(middle, base), small, TextAnchor::Middle, text));
     vec![ShapeGroup::new("stamp", "stamp", shapes)]
 }
@@ -438,6 +414,17 @@ impl Mark {
                 *radius *= scale;
             }
             Mark::Turning { radius, .. } => *radius *= scale,
+            Mark::Size { from, to, view, .. } => {
+                for place in [from, to, &mut view.least, &mut view.largest] {
+                    *place *= scale;
+                }
+            }
+            Mark::Flag { at, .. } => *at *= scale,
+            Mark::Caption { view, .. } => {
+                view.least *= scale;
+                view.largest *= scale;
+            }
+            Mark::CuttingLine { ends, .. } => *ends = ends.map(|end| end * scale),
         }
         mark
     }
@@ -452,6 +439,7 @@ impl TitleFacts {
             material: machine.material_name().map(str::to_owned),
             thickness_mm: machine.cam.thickness.map(|thickness| 1e3 * thickness),
             mass_kg,
+            presumed_treatment: machine.cam.material.and_then(|material| material.presumed_treatment()),
         }
     }
 }

@@ -8,6 +8,10 @@ use ttf_parser::Face;
 
 /// The font file.
 pub const FONT: &[u8] = include_bytes!("../../../templates/fonts/LiberationSans-Regular.ttf");
+/// Size of the smallest letters of a sheet, mm: capitals of 2.5 mm (ISO 3098-1), which are this share of the size of the font.
+pub const SMALLEST: f64 = 2.5 / CAPITAL;
+/// Height of a capital over the size of the font.
+pub const CAPITAL: f64 = 0.688;
 /// Width of a letter that the font does not have, over the size: a full square, as in Chinese.
 const UNKNOWN: f64 = 1.0;
 /// How far letters reach above and below the base line, over the size.

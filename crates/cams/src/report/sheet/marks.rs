@@ -2,14 +2,33 @@
 
 use super::paper::rectangle;
 use super::placing::{OccupiedPaper, field_near, filling, half_field};
-use super::{Mark, ShapeGroup, SheetShape, TextAnchor, font, words};
+use super::{Mark, ShapeGroup, SheetShape, TextAnchor, ToleranceSign, font, words};
+use camgen_kernel::geometry::Entity;
 use camgen_kernel::geometry::contour::Extents;
 use nalgebra::Vector2;
 
-/// Over the lettering of an A4, mm: texts, arrow heads, the distance of a dimension line from what it measures and from the next.
-const TEXT: f64 = 3.0;
+/// Over the lettering of a sheet, mm: texts, arrow heads, the distance of a dimension line from what it measures and from the next.
+const TEXT: f64 = font::SMALLEST;
 const HEAD: f64 = 2.8;
 const APART: f64 = 7.0;
+/// The same of the sizes of a view, with how far an extension line begins from the edge and goes on behind the dimension line.
+const FIRST: f64 = 10.0;
+const NEXT: f64 = 8.0;
+const OFF: f64 = 1.0;
+const BEYOND: f64 = 1.5;
+/// Size of the letters of views and cutting lines, mm: capitals of 5 mm.
+const VIEW_NAME: f64 = 5.0 / font::CAPITAL;
+/// Length of the strokes at the ends of a cutting line, and of its arrows, mm.
+const CUT_STROKE: f64 = 6.0;
+const CUT_ARROW: f64 = 7.0;
+/// Distance of the name of a view from it, mm.
+const CAPTION: f64 = 8.0;
+const CAPTION_BESIDE: f64 = 14.0;
+/// Distance of a cutting line from the view, mm.
+const CUT_OFF: f64 = 4.0;
+/// Radius of the dot at a place of inspection, mm.
+const DOT: f64 = 0.7;
+const DOT_CORNERS: u32 = 16;
 /// Width of a head over its length.
 const SLENDER: f64 = 0.3;
 /// Distances of a text from its place that are tried, in the same unit, the nearest first.
@@ -21,8 +40,11 @@ const MORE: u32 = 4;
 const DIRECTIONS: u32 = 24;
 /// Height of a frame over that of its letters (ISO 7083: 2).
 const CELL: f64 = 2.0;
-/// Least length of an arrow, over that of its head.
-const LEAST_LEADER: f64 = 1.3;
+/// Distances of a frame or a ring from its place that are tried, mm, and degrees to either side of the direction outwards.
+const LEADERS: [f64; 6] = [9.0, 13.0, 18.0, 25.0, 34.0, 46.0];
+const TURNS: [f64; 9] = [0.0, 12.0, -12.0, 28.0, -28.0, 42.0, -42.0, 60.0, -60.0];
+/// Share of a leader near its place in which other texts may lie.
+const LEADER_START: f64 = 0.02;
 /// A text farther away than this is tied to its place with a line.
 const TIED: f64 = 3.0;
 
@@ -38,6 +60,20 @@ pub(super) struct Marker<'a> {
     pub(super) lines: [f64; 2],
     /// Texts of marks with a fixed place: they are placed when all lines are known.
     pub(super) texts: Vec<Mark>,
+}
+
+/// A datum at the left end of a dimension line: a triangle in line with the arrow, and its letter in a frame.
+fn datum_at(end: Vector2<f64>, letter: &str, size: f64, k: f64) -> Vec<SheetShape> {
+    let side = CELL * size;
+    let tip = end - Vector2::new(HEAD * k, 0.0);
+    let half = Vector2::new(0.0, 0.5 * HEAD * k);
+    let corner = tip - Vector2::new(1.5 * k + side, 0.5 * side);
+    let mut shapes = rectangle(&Extents { least: corner, largest: corner.add_scalar(side) });
+    shapes.push(SheetShape::Triangle([tip, end + half, end - half]));
+    shapes.push(SheetShape::Line(tip, tip - Vector2::new(1.5 * k, 0.0)));
+    let base = corner + Vector2::new(0.5 * side, 0.5 * side - 0.35 * size);
+    shapes.push(words(base, size, TextAnchor::Middle, letter));
+    shapes
 }
 
 fn triangle(tip: Vector2<f64>, along: Vector2<f64>, length: f64) -> SheetShape {
@@ -125,10 +161,25 @@ fn place_in(
     None
 }
 
-/// The sign of the profile of a line, ISO 1101: an arc over its chord, in a square with this lower left corner.
-fn profile_sign(corner: Vector2<f64>, side: f64) -> SheetShape {
-    let at = |x: f64| corner + Vector2::new(x * side, 0.3 * side);
-    SheetShape::Arc(at(0.85), at(0.15), 1.0)
+/// The sign of a tolerance, ISO 1101, in a square with this lower left corner.
+fn tolerance_sign(sign: ToleranceSign, corner: Vector2<f64>, side: f64) -> Vec<SheetShape> {
+    let at = |x: f64, y: f64| corner + Vector2::new(x, y) * side;
+    let line = |from: (f64, f64), to: (f64, f64)| SheetShape::Line(at(from.0, from.1), at(to.0, to.1));
+    match sign {
+        ToleranceSign::Profile | ToleranceSign::ProfileAllAround => {
+            vec![SheetShape::Arc(at(0.85, 0.3), at(0.15, 0.3), 1.0)]
+        }
+        ToleranceSign::Perpendicular => vec![line((0.2, 0.22), (0.8, 0.22)), line((0.5, 0.22), (0.5, 0.8))],
+        ToleranceSign::Parallel => vec![line((0.2, 0.2), (0.55, 0.8)), line((0.45, 0.2), (0.8, 0.8))],
+        ToleranceSign::Symmetry => {
+            vec![line((0.32, 0.3), (0.68, 0.3)), line((0.2, 0.5), (0.8, 0.5)), line((0.32, 0.7), (0.68, 0.7))]
+        }
+    }
+}
+
+/// An arrow along a size.
+fn arrow(tip: Vector2<f64>, along: Vector2<f64>, k: f64) -> SheetShape {
+    triangle(tip, along, HEAD * k)
 }
 
 impl Marker<'_> {
@@ -141,7 +192,13 @@ impl Marker<'_> {
             Mark::Angle { class, corner, from, to, radius, text } => {
                 (*class, self.angle(class, *corner, [*from, *to], *radius, text))
             }
-            Mark::Tolerance { places, cells, behind } => ("dimension", self.tolerance(places, cells, behind)),
+            Mark::Size { .. } => ("dimension", self.size(mark)),
+            Mark::Flag { at, outward, name } => ("dimension", self.flag(*at, *outward, name)),
+            Mark::CuttingLine { ends, sight, letter } => return self.cutting_line(*ends, *sight, letter),
+            Mark::Caption { view, text } => ("facts", self.caption(view, text)),
+            Mark::Tolerance { sign, places, cells, behind } => {
+                ("dimension", self.tolerance(*sign, places, cells, behind))
+            }
             Mark::Roughness { places, text } => ("dimension", self.roughness(places, text)),
             Mark::Start { at, along, outward } => ("dimension", self.start(*at, *along, *outward)),
             Mark::Datum { at, towards, letter } => ("dimension", self.datum(*at, *towards, letter)),
@@ -211,6 +268,134 @@ impl Marker<'_> {
         shapes
     }
 
+    /// A dimension line beside a view, the text above it (ISO 129-1), with the datum that its axis or middle is.
+    fn size(&mut self, mark: &Mark) -> Vec<SheetShape> {
+        let Mark::Size { from, to, away, view, line, text, datum } = mark else { return Vec::new() };
+        let (k, size) = (self.lettering, TEXT * self.lettering);
+        let upright = away.x != 0.0;
+        let edge = if away.x + away.y < 0.0 { view.least } else { view.largest };
+        let distance = (FIRST + NEXT * (f64::from(*line) - 1.0)) * k;
+        let moved = |point: &Vector2<f64>| {
+            let place = edge + away * distance;
+            if upright { Vector2::new(place.x, point.y) } else { Vector2::new(point.x, place.y) }
+        };
+        let (a, b) = (moved(from), moved(to));
+        let (a, b) = if (b - a).sum() >= 0.0 { (a, b) } else { (b, a) };
+        let (length, along) = ((b - a).norm(), if upright { Vector2::y() } else { Vector2::x() });
+        let extension = |(point, end): (&Vector2<f64>, Vector2<f64>)| {
+            SheetShape::Line(point + away * (OFF * k), end + away * (BEYOND * k))
+        };
+        let mut shapes: Vec<SheetShape> = [(from, moved(from)), (to, moved(to))].map(extension).to_vec();
+        let wide = font::width(text, size);
+        let is_inside = length > 3.0 * HEAD * k;
+        let head = if is_inside { along } else { -along };
+        shapes.extend([arrow(a, -head, k), arrow(b, head, k)]);
+        let lift = 0.35 * size;
+        // A text stands above its line; where it is wider than the line, the line goes on below it.
+        let (start, text_at, anchor) = if upright {
+            // The text stands on a shelf at the upper end, or at the lower one where there is no room.
+            let beyond = along * (2.5 * HEAD * k);
+            let reach = away * (wide + 0.5 * size);
+            let text_on = |end: Vector2<f64>| Vector2::new(end.x + 0.5 * reach.x, end.y + lift);
+            let is_free = |end: &Vector2<f64>| {
+                let field = words(text_on(*end), size, TextAnchor::Middle, text.clone()).text_field();
+                field.is_some_and(|field| self.taken.free(&field))
+            };
+            let ends = [b + beyond, a - beyond];
+            let end = ends.into_iter().find(is_free).unwrap_or(ends[0]);
+            let other = if end == ends[0] { a } else { b };
+            let other = if is_inside {
+                other
+            } else if end == ends[0] {
+                a - beyond
+            } else {
+                b + beyond
+            };
+            shapes.push(SheetShape::Line(other, end));
+            shapes.push(SheetShape::Line(end, end + reach));
+            (end, text_on(end), TextAnchor::Middle)
+        } else if is_inside && wide + 2.0 * HEAD * k < length {
+            shapes.push(SheetShape::Line(a, b));
+            (a, 0.5 * (a + b) + Vector2::new(0.0, lift), TextAnchor::Middle)
+        } else {
+            let before = if is_inside { a } else { a - along * (2.0 * HEAD * k) };
+            let end = b + along * (2.0 * HEAD * k + wide + 0.5 * size);
+            shapes.push(SheetShape::Line(before, end));
+            (before, b + Vector2::new(2.0 * HEAD * k, lift), TextAnchor::Start)
+        };
+        shapes.push(words(text_at, size, anchor, text.clone()));
+        if let Some(letter) = datum.filter(|_| !upright) {
+            shapes.extend(datum_at(start, letter, size, k));
+        }
+        self.put(&shapes);
+        shapes
+    }
+
+    /// A dot on the profile and its name in a ring.
+    fn flag(&mut self, at: Vector2<f64>, outward: Vector2<f64>, name: &str) -> Vec<SheetShape> {
+        let (k, size) = (self.lettering, TEXT * self.lettering);
+        let radius = 0.5 * font::width(name, size) + 0.3 * size;
+        let half = Vector2::repeat(radius);
+        let Some((field, _)) = LEADERS.iter().find_map(|distance| self.field_out(at, outward, *distance, half)) else {
+            return Vec::new();
+        };
+        let centre = 0.5 * (field.least + field.largest);
+        let corner = |index: u32| {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(index) / f64::from(DOT_CORNERS));
+            at + Vector2::new(cos, sin) * (DOT * k)
+        };
+        let mut shapes = vec![
+            SheetShape::Area((0..DOT_CORNERS).map(corner).collect()),
+            SheetShape::Entity(Entity::Circle(centre, radius)),
+            words(centre - Vector2::new(0.0, 0.34 * size), size, TextAnchor::Middle, name),
+        ];
+        if let Some(along) = (centre - at).try_normalize(0.0) {
+            shapes.push(SheetShape::Line(at, centre - along * radius));
+        }
+        self.put(&shapes);
+        shapes
+    }
+
+    /// The strokes at both ends of a cutting line, with the arrows of sight and the letters.
+    fn cutting_line(&mut self, ends: [Vector2<f64>; 2], sight: Vector2<f64>, letter: &str) -> Vec<ShapeGroup> {
+        let k = self.lettering;
+        let [from, to] = ends;
+        let Some(along) = (to - from).try_normalize(0.0) else { return Vec::new() };
+        let (mut strokes, mut arrows) = (Vec::new(), Vec::new());
+        for (end, outwards) in [(from, -along), (to, along)] {
+            let end = end + outwards * (CUT_OFF * k);
+            strokes.push(SheetShape::Line(end, end + outwards * (CUT_STROKE * k)));
+            let middle = end + outwards * (0.5 * CUT_STROKE * k);
+            let tail = middle - sight * (CUT_ARROW * k);
+            arrows.push(SheetShape::Line(tail, middle));
+            arrows.push(arrow(middle, sight, k));
+            let half = 0.5 * font::CAPITAL * VIEW_NAME * k;
+            let centre = tail - sight * (1.6 * half) + outwards * (2.0 * half);
+            let base = centre - Vector2::new(0.0, half);
+            arrows.push(words(base, VIEW_NAME * k, TextAnchor::Middle, letter));
+        }
+        self.put(&strokes);
+        self.put(&arrows);
+        let group =
+            |class: &'static str, shapes| ShapeGroup { id: String::new(), ..ShapeGroup::new(class, class, shapes) };
+        vec![group("cutting-line", strokes), group("dimension", arrows)]
+    }
+
+    /// The name of a view: above a tall one, at the left of a wide one.
+    fn caption(&mut self, view: &Extents, text: &str) -> Vec<SheetShape> {
+        let k = self.lettering;
+        let middle = 0.5 * (view.least + view.largest);
+        let (at, anchor) = if view.size().x > view.size().y {
+            let base = middle.y - 0.5 * font::CAPITAL * VIEW_NAME * k;
+            (Vector2::new(view.least.x - CAPTION_BESIDE * k, base), TextAnchor::End)
+        } else {
+            (Vector2::new(middle.x, view.largest.y + CAPTION * k), TextAnchor::Middle)
+        };
+        let shapes = vec![words(at, VIEW_NAME * k, anchor, text)];
+        self.put(&shapes);
+        shapes
+    }
+
     /// Leaves a text for later.
     fn defer(&mut self, class: &'static str, at: Vector2<f64>, towards: Vector2<f64>, text: &str) {
         self.texts.push(Mark::Label { class, at, towards, text: text.into() });
@@ -246,6 +431,7 @@ impl Marker<'_> {
     /// A frame of cells, the first with the sign, where there is room for it.
     fn tolerance(
         &mut self,
+        sign: ToleranceSign,
         places: &[(Vector2<f64>, Vector2<f64>)],
         cells: &[String],
         behind: &str,
@@ -263,7 +449,8 @@ impl Marker<'_> {
         let (low, base) = (field.least, field.least.y + 0.5 * (high - size) + 0.15 * size);
         let right = low.x + framed;
         let line = |y: f64| SheetShape::Line(Vector2::new(low.x, y), Vector2::new(right, y));
-        let mut shapes = vec![line(low.y), line(low.y + high), profile_sign(low, high)];
+        let mut shapes = vec![line(low.y), line(low.y + high)];
+        shapes.extend(tolerance_sign(sign, low, high));
         let mut x = low.x;
         shapes.push(SheetShape::Line(Vector2::new(x, low.y), Vector2::new(x, low.y + high)));
         for (width, text) in widths.iter().zip(std::iter::once("").chain(cells.iter().map(String::as_str))) {
@@ -276,27 +463,49 @@ impl Marker<'_> {
         if !behind.is_empty() {
             shapes.push(words(Vector2::new(right + inset, base), size, TextAnchor::Start, behind));
         }
+        if let ([SheetShape::Line(_, knee), _], ToleranceSign::ProfileAllAround) = (&arrow, sign) {
+            // The ring at the frame: all around (ISO 1101).
+            shapes.push(SheetShape::Entity(Entity::Circle(*knee, 0.3 * size)));
+        }
         shapes.extend(arrow);
         self.put(&shapes);
         shapes
     }
 
-    /// The free field of these half sides that is nearest to one of some places, each with the direction outwards, and the arrow from it
-    /// to that place.
+    /// A free field of these half sides out of one of some places, each with the direction outwards, and the arrow from it to that place.
     fn pointing(
         &self,
         places: &[(Vector2<f64>, Vector2<f64>)],
         half: Vector2<f64>,
     ) -> Option<(Extents, [SheetShape; 2])> {
-        let found = places.iter().filter_map(|(at, towards)| {
-            let (field, leader) = place_in(Room::Free, self.taken, self.lettering, (*at, *towards), (half, 0.0))?;
-            let Some(SheetShape::Line(from, to)) = leader else { return None };
-            let away = to - from;
-            let arrow = [SheetShape::Line(from, to), triangle(from, -away.normalize(), HEAD * self.lettering)];
-            let room = away.dot(towards) > LEAST_LEADER * HEAD * self.lettering;
-            room.then(|| (away.norm(), field, arrow))
+        let k = self.lettering;
+        let found = LEADERS.iter().find_map(|distance| {
+            places.iter().find_map(|(at, towards)| {
+                let (field, end) = self.field_out(*at, *towards, *distance, half)?;
+                Some((*at, field, end))
+            })
         });
-        found.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, field, arrow)| (field, arrow))
+        let (at, field, end) = found?;
+        let arrow = arrow(at, (at - end).normalize(), k);
+        Some((field, [SheetShape::Line(at, end), arrow]))
+    }
+
+    /// A free field so far out of a place, about in a direction, and the place of its edge that is nearest.
+    fn field_out(
+        &self,
+        at: Vector2<f64>,
+        towards: Vector2<f64>,
+        distance: f64,
+        half: Vector2<f64>,
+    ) -> Option<(Extents, Vector2<f64>)> {
+        TURNS.iter().find_map(|degrees| {
+            let (sin, cos) = libm::sincos(f64::to_radians(*degrees));
+            let along = Vector2::new(towards.x * cos - towards.y * sin, towards.x * sin + towards.y * cos);
+            let field = field_near(at, along, distance * self.lettering, half);
+            let end = at.sup(&field.least).inf(&field.largest);
+            let start = at + (end - at) * LEADER_START;
+            (self.taken.free(&field) && self.taken.clear(start, end)).then_some((field, end))
+        })
     }
 
     /// The sign of a roughness on a line, where there is room for it; its sizes over the lettering are those of ISO 21920-1, annex A.

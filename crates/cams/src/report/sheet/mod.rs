@@ -9,6 +9,7 @@ use camgen_kernel::text::Text;
 mod compose;
 mod dimension;
 pub mod font;
+mod kind;
 pub(super) mod marks;
 mod panels;
 pub mod paper;
@@ -16,10 +17,12 @@ pub(super) mod placing;
 pub(super) mod scheme;
 mod view;
 
+pub(crate) use block::PROPOSED_ROUGHNESS;
 pub use compose::{SheetExtras, compose};
 pub use dimension::Dimensions;
+pub use kind::SheetKind;
 pub use view::extents_of;
-pub use view::{Mark, PlaceTable, ProfileTolerance, SheetView, TitleFacts};
+pub use view::{Mark, PlaceRow, PlaceTable, SheetView, TitleFacts, ToleranceSign};
 
 use camgen_kernel::geometry::Entity;
 use camgen_kernel::geometry::contour::Extents;
@@ -110,7 +113,7 @@ pub struct Sheet {
     pub groups: Vec<ShapeGroup>,
 }
 
-/// Thickness of a thin line over the size of the lettering of an A4, mm (ISO 128: a thick one is twice as thick).
+/// Thickness of a thin line, mm (ISO 128: a thick one is twice as thick, that of the profile four times).
 pub(crate) const STROKE: f64 = 0.25;
 
 impl SheetShape {

@@ -1,21 +1,29 @@
 //! The panels next to the drawing: verdicts, figures, legend, tables. Each panel is laid out in a width and reports its height.
 
-use super::{PlaceTable, ShapeGroup, SheetShape, SheetView, TextAnchor, font, words};
-use crate::report::{Finding, Place, Report, Verdict};
+use super::font::SMALLEST as TEXT;
+use super::{PlaceRow, PlaceTable, ShapeGroup, SheetShape, SheetView, TextAnchor, font, words};
+use crate::report::{Bound, Finding, Place, Report, Verdict};
+use camgen_kernel::text::Text;
 use camgen_kernel::units::LengthUnit;
 use nalgebra::Vector2;
 
-/// Over the lettering of an A4, mm: size of texts, of headings, distance of lines, room between two panels.
-const TEXT: f64 = 2.8;
-const HEADING: f64 = 3.2;
-const LINE: f64 = 4.0;
-const GAP: f64 = 3.2;
-/// Length of a sample of the legend, and the columns it is set in, at most.
+/// Size of headings, distance of lines and of the rows of a table, room between two panels, mm.
+const HEADING: f64 = 5.1;
+const LINE: f64 = 4.8;
+const ROW: f64 = 4.0;
+const GAP: f64 = 3.6;
+/// Length of a sample of the legend.
 const SAMPLE: f64 = 12.0;
-/// A panel narrower than this shows fewer columns of the checks.
-const NARROW: f64 = 120.0;
-/// Width of a column of a table of places.
-const PLACE_COLUMN: f64 = 13.0;
+/// Columns of the checks: verdict, name, value, limit, bar, place.
+const COLUMNS: [f64; 6] = [0.0, 14.0, 55.0, 81.0, 114.0, 142.0];
+/// Height of a bar, and the colours of those that pass and fail.
+const BAR: f64 = 2.4;
+const BAR_COLOURS: [&str; 2] = ["#8a949e", "#c00000"];
+/// Least room between two columns of a table of places, and that for the name of a place of inspection before them.
+const BETWEEN: f64 = 1.5;
+const FLAG: f64 = 6.0;
+/// Behind rows at a change of the motion.
+const TINT: &str = "#dcdcdc";
 /// Most rows of notes.
 const MOST_NOTES: usize = 12;
 
@@ -32,6 +40,7 @@ impl SheetPanel {
         let moved = move |shape: SheetShape| match shape {
             SheetShape::Text { at, height, anchor, text } => SheetShape::Text { at: at + corner, height, anchor, text },
             SheetShape::Line(a, b) => SheetShape::Line(a + corner, b + corner),
+            SheetShape::Area(corners) => SheetShape::Area(corners.iter().map(|place| place + corner).collect()),
             other => other,
         };
         self.groups.into_iter().map(move |group| {
@@ -43,15 +52,28 @@ impl SheetPanel {
 
 /// A pen that writes a panel from its top to its bottom.
 pub(super) struct PanelWriter {
-    k: f64,
     width: f64,
     down: f64,
     groups: Vec<ShapeGroup>,
 }
 
 impl PanelWriter {
-    pub(super) fn new(lettering: f64, width: f64) -> Self {
-        Self { k: lettering, width: width / lettering, down: 0.0, groups: Vec::new() }
+    pub(super) fn new(width: f64) -> Self {
+        Self { width, down: 0.0, groups: Vec::new() }
+    }
+
+    /// A filled rectangle from a place, downwards, behind what is written.
+    fn area(&mut self, colour: &'static str, [left, right]: [f64; 2], [top, bottom]: [f64; 2]) {
+        let corner = |x: f64, y: f64| Vector2::new(x, -y);
+        let shape =
+            SheetShape::Area(vec![corner(left, top), corner(right, top), corner(right, bottom), corner(left, bottom)]);
+        match self.groups.iter_mut().find(|group| group.colour.as_deref() == Some(colour)) {
+            Some(group) => group.shapes.push(shape),
+            None => {
+                let group = ShapeGroup::new("area", "areas", vec![shape]);
+                self.groups.insert(0, ShapeGroup { colour: Some(colour.to_owned()), ..group });
+            }
+        }
     }
 
     fn push(&mut self, class: &'static str, shape: SheetShape) {
@@ -62,8 +84,7 @@ impl PanelWriter {
     }
 
     fn text(&mut self, class: &'static str, x: f64, size: f64, anchor: TextAnchor, text: impl Into<String>) {
-        let at = Vector2::new(x * self.k, -self.down * self.k);
-        self.push(class, words(at, size * self.k, anchor, text));
+        self.push(class, words(Vector2::new(x, -self.down), size, anchor, text));
     }
 
     /// A text in its column, smaller where it would not fit.
@@ -83,9 +104,9 @@ impl PanelWriter {
         }
         self.down -= 0.2 * HEADING;
         self.down += 0.35 * HEADING;
-        let (y, width) = (-self.down * self.k, self.width * self.k);
-        self.push("rule", SheetShape::Line(Vector2::new(0.0, y), Vector2::new(width, y)));
-        self.down += 0.3 * HEADING;
+        let y = -self.down;
+        self.push("rule", SheetShape::Line(Vector2::new(0.0, y), Vector2::new(self.width, y)));
+        self.down += 0.2 * HEADING;
     }
 
     fn paragraph(&mut self, class: &'static str, text: &str) {
@@ -96,7 +117,7 @@ impl PanelWriter {
     }
 
     fn done(self) -> SheetPanel {
-        SheetPanel { height: (self.down + GAP) * self.k, groups: self.groups }
+        SheetPanel { height: self.down + GAP, groups: self.groups }
     }
 }
 
@@ -109,23 +130,36 @@ fn class_of(verdict: Verdict) -> &'static str {
     }
 }
 
-/// The checks, a row each, and how many others passed.
+/// The checks, a row each with a bar of what is used of its limit, the tightest first, and how many others passed.
 pub(super) fn checks(
     mut writer: PanelWriter,
     checks: &[Finding],
     passed_otherwise: usize,
     units: LengthUnit,
 ) -> SheetPanel {
-    writer.heading("Checks");
-    let wide = writer.width >= NARROW;
-    let columns: &[f64] = if wide { &[0.0, 11.0, 52.0, 96.0, 146.0] } else { &[0.0, 9.0, 39.0, 65.0] };
-    let ends = columns.iter().skip(1).chain([&writer.width]).copied();
-    let rooms: Vec<(f64, f64)> = columns.iter().copied().zip(ends).map(|(x, end)| (x, end - x - 1.5)).collect();
-    for finding in checks {
+    writer.heading("Checks: value of limit");
+    let mut ordered: Vec<&Finding> = checks.iter().collect();
+    let used = |finding: &Finding| finding.margin().unwrap_or(0.0);
+    let rank = |finding: &Finding| (finding.verdict != Verdict::Fail, finding.verdict != Verdict::Warn);
+    ordered.sort_by(|a, b| rank(a).cmp(&rank(b)).then(used(b).total_cmp(&used(a))));
+    let ends = COLUMNS.iter().skip(1).chain([&writer.width]).copied();
+    let rooms: Vec<(f64, f64)> = COLUMNS.iter().copied().zip(ends).map(|(x, end)| (x, end - x - 1.5)).collect();
+    for finding in ordered {
         writer.down += LINE;
         let class = class_of(finding.verdict);
         for (index, ((x, room), text)) in rooms.iter().zip(cells(finding, units)).enumerate() {
             writer.cell(if index == 0 { class } else { "facts" }, *x, *room, &text);
+        }
+        if let (Some(used), [.., (left, room), _]) = (finding.margin(), rooms.as_slice()) {
+            let colour = if finding.verdict == Verdict::Fail { BAR_COLOURS[1] } else { BAR_COLOURS[0] };
+            let right = left + room * used.clamp(0.0, 1.0);
+            let bottom = writer.down;
+            writer.area(colour, [*left, right], [bottom - BAR, bottom]);
+            let end = Vector2::new(left + room, -bottom);
+            writer.push("rule", SheetShape::Line(end, end + Vector2::new(0.0, BAR)));
+        }
+        if let Some(note) = finding.note.as_ref().filter(|_| finding.verdict == Verdict::Warn) {
+            writer.paragraph("warn", &note.in_unit(units));
         }
     }
     if passed_otherwise > 0 {
@@ -134,15 +168,14 @@ pub(super) fn checks(
     writer.done()
 }
 
-fn cells(finding: &Finding, units: LengthUnit) -> [String; 5] {
-    let limit = finding.limit_words(units).unwrap_or_default();
-    let place = if finding.place == Place::default() {
-        String::new()
-    } else {
-        format!("at {}", finding.place.text().in_unit(units))
-    };
-    let value = if finding.missing.is_some() { "not run".to_owned() } else { finding.shown_value(units).to_string() };
-    [finding.verdict.word().into(), finding.check.replace('_', " "), value, limit, place]
+fn cells(finding: &Finding, units: LengthUnit) -> [String; 6] {
+    let limit = finding.brief_limit(units).map(|limit| {
+        let side = finding.bound.map_or("", Bound::words);
+        format!("{side} {limit}").trim_start().to_owned()
+    });
+    let place = if finding.place == Place::default() { String::new() } else { finding.place.text().in_unit(units) };
+    let value = if finding.missing.is_some() { "not run".to_owned() } else { finding.brief_value(units).to_string() };
+    [finding.verdict.word().into(), finding.title(), value, limit.unwrap_or_default(), String::new(), place]
 }
 
 /// The main figures of the report's sections.
@@ -167,8 +200,8 @@ pub(super) fn legend(mut writer: PanelWriter, view: &SheetView) -> SheetPanel {
             writer.down += LINE;
         }
         let x = column * writer.width / fits;
-        let y = -(writer.down - 0.35 * TEXT) * writer.k;
-        let sample = SheetShape::Line(Vector2::new(x * writer.k, y), Vector2::new((x + SAMPLE) * writer.k, y));
+        let y = -(writer.down - 0.35 * TEXT);
+        let sample = SheetShape::Line(Vector2::new(x, y), Vector2::new(x + SAMPLE, y));
         let colour = group.colour.clone();
         let id = format!("legend-{index}");
         writer.groups.push(ShapeGroup {
@@ -186,49 +219,88 @@ pub(super) fn legend(mut writer: PanelWriter, view: &SheetView) -> SheetPanel {
 }
 
 /// The notes.
-pub(super) fn notes(mut writer: PanelWriter, view: &SheetView, report: &Report) -> SheetPanel {
+pub(super) fn notes(mut writer: PanelWriter, view: &SheetView, report: &Report, of_report: &[Text]) -> SheetPanel {
     writer.heading("Notes");
     for lost in &view.lost {
         writer.paragraph("fail", &lost.in_unit(report.units));
     }
-    for note in view.notes.iter().chain(&report.notes).take(MOST_NOTES) {
+    for note in view.notes.iter().chain(of_report).take(MOST_NOTES) {
         writer.paragraph("facts", &note.in_unit(report.units));
     }
-    let more = (view.notes.len() + report.notes.len()).saturating_sub(MOST_NOTES);
+    let more = (view.notes.len() + of_report.len()).saturating_sub(MOST_NOTES);
     if more > 0 {
         writer.paragraph("facts", &format!("and {more} more, in the report"));
     }
     writer.done()
 }
 
+/// What an associated file is, a line or two each.
+pub(super) fn files(mut writer: PanelWriter, files: &[String]) -> SheetPanel {
+    writer.heading("Files of this part");
+    for file in files {
+        writer.paragraph("facts", file);
+    }
+    writer.done()
+}
+
+/// The widths that the columns of a table need, with the room between them.
+fn needed_widths<'r>(rows: impl Iterator<Item = &'r PlaceRow>) -> Vec<f64> {
+    let mut needed: Vec<f64> = Vec::new();
+    for row in rows {
+        needed.resize(needed.len().max(row.cells.len()), 0.0);
+        for (needed, cell) in needed.iter_mut().zip(&row.cells) {
+            *needed = needed.max(font::width(cell, TEXT) + BETWEEN);
+        }
+    }
+    needed
+}
+
+/// The widths of columns in a room: what each needs and an equal share of what is left, or each less by the same share.
+fn column_widths(needed: &[f64], room: f64) -> Vec<f64> {
+    let sum: f64 = needed.iter().sum();
+    #[expect(clippy::cast_precision_loss, reason = "a few columns")]
+    let more = (room - sum) / needed.len().max(1) as f64;
+    needed.iter().map(|width| if more < 0.0 { width * room / sum } else { width + more }).collect()
+}
+
 /// A table of places in as many blocks side by side as fit.
 pub(super) fn places(mut writer: PanelWriter, table: &PlaceTable) -> SheetPanel {
     writer.heading(&table.title);
-    #[expect(clippy::cast_precision_loss, reason = "a few columns")]
-    let block = PLACE_COLUMN * table.heads.len() as f64 + 3.0;
+    for remark in &table.remarks {
+        writer.paragraph("facts", remark);
+    }
+    let shown: Vec<&PlaceRow> = table.shown().collect();
+    let heads = PlaceRow { cells: table.heads.clone(), number: Some(0), flag: None };
+    let needed = needed_widths(std::iter::once(&heads).chain(shown.iter().copied()));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few columns")]
-    let blocks = (writer.width / block).floor().clamp(1.0, 4.0) as u32;
-    let shown: Vec<&Vec<String>> = table.rows.iter().step_by(table.every.max(1)).collect();
+    let blocks = (writer.width / (needed.iter().sum::<f64>() + FLAG)).floor().clamp(1.0, 4.0) as u32;
     let rows = shown.len().div_ceil(blocks as usize).max(1);
     let step = writer.width / f64::from(blocks);
+    let columns = column_widths(&needed, step - FLAG - 1.0);
     writer.down += LINE;
     let top = writer.down;
     for (number, rows) in (0_u32..).zip(shown.chunks(rows)) {
         writer.down = top;
-        let left = step * f64::from(number);
-        for cells in std::iter::once(&table.heads).chain(rows.iter().copied()) {
-            let column = (step - 3.0) / f64::from(u32::try_from(cells.len()).unwrap_or(1).max(1));
+        let left = step * f64::from(number) + FLAG;
+        for row in std::iter::once(&heads).chain(rows.iter().copied()) {
+            if row.number.is_none() {
+                let high = 0.25 * ROW;
+                writer.area(TINT, [left, left + step - FLAG - 1.0], [writer.down + high - ROW, writer.down + high]);
+            }
+            if let Some(flag) = &row.flag {
+                writer.text("strong", left, TEXT, TextAnchor::End, flag.clone());
+            }
             let mut x = left;
-            for cell in cells {
+            for (cell, column) in row.cells.iter().zip(&columns) {
                 x += column;
-                let (_, size) = font::fitted_in_one(cell, TEXT, column - 2.0);
+                let (_, size) = font::fitted_in_one(cell, TEXT, column - 0.3);
                 writer.text("facts", x, size, TextAnchor::End, cell.clone());
             }
-            writer.down += LINE;
+            writer.down += ROW;
         }
     }
     #[expect(clippy::cast_precision_loss, reason = "a few rows")]
-    let height = LINE * rows as f64;
+    let height = ROW * rows as f64;
     writer.down = top + height;
     writer.done()
 }

@@ -1,6 +1,6 @@
 //! Sheets of ISO 5457 and of ASME Y14.1, and scales of ISO 5455.
 
-use super::{ShapeGroup, SheetShape, TextAnchor};
+use super::{STROKE, ShapeGroup, SheetShape, TextAnchor};
 use camgen_kernel::geometry::contour::Extents;
 use camgen_kernel::units::LengthUnit;
 use nalgebra::Vector2;
@@ -10,11 +10,8 @@ use nalgebra::Vector2;
 pub struct PaperSize {
     /// "A4".
     pub name: &'static str,
-    /// Width and height, mm: A4 upright, the others lengthwise (ISO 5457).
+    /// Width and height, mm, lengthwise (ISO 5457).
     pub size: Vector2<f64>,
-    /// Sizes of the lettering, the largest first: over that of an A4. A larger sheet is viewed from farther away, and at a width
-    /// of a screen.
-    pub lettering: &'static [f64],
     /// Its border.
     pub border: SheetBorder,
 }
@@ -36,37 +33,25 @@ pub enum SheetBorder {
 
 /// The sheets, the smallest first.
 pub const PAPERS: &[PaperSize] = &[
-    PaperSize { name: "A4", size: Vector2::new(210.0, 297.0), lettering: &[1.0], border: SheetBorder::Iso },
-    PaperSize { name: "A3", size: Vector2::new(420.0, 297.0), lettering: &[1.0], border: SheetBorder::Iso },
-    PaperSize { name: "A2", size: Vector2::new(594.0, 420.0), lettering: &[1.4, 1.2], border: SheetBorder::Iso },
-    PaperSize {
-        name: "A1",
-        size: Vector2::new(841.0, 594.0),
-        lettering: &[2.0, 1.8, 1.6, 1.4, 1.2, 1.0],
-        border: SheetBorder::Iso,
-    },
+    PaperSize { name: "A3", size: Vector2::new(420.0, 297.0), border: SheetBorder::Iso },
+    PaperSize { name: "A2", size: Vector2::new(594.0, 420.0), border: SheetBorder::Iso },
+    PaperSize { name: "A1", size: Vector2::new(841.0, 594.0), border: SheetBorder::Iso },
 ];
 
 /// An inch, mm.
 const INCH: f64 = 25.4;
 
 /// A sheet of ASME Y14.1 of a size and with margins, in.
-const fn asme(
-    name: &'static str,
-    [width, height]: [f64; 2],
-    [beside, above]: [f64; 2],
-    zones: [u32; 2],
-    lettering: &'static [f64],
-) -> PaperSize {
+const fn asme(name: &'static str, [width, height]: [f64; 2], [beside, above]: [f64; 2], zones: [u32; 2]) -> PaperSize {
     let border = SheetBorder::Asme { margin: [beside * INCH, above * INCH], zones };
-    PaperSize { name, size: Vector2::new(width * INCH, height * INCH), lettering, border }
+    PaperSize { name, size: Vector2::new(width * INCH, height * INCH), border }
 }
 
 /// The sheets of a drawing in inches, the smallest first.
 pub const PAPERS_IN_INCHES: &[PaperSize] = &[
-    asme("B", [17.0, 11.0], [0.62, 0.38], [4, 2], &[1.0]),
-    asme("C", [22.0, 17.0], [0.75, 0.5], [4, 4], &[1.4, 1.2]),
-    asme("D", [34.0, 22.0], [0.5, 1.0], [8, 4], &[2.0, 1.8, 1.6, 1.4, 1.2, 1.0]),
+    asme("B", [17.0, 11.0], [0.62, 0.38], [4, 2]),
+    asme("C", [22.0, 17.0], [0.75, 0.5], [4, 4]),
+    asme("D", [34.0, 22.0], [0.5, 1.0], [8, 4]),
 ];
 
 /// The sheets of drawings in a unit, the smallest first.
@@ -85,6 +70,10 @@ pub const ENLARGEMENTS: &[f64] = &[10.0, 5.0, 2.0];
 pub const REDUCTIONS: &[f64] =
     &[1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5, 5e5, 1e6, 2e6, 5e6];
 
+/// Thickness of a thin line of a small sheet, and the width of the largest one, mm: A3 and B.
+const THIN: f64 = 0.18;
+const LARGEST_OF_THIN: f64 = 440.0;
+
 /// Margins of ISO 5457: the left one to file the sheet by.
 const FILING: f64 = 20.0;
 const MARGIN: f64 = 10.0;
@@ -92,9 +81,15 @@ const MARGIN: f64 = 10.0;
 const BORDER: f64 = 5.0;
 /// Length of a field of the grid reference, and height of its letters.
 const FIELD: f64 = 50.0;
-const LETTER: f64 = 3.5;
+const LETTER: f64 = super::font::SMALLEST;
 
 impl PaperSize {
+    /// Thickness of a thin line, mm (ISO 128: the next group of lines on sheets larger than A3).
+    #[must_use]
+    pub fn stroke(&self) -> f64 {
+        if self.size.x > LARGEST_OF_THIN { STROKE } else { THIN }
+    }
+
     /// The frame within a page whose lower left corner lies at a place.
     #[must_use]
     pub fn frame(&self, corner: Vector2<f64>) -> Extents {

@@ -56,9 +56,53 @@ pub enum Mark {
         /// The words.
         text: String,
     },
-    /// The frame of a tolerance of the profile, ISO 1101, with an arrow to one of some places of it.
+    /// A size of a view, with a dimension line beside that view (a unit vector along an axis).
+    Size {
+        /// One end.
+        from: Vector2<f64>,
+        /// The other end.
+        to: Vector2<f64>,
+        /// The direction of the side.
+        away: Vector2<f64>,
+        /// The view that the line stays clear of.
+        view: Extents,
+        /// Which line from the view it is, 1 for the first.
+        line: u32,
+        /// The words.
+        text: String,
+        /// The letter of the datum that the axis or the middle of the size is.
+        datum: Option<&'static str>,
+    },
+    /// A numbered place of the profile at which the part is inspected.
+    Flag {
+        /// The place.
+        at: Vector2<f64>,
+        /// The direction out of the metal, a unit vector.
+        outward: Vector2<f64>,
+        /// "P1".
+        name: String,
+    },
+    /// A cutting line: its ends, and the direction of sight on the section.
+    CuttingLine {
+        /// Its ends.
+        ends: [Vector2<f64>; 2],
+        /// The direction of sight, a unit vector.
+        sight: Vector2<f64>,
+        /// The letter at both ends.
+        letter: &'static str,
+    },
+    /// The name of a view, above it.
+    Caption {
+        /// The view.
+        view: Extents,
+        /// "A–A".
+        text: String,
+    },
+    /// The frame of a tolerance, ISO 1101, with an arrow to one of some places.
     Tolerance {
-        /// Places of the profile with the directions outwards, unit vectors: the one nearest to free paper is used.
+        /// What is tolerated.
+        sign: ToleranceSign,
+        /// Places of the feature with the directions outwards, unit vectors: the one nearest to free paper is used.
         places: Vec<(Vector2<f64>, Vector2<f64>)>,
         /// Width of the zone, and the letters of the datums.
         cells: Vec<String>,
@@ -105,6 +149,40 @@ pub enum Mark {
     },
 }
 
+/// What a frame of ISO 1101 tolerates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ToleranceSign {
+    /// The profile of a line, all around the part.
+    ProfileAllAround,
+    /// The profile of a line.
+    Profile,
+    /// A face square to an axis.
+    Perpendicular,
+    /// Two faces that are parallel.
+    Parallel,
+    /// A middle plane in an axis.
+    Symmetry,
+}
+
+/// A row of a table of places.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PlaceRow {
+    /// Its cells, as many as there are heads.
+    pub cells: Vec<String>,
+    /// Its number among the rows at equal distances; `None` of a row between them, at a change of the motion.
+    pub number: Option<usize>,
+    /// The name of the place of inspection that it has: "P1".
+    pub flag: Option<String>,
+}
+
+impl PlaceRow {
+    /// The row of this number at equal distances.
+    #[must_use]
+    pub fn regular(number: usize, cells: Vec<String>) -> Self {
+        Self { cells, number: Some(number), flag: None }
+    }
+}
+
 /// A table of places: heads, and rows of as many cells.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PlaceTable {
@@ -112,10 +190,28 @@ pub struct PlaceTable {
     pub title: String,
     /// Names of the columns.
     pub heads: Vec<String>,
+    /// What stands below the title, a line each.
+    pub remarks: Vec<String>,
     /// The rows, which finer and coarser tables share.
-    pub rows: Arc<[Vec<String>]>,
-    /// Every how many of them it shows.
+    pub rows: Arc<[PlaceRow]>,
+    /// Every how many of those at equal distances it shows; the others are always shown.
     pub every: usize,
+}
+
+impl PlaceTable {
+    /// The rows of a table, all of them at equal distances.
+    #[must_use]
+    pub fn regular_rows(rows: impl IntoIterator<Item = Vec<String>>) -> Arc<[PlaceRow]> {
+        rows.into_iter().enumerate().map(|(number, cells)| PlaceRow::regular(number, cells)).collect()
+    }
+
+    /// The rows that it shows.
+    pub fn shown(&self) -> impl Iterator<Item = &PlaceRow> {
+        let every = self.every.max(1);
+        self.rows
+            .iter()
+            .filter(move |row| row.flag.is_some() || row.number.is_none_or(|number| number.is_multiple_of(every)))
+    }
 }
 
 /// The contents of the title block: `[title]` of the machine file and more.
@@ -129,15 +225,8 @@ pub struct TitleFacts {
     pub thickness_mm: Option<f64>,
     /// Mass, kg.
     pub mass_kg: Option<f64>,
-}
-
-/// The zone in which a manufactured profile must lie.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ProfileTolerance {
-    /// Width of the zone, mm: half of it on either side of the drawn profile.
-    pub width_mm: f64,
-    /// What it is proposed from; `None` where it is given.
-    pub proposed_from: Option<&'static str>,
+    /// The treatment that the limit of the contact stress presumes.
+    pub presumed_treatment: Option<String>,
 }
 
 /// What a body shows, from the back to the front.

@@ -7,6 +7,7 @@
 use super::super::head::{self, HeadLine, lines_after};
 use super::read::{PLAIN_INCHES, ReadPlace, read};
 use super::write::{program_statements, statements};
+use crate::body::part_tolerance::PartTolerance;
 use crate::body::{Body, Cut};
 use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::machine::Rotation;
@@ -106,8 +107,8 @@ fn compare(evidence: &Evidence<'_>, list: &WrittenInspection) -> Result<(f64, Ve
     let curves = cuts.get(list.cut).and_then(|cut| cut.curves).ok_or("the cam has no such cut")?;
     let outline = evidence.outlines.iter().find(|outline| outline.cut == list.cut);
     let tree = outline.map(|outline| EdgeTree::new(&outline.contour));
-    let asked = evidence.body.machine().title.profile_tolerance.map(|width| 0.5 * MILLIMETRES * width);
-    let (zone, from) = asked.map_or((evidence.tolerance_mm, "the tolerance"), |zone| (zone, "title.profile_tolerance"));
+    let tolerance = PartTolerance::of(evidence.body);
+    let (zone, from) = (tolerance.half_mm(), tolerance.proposed_from.unwrap_or("cam.profile_tolerance"));
     let flipped = evidence.body.machine().cam.rotation == Rotation::CounterClockwise;
     let turned = |v: Vector2<f64>| if flipped { Vector2::new(v.x, -v.y) } else { v };
     let mut worst = (0.0, Vector2::zeros());

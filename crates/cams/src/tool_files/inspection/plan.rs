@@ -1,5 +1,6 @@
 //! Places of a profile for a measuring machine: numbered, each with its normal, the centre of a probing ball that touches there, and its zone.
 
+use crate::body::part_tolerance::PartTolerance;
 use crate::body::{Body, Request};
 use crate::machine::Rotation;
 use camgen_kernel::geometry::{MILLIMETRES, radius_of_curvature};
@@ -46,7 +47,7 @@ pub(super) fn unfit(body: &dyn Body) -> Option<&'static str> {
 /// The lists for every cut of a body; none where they were not requested.
 pub(super) fn lists(body: &dyn Body, request: &Request) -> Vec<InspectionList> {
     let Some(asked) = request.inspection.filter(|_| unfit(body).is_none()) else { return Vec::new() };
-    let zone = body.machine().title.profile_tolerance.map_or(request.fit.tolerance, |width| 0.5 * width);
+    let zone = 0.5 * PartTolerance::of(body).width;
     let flipped = body.machine().cam.rotation == Rotation::CounterClockwise;
     let turned = |v: Vector2<f64>| if flipped { Vector2::new(v.x, -v.y) } else { v };
     let cuts = body.cuts();

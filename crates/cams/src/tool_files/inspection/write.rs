@@ -6,12 +6,13 @@ use super::plan::{InspectionList, InspectionPlace};
 use super::read::PLAIN_INCHES;
 use crate::body::Body;
 use crate::report::sheet::Dimensions;
-use crate::report::sheet::{Mark, PlaceTable, SheetExtras, compose};
+use crate::report::sheet::{Mark, PlaceTable, SheetExtras, SheetKind, compose};
 use crate::write::number::{plain, shortest};
 use crate::write::{Rendering, svg};
 use camgen_kernel::refusal::Refusal;
 use camgen_kernel::text::{Length, text};
 use camgen_kernel::units::LengthUnit;
+use std::sync::Arc;
 
 /// The files of a list: a table, lines of `no x y z nx ny nz`, and a DMIS program.
 pub(super) const ENDINGS: [&str; 3] = ["-inspect.csv", "-inspect.txt", "-inspect.dmi"];
@@ -85,7 +86,7 @@ fn machine(body: &dyn Body) -> String {
 
 /// The sheet of a list: the outline with its numbered places, and a table of them.
 pub(super) fn sheet(cam: &Rendering<'_>, list: &InspectionList) -> Result<Vec<u8>, Refusal> {
-    let mut view = cam.body.view(cam.drawn).map_err(Refusal::of)?;
+    let mut view = cam.body.part_view(cam.drawn).map_err(Refusal::of)?;
     let numbered = list.places.iter().enumerate().step_by(NUMBERED);
     let label = |(index, place): (usize, &InspectionPlace)| Mark::Label {
         class: "dimensions",
@@ -103,11 +104,11 @@ pub(super) fn sheet(cam: &Rendering<'_>, list: &InspectionList) -> Result<Vec<u8
         let places = [length(point.x), length(point.y), cosine(normal.x), cosine(normal.y)];
         [vec![(index + 1).to_string()], places.to_vec()].concat()
     };
-    let rows: Vec<Vec<String>> = list.places.iter().enumerate().map(cells).collect();
+    let rows = PlaceTable::regular_rows(list.places.iter().enumerate().map(cells));
     let heads = ["no.", "x", "y", "nx", "ny"].map(str::to_owned).to_vec();
     let table = |every: &usize| {
         let title = format!("Places, every {every}th");
-        PlaceTable { title, heads: heads.clone(), rows: rows.clone().into(), every: *every }
+        PlaceTable { title, remarks: Vec::new(), heads: heads.clone(), rows: Arc::clone(&rows), every: *every }
     };
     view.tables = LISTED.iter().map(table).collect();
     view.notes = vec![text!(
@@ -118,7 +119,14 @@ pub(super) fn sheet(cam: &Rendering<'_>, list: &InspectionList) -> Result<Vec<u8
     )];
     let deviates = svg::deviation_words(&cam.fit, cam.report.units);
     let (checks, passed_otherwise) = svg::listed_checks(&cam.report.checks, cam.body.machine().catalogue());
-    let extras =
-        SheetExtras { file_deviates: &deviates, number: "1/1", traces: &[], checks: &checks, passed_otherwise };
+    let extras = SheetExtras {
+        kind: SheetKind::Inspection,
+        files: &[],
+        file_deviates: &deviates,
+        number: "1/1",
+        traces: &[],
+        checks: &checks,
+        passed_otherwise,
+    };
     svg::fill(&compose(&view, cam.report, &extras), cam.template, true, &cam.report.mark())
 }

@@ -217,6 +217,7 @@ mod tests {
     #[test]
     fn limits_stand_where_they_bind() {
         let finding = |check: &'static str, limit| Finding {
+            part: None,
             check: check.into(),
             value: 1.0,
             limit: Some(limit),
@@ -227,6 +228,7 @@ mod tests {
             missing: None,
             about: None,
             is_as_cut: false,
+            named: None,
             fact: None,
             assumes: None,
             note: None,

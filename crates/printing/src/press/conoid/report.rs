@@ -7,7 +7,7 @@ use crate::press::machine::{PressCams, Shift};
 use crate::press::report::{BUFFERS, CylinderMeasures, LEFT_OVER};
 use crate::press::scatter::other_cams::{self, LawAtSpeed};
 use camgen_cams::body::part::{Part, bore};
-use camgen_cams::body::{DrawingEvidence, flank_of};
+use camgen_cams::body::{DrawingEvidence, Flank, flank_of};
 use camgen_cams::report::{Fact, ReportLine, Section, Topic, degrees, lobes_words, shown};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::numeric::parallel;
@@ -195,13 +195,27 @@ impl SectionMeasures {
     }
 }
 
+/// Volume of the solid with its bore, mm³.
+fn volume(conoid: &Conoid, flank: &Flank) -> f64 {
+    let (low, high) = conoid.ends();
+    let hole = bore(&conoid.machine).map_or(0.0, |hole| hole.contour().area_and_centroid().0);
+    flank.volume - hole * MILLIMETRES * (high - low)
+}
+
+/// Mass of a volume, mm³, in kg.
+fn mass(conoid: &Conoid, volume: f64) -> f64 {
+    1e-9 * volume * conoid.machine.cam.density()
+}
+
+/// Mass of the solid, kg.
+pub(super) fn mass_of(conoid: &Conoid, flank: &Flank) -> f64 {
+    mass(conoid, volume(conoid, flank))
+}
+
 impl ConoidMeasures {
     fn new(conoid: &Conoid, found: &DrawingEvidence<'_>) -> Self {
         let (low, high) = conoid.ends();
-        let volume = flank_of(found).map(|flank| {
-            let hole = bore(&conoid.machine).map_or(0.0, |hole| hole.contour().area_and_centroid().0);
-            flank.volume - hole * MILLIMETRES * (high - low)
-        });
+        let volume = flank_of(found).map(|flank| volume(conoid, flank));
         Self {
             prime_radius_mm: MILLIMETRES * conoid.prime_radius(),
             base_radius_mm: MILLIMETRES * conoid.base_radius(),
@@ -213,7 +227,7 @@ impl ConoidMeasures {
             z_max_mm: MILLIMETRES * high,
             overhang_mm: MILLIMETRES * conoid.overhang(),
             volume_mm3: volume,
-            mass_kg: volume.map(|volume| 1e-9 * volume * conoid.machine.cam.density()),
+            mass_kg: volume.map(|volume| mass(conoid, volume)),
         }
     }
 

@@ -1,5 +1,6 @@
 //! The review sheet of a conoid: the sections over each other, coloured by speed, and the cam seen isometrically.
 
+use super::report::mass_of;
 use super::{Conoid, Slice};
 use camgen_cams::body::sheet::{axes, bore, overall, section_profiles, side_view, tolerance_note, turning};
 use camgen_cams::body::{Drawn, Part};
@@ -59,11 +60,12 @@ pub(super) fn view(conoid: &Conoid, drawn: &Drawn) -> SheetView {
     let (side, length) = from_the_side(conoid, parts, &plan);
     groups.extend(side);
     let (low, high) = conoid.ends();
+    let mass = drawn.flank.as_ref().map(|flank| mass_of(conoid, flank));
     SheetView {
         groups,
         marks: [marks(conoid, parts, &plan), length].concat(),
         tables: tables(conoid, parts),
-        facts: TitleFacts { thickness_mm: Some(MILLIMETRES * (high - low)), ..TitleFacts::of(&conoid.machine, None) },
+        facts: TitleFacts { thickness_mm: Some(MILLIMETRES * (high - low)), ..TitleFacts::of(&conoid.machine, mass) },
         notes: tolerance_note(&conoid.machine),
         ..SheetView::default()
     }
@@ -181,10 +183,11 @@ fn sections_table(conoid: &Conoid, parts: &[Part]) -> PlaceTable {
     }
     PlaceTable {
         title: "Sections: speed, place along the axis, width, height, area".into(),
+        remarks: Vec::new(),
         heads: ["n, rpm", "z, mm", "width, mm", "height, mm", "area, mm²"]
             .map(|head| head.replace("mm", unit))
             .to_vec(),
-        rows: rows.into(),
+        rows: PlaceTable::regular_rows(rows),
         every: 1,
     }
 }

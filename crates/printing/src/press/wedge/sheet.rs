@@ -114,11 +114,12 @@ fn places(plate: &Wedge) -> Vec<PlaceTable> {
         let cells = [added_value(&row, "x_mm"), added_value(&row, "dx_mm")].into_iter().chain(profile);
         rows.push(cells.map(|value| length_cell(value, units)).collect());
     }
-    let rows: Arc<[Vec<String>]> = rows.into();
+    let rows = PlaceTable::regular_rows(rows);
     let heads = ["x, mm", "Δx, mm", "profile x", "profile y"].map(|head| head.replace("mm", unit)).to_vec();
     [1, 2, 4]
         .map(|every| PlaceTable {
             title: format!("Overrun x, travel Δx of the bottom, place of the profile, {unit}"),
+            remarks: Vec::new(),
             heads: heads.clone(),
             rows: Arc::clone(&rows),
             every,

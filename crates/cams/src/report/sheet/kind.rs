@@ -1,0 +1,24 @@
+//! What the sheets of a cam are for.
+
+/// What a sheet is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SheetKind {
+    /// The part and nothing else: what the shop makes.
+    Drawing,
+    /// The part in its mechanism, with checks and curves: what is looked at before the part is released.
+    Review,
+    /// The places at which the part is measured.
+    Inspection,
+}
+
+impl SheetKind {
+    /// Its name in the title block (ISO 7200: document type).
+    #[must_use]
+    pub fn document(self) -> &'static str {
+        match self {
+            Self::Drawing => "part drawing",
+            Self::Review => "review sheet",
+            Self::Inspection => "inspection sheet",
+        }
+    }
+}
