@@ -155,7 +155,7 @@ def in_pdf(path):
         document = pypdfium2.PdfDocument(path)
         text = document[0].get_textpage().get_text_range()
         document.close()
-    return "Profile R at polar angle" in text
+    return "ProfileRatpolarangle" in re.sub(r"\s", "", text)
 
 
 def sampled(vertices):

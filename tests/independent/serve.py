@@ -323,7 +323,7 @@ def works(program, binary, directory):
     assert status == 200 and b"<!doctype html>" in page[:40] and program.token.encode() in page
     made = program.engine(name="own", toml=text, formats=["dxf", "svg", "step", "csv"])
     written = subprocess.run([binary, "make", "own.toml", "--name", "own", "--out", "by-command", "--quiet", "--overwrite"], cwd=directory)
-    assert written.returncode == 0 and made["passed"] and len(made["files"]) == 4
+    assert written.returncode == 0 and made["passed"] and len(made["files"]) == 5
     for file in made["files"]:
         assert file["bytes"] == (directory / "by-command" / file["name"]).read_bytes(), file["name"]
     # A change keeps the comments, and is written over the text that the page has seen alone.

@@ -414,7 +414,7 @@ fn section_sizes(machine: &Machine, part: &Part, field: &Extents, thickness: f64
         from,
         to,
         away,
-        view: field.clone(),
+        view: *field,
         line,
         text,
         datum: None,
@@ -453,7 +453,7 @@ fn bore_sizes(machine: &Machine, field: &Extents) -> Vec<Mark> {
             from: top(-radius),
             to: bottom,
             away: Vector2::y(),
-            view: field.clone(),
+            view: *field,
             line,
             text: keyway_depth(machine, bore, &keyway),
             datum: None,
@@ -471,7 +471,7 @@ fn bore_sizes(machine: &Machine, field: &Extents) -> Vec<Mark> {
         from: top(-radius),
         to: top(radius),
         away: Vector2::y(),
-        view: field.clone(),
+        view: *field,
         line,
         text,
         datum: Some("A"),
@@ -569,6 +569,11 @@ impl ProfileTable {
             }
         }
         for (index, change) in changes.iter().enumerate() {
+            // Of an undercut profile the place may lie off the outline that is left.
+            let radius = first.get(rays.len() + index).copied().flatten();
+            if radius.is_none_or(|radius| (radius - change.radius).abs() > OFF_OUTLINE) {
+                continue;
+            }
             let cells = row(rays.len() + index, format!("{:.2}", change.psi), Some(change.at));
             rows.push((change.psi, PlaceRow { cells, number: None, flag: None }));
         }
@@ -615,9 +620,13 @@ fn nearest_free(rows: &[(f64, PlaceRow)], psi: f64, count: usize) -> Option<usiz
 struct MotionChange {
     at: f64,
     psi: f64,
+    /// Its distance from the shaft, mm.
+    radius: f64,
     ray: Vector2<f64>,
 }
 
+/// A place of the profile farther from the outline than this, mm, is not on it.
+const OFF_OUTLINE: f64 = 0.1;
 /// Most changes of segment that a table shows.
 const MOST_CHANGES: usize = 12;
 
@@ -629,8 +638,10 @@ fn changes(machine: &Machine, curves: Curves<'_>) -> Vec<MotionChange> {
     }
     let change = |at: f64| {
         let (psi, ray) = polar_place(machine, curves, at)?;
+        let (piece, angle) = curves.motion.locate(at);
+        let radius = MILLIMETRES * curves.profile(piece, angle).point.norm();
         let is_between = (psi / 5.0 - (psi / 5.0).round()).abs() > 2e-3;
-        is_between.then_some(MotionChange { at, psi, ray })
+        is_between.then_some(MotionChange { at, psi, radius, ray })
     };
     stretches.iter().filter_map(|stretch| change(stretch.from)).collect()
 }

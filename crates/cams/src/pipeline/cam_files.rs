@@ -104,11 +104,14 @@ fn names(proven: &Proven, writing: &Writing) -> Result<Vec<String>, Error> {
     Ok(endings.concat().iter().map(|ending| format!("{}{ending}", writing.stem)).collect())
 }
 
-/// The files of formats, each with the place of its format in the list of all.
+/// The files of a format, with its place in the list of all.
+type FormatFiles = (usize, Vec<Vec<u8>>);
+
+/// The files of formats.
 fn made_of(
     formats: &[(usize, &Format)],
     make: impl Fn(&(usize, &Format)) -> Result<Vec<Vec<u8>>, Refusal> + Sync,
-) -> Result<Vec<(usize, Vec<Vec<u8>>)>, Error> {
+) -> Result<Vec<FormatFiles>, Error> {
     let made = parallel::map(formats, |format| make(format).map(|files| (format.0, files)));
     made.into_iter().collect::<Result<_, _>>().map_err(Error::Format)
 }
@@ -123,7 +126,7 @@ const ROLES: [(&str, &str); 4] =
 fn part_files(
     proven: &Proven,
     rendering: &Rendering<'_>,
-    made: &[(usize, Vec<Vec<u8>>)],
+    made: &[FormatFiles],
     formats: &[(usize, &Format)],
     stem: &str,
 ) -> Result<Vec<PartFile>, Error> {
@@ -192,7 +195,9 @@ fn of_first(whole: &ProvenAssembly, writing: &Writing, other_names: &[String]) -
         filled.into_iter().enumerate().partition(|(_, format)| !matches!(format.source, Listed::View(_)));
     let make = |(_, format): &(usize, &Format)| proven.written_in(format, &rendering);
     let mut bytes = made_of(&of_part, make)?;
-    let part_files = part_files(proven, &rendering, &bytes, &of_part, &writing_of_first.stem)?;
+    let has_sheet = shown.iter().any(|(_, format)| ["svg", "pdf"].contains(&format.name));
+    let part_files =
+        if has_sheet { part_files(proven, &rendering, &bytes, &of_part, &writing_of_first.stem)? } else { Vec::new() };
     let rendering = Rendering { part_files: &part_files, ..rendering };
     let make = |(_, format): &(usize, &Format)| proven.written_in(format, &rendering);
     bytes.extend(made_of(&shown, make)?);

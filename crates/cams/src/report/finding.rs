@@ -458,7 +458,7 @@ mod tests {
         assert_eq!(near.brief_limit(mm).expect("a limit").to_string(), "30°");
         let outline = of(0.004_873, 0.005, Bound::AtMost, "mm");
         assert_eq!(outline.brief_value(mm).to_string(), "4.873 µm");
-        assert_eq!(outline.brief_limit(LengthUnit::Inch).expect("a limit").to_string(), "196.9·10⁻⁶ in");
+        assert_eq!(outline.brief_limit(LengthUnit::Inch).expect("a limit").to_string(), "0.0001969 in");
     }
 
     /// A warning is shown before what passed and after what failed, and does not refuse the cam.

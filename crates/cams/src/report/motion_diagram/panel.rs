@@ -179,7 +179,7 @@ impl PanelPaper<'_> {
         let range = scale.window.high - scale.window.low;
         let is_apart = |step: &f64| (scale.at(first, *step) - scale.at(first, 0.0)).y.abs() >= LEAST_STEP;
         let steps = LINES.into_iter().map(|lines| round_step(range, lines));
-        let step = steps.clone().find(is_apart).or_else(|| steps.last()).unwrap_or(range);
+        let step = steps.clone().find(is_apart).or_else(|| steps.clone().next_back()).unwrap_or(range);
         let mut number = (scale.window.low / step).ceil();
         while number * step <= scale.window.high + 1e-9 * step {
             let [from, to] = [first, last].map(|place| scale.at(place, number * step));

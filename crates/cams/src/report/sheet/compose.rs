@@ -156,8 +156,8 @@ impl LayoutAttempt<'_> {
     /// Every panel with its distance from the top, the tables of places as fine as there is room for.
     fn panels(&self, width: f64, height: f64, partly: bool) -> Option<Vec<(f64, SheetPanel)>> {
         let tables = if self.extras.kind == SheetKind::Review { &[][..] } else { &self.view.tables };
-        let choices = tables.iter().map(Some).chain(tables.is_empty().then_some(None));
-        choices.filter_map(|table| stack(self.list(width, table), height, partly)).next()
+        let mut choices = tables.iter().map(Some).chain(tables.is_empty().then_some(None));
+        choices.find_map(|table| stack(self.list(width, table), height, partly))
     }
 
     fn list(&self, width: f64, table: Option<&super::PlaceTable>) -> Vec<SheetPanel> {
@@ -395,7 +395,9 @@ impl Mark {
     fn scaled(&self, scale: f64) -> Self {
         let mut mark = self.clone();
         match &mut mark {
-            Mark::Label { at, .. } | Mark::Datum { at, .. } | Mark::Start { at, .. } => *at *= scale,
+            Mark::Label { at, .. } | Mark::Datum { at, .. } | Mark::Start { at, .. } | Mark::Flag { at, .. } => {
+                *at *= scale;
+            }
             Mark::Tolerance { places, .. } | Mark::Roughness { places, .. } => {
                 for (at, _) in places.iter_mut() {
                     *at *= scale;
@@ -419,7 +421,6 @@ impl Mark {
                     *place *= scale;
                 }
             }
-            Mark::Flag { at, .. } => *at *= scale,
             Mark::Caption { view, .. } => {
                 view.least *= scale;
                 view.largest *= scale;

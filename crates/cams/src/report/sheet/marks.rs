@@ -353,6 +353,8 @@ impl Marker<'_> {
             shapes.push(SheetShape::Line(at, centre - along * radius));
         }
         self.put(&shapes);
+        // No text lies on the dot.
+        self.put(&[SheetShape::Entity(Entity::Circle(at, DOT * k))]);
         shapes
     }
 

@@ -67,12 +67,11 @@ impl PanelWriter {
         let corner = |x: f64, y: f64| Vector2::new(x, -y);
         let shape =
             SheetShape::Area(vec![corner(left, top), corner(right, top), corner(right, bottom), corner(left, bottom)]);
-        match self.groups.iter_mut().find(|group| group.colour.as_deref() == Some(colour)) {
-            Some(group) => group.shapes.push(shape),
-            None => {
-                let group = ShapeGroup::new("area", "areas", vec![shape]);
-                self.groups.insert(0, ShapeGroup { colour: Some(colour.to_owned()), ..group });
-            }
+        if let Some(group) = self.groups.iter_mut().find(|group| group.colour.as_deref() == Some(colour)) {
+            group.shapes.push(shape);
+        } else {
+            let group = ShapeGroup::new("area", "areas", vec![shape]);
+            self.groups.insert(0, ShapeGroup { colour: Some(colour.to_owned()), ..group });
         }
     }
 

@@ -114,7 +114,7 @@ pub fn page((title, cam): (&str, Value), designs: &[LiveDesign], token: Option<&
         "engine" => engine.clone(),
         "licence" => text(&format!("{CHARTS_LICENCE}\n{UNPACK_LICENCE}")),
         "charts" => CHARTS.to_owned(),
-        "script" => SCRIPTS.concat(),
+        "script" => super::without_comments(&SCRIPTS),
         _ => String::new(),
     };
     Ok(filled(PAGE, lookup))

@@ -129,7 +129,23 @@ pub fn of_study(title: &str, data: &Value) -> Result<Vec<u8>, Refusal> {
 
 /// The page of cams.
 fn page(title: &str, cams: &[Value]) -> Result<Vec<u8>, Refusal> {
-    report_filled(PAGE, title, &json!({"schema": 1, "cams": cams}), &SCRIPTS.concat())
+    report_filled(PAGE, title, &json!({"schema": 1, "cams": cams}), &without_comments(&SCRIPTS))
+}
+
+/// Scripts one behind the other, without their comments and the blanks at the start of a line: a page is sent and kept. No script has a text over
+/// several lines, in which such blanks would count.
+fn without_comments(scripts: &[&str]) -> String {
+    let mut all = String::new();
+    let mut in_comment = false;
+    for line in scripts.iter().flat_map(|script| script.lines()).map(str::trim_start) {
+        let is_comment = in_comment || line.starts_with("/**") || line.starts_with("//");
+        in_comment = (in_comment || line.starts_with("/**")) && !line.contains("*/");
+        if !is_comment && !line.is_empty() {
+            all.push_str(line);
+            all.push('\n');
+        }
+    }
+    all
 }
 
 /// Data within a script: no tag can begin within the JSON, as `<` occurs in texts only.
