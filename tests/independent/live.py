@@ -751,10 +751,10 @@ def served(browser, binary, directory):
         assert path.read_text() == text.replace('thickness = "15 mm"', 'thickness = "17 mm"')
         live.page.click("#write")
         live.until("document.getElementById('state').textContent.includes('.step')")
-        assert {file.name for file in (directory / "served-files").glob("served.*")} == {"served.dxf", "served.svg", "served.step", "served.csv"}
+        assert {file.name for file in (directory / "served-files").glob("served*")} == {"served.dxf", "served.svg", "served-review.svg", "served.step", "served.csv"}
         # Every file that was written can be taken by its name.
         names = live.page.locator("#files-list [data-file]").all_inner_texts()
-        assert set(names) == {file.name for file in (directory / "served-files").glob("served.*")}, names
+        assert set(names) == {file.name for file in (directory / "served-files").glob("served*")}, names
         for name in names:
             with live.page.expect_download(timeout=120_000) as download:
                 live.page.click(f"#files-list [data-file='{name}']")

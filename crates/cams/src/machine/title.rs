@@ -111,8 +111,9 @@ pub(super) const SECTION: KeySection = KeySection {
 /// The title block; the zone of the profile may be given in `[cam]` (m) or here.
 pub(super) fn read(reader: &Reader<'_>, profile_tolerance: Option<f64>) -> Title {
     let table = reader.table(&SECTION);
-    if profile_tolerance.is_some() && table.has(&PROFILE_TOLERANCE) {
-        let message = "`title.profile_tolerance` is another name of `cam.profile_tolerance`, which is given as well";
+    let own = table.get(&PROFILE_TOLERANCE);
+    if profile_tolerance.is_some() && own.is_some() && own != profile_tolerance {
+        let message = "`title.profile_tolerance` is another name of `cam.profile_tolerance`, which has another value";
         table.fail(&PROFILE_TOLERANCE, message.into(), Some("leave one of them out".into()));
     }
     Title {
@@ -128,7 +129,7 @@ pub(super) fn read(reader: &Reader<'_>, profile_tolerance: Option<f64>) -> Title
         case_depth: table.get(&CASE_DEPTH),
         heat_treatment: table.get(&HEAT_TREATMENT),
         edges: table.get(&EDGES),
-        profile_tolerance: profile_tolerance.or_else(|| table.get(&PROFILE_TOLERANCE)),
+        profile_tolerance: profile_tolerance.or(own),
         lift_tolerance: table.get(&LIFT_TOLERANCE),
     }
 }

@@ -167,6 +167,13 @@ const OTHERS: &[(&str, &str)] = &[
     ("cam.base_diameter", "180 mm"),
     ("cam.bore_diameter", "40 mm"),
     ("cam.balance", "40 mm .. 85 mm"),
+    ("cam.profile_tolerance", "0.05 mm"),
+    ("cam.holes[0].diameter", "7 mm"),
+    ("cam.holes[0].circle_diameter", "90 mm"),
+    ("cam.holes[0].count", "3"),
+    ("cam.holes[0].angle", "20 deg"),
+    ("cam.holes[0].fit", "H7"),
+    ("cam.holes[0].purpose", "timing"),
     ("cam.rotation", "ccw"),
     ("cam.body", "conjugate"),
     ("cam.outer_radius", "190 mm"),
@@ -391,7 +398,11 @@ fn file_for(path: &str) -> String {
     } else {
         press
     };
-    let shaft = if path.starts_with("shaft.") { SHAFT } else { "" };
+    let shaft = match path {
+        _ if path.starts_with("shaft.") => SHAFT,
+        _ if path.starts_with("cam.holes") => "[[cam.holes]]\ndiameter = \"6 mm\"\ncircle_diameter = \"80 mm\"\n",
+        _ => "",
+    };
     let bearing = path
         .rsplit_once(".bearing.")
         .map_or(String::new(), |(own, _)| format!("[{own}.bearing]\ndynamic_rating = \"20 kN\"\n"));
