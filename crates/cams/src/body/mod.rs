@@ -409,6 +409,15 @@ pub fn flank_of<'a>(found: &DrawingEvidence<'a>) -> Option<&'a Flank> {
     found.drawn?.flank.as_ref()
 }
 
+/// The one of several followers whose angles and forces a row has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RowFollower {
+    /// "outer roller".
+    pub name: &'static str,
+    /// The greatest pressure angle of all its followers, rad.
+    pub greatest_pressure_angle: f64,
+}
+
 /// A solved cam: what checks, drawings, tables and reports need of it, whatever its kind.
 pub trait Body: std::fmt::Debug + Send + Sync {
     /// Its kind.
@@ -532,8 +541,8 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         swinging.map_or(1.0, |curves| curves.follower.leverage(&Jet::default()).abs())
     }
 
-    /// Which of its followers the forces and angles of a row are those of, where it has several: "outer roller".
-    fn row_follower(&self) -> Option<&'static str> {
+    /// The follower whose forces and angles a row has, if the cam has several.
+    fn row_follower(&self) -> Option<RowFollower> {
         None
     }
 

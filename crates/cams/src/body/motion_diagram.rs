@@ -47,6 +47,7 @@ const fn shown_column(rank: u32, name: &'static str, column: &'static str) -> Sh
 const VELOCITY: u32 = 1;
 const ACCELERATION: u32 = 2;
 const JERK: u32 = 3;
+const PRESSURE_ANGLE: u32 = 4;
 const RADIUS: u32 = 5;
 const FORCE: u32 = 6;
 
@@ -64,7 +65,7 @@ const SHOWN: &[ShownColumn] = &[
     shown_column(JERK, "Jerk", "jerk_mm_per_rad3"),
     shown_column(JERK, "Jerk", "jerk_rad_per_rad3"),
     shown_column(JERK, "Jerk", "jerk_mm_per_mm3"),
-    shown_column(4, "Pressure angle", "pressure_angle_deg"),
+    shown_column(PRESSURE_ANGLE, "Pressure angle", "pressure_angle_deg"),
     shown_column(RADIUS, "Radius of curvature of the profile", "profile_curvature_radius_mm"),
     shown_column(FORCE, "Contact force along the normal", "contact_force_n"),
     shown_column(FORCE, "Roller force along the normal", "roller_force_n"),
@@ -260,7 +261,7 @@ impl DiagramSource<'_> {
             .collect();
         let cut = self.cut(shown, factor, cut, &law);
         DiagramPanel {
-            name: shown.name,
+            name: self.panel_name(shown),
             unit,
             column: (shown.column, factor),
             radius: shown.rank == RADIUS,
@@ -269,6 +270,12 @@ impl DiagramSource<'_> {
             law,
             cut,
         }
+    }
+
+    /// The name of a column, with the follower that it is of where the cam has several.
+    fn panel_name(&self, shown: &ShownColumn) -> String {
+        let follower = self.body.row_follower().filter(|_| (PRESSURE_ANGLE..=FORCE).contains(&shown.rank));
+        follower.map_or_else(|| shown.name.into(), |follower| format!("{}, {}", shown.name, follower.name))
     }
 
     /// The motion as cut, where the difference from the motion itself can be seen.
@@ -384,6 +391,13 @@ impl DiagramSource<'_> {
             ),
             None => format!("Velocity, acceleration and jerk by the angle of the {shaft}: its speed is not given."),
         });
+        notes.extend(self.body.row_follower().map(|follower| {
+            format!(
+                "Pressure angle, radius of curvature and contact force are those of the {}; the greatest pressure angle of all followers is {}°.",
+                follower.name,
+                shown(follower.greatest_pressure_angle.to_degrees())
+            )
+        }));
         let has = |rank: u32| self.shown.iter().any(|shown| shown.rank == rank);
         if !has(FORCE) {
             notes.push("No force on the follower is known: contact force and torque are left out.".into());

@@ -5,7 +5,7 @@ use super::sheet::{length_cell, rays_of, tables_of, tolerance_frame, touched};
 use super::{Body, Drawn, Layer, Part, curves};
 use crate::body::part::point_as_turned;
 use crate::machine::{HolePattern, Keyway, Machine, Rotation, parallel_key};
-use crate::report::sheet::{Dimensions, Mark, PlaceRow, ShapeGroup, SheetShape, SheetView, ToleranceSign};
+use crate::report::sheet::{Dimensions, Mark, PlaceRow, ShapeGroup, SheetShape, SheetView, ToleranceSign, TurningArc};
 use camgen_kernel::geometry::contour::{Contour, Extents};
 use camgen_kernel::geometry::section::{Section, SectionLayer, section};
 use camgen_kernel::geometry::{Entity, MILLIMETRES, polar};
@@ -37,6 +37,9 @@ const PROPOSED: &str = " *";
 const PROPOSED_NOTE: &str = "* and the frames of tolerances: proposed by camgen, to be confirmed at release";
 /// Half the angle of the arrow of the rotation, degrees.
 const TURNING: f64 = 12.0;
+/// Polar angles at which that arrow may lie, degrees, and how far it lies from the part, as a share of the radius there.
+const TURNING_AT: [f64; 8] = [45.0, 135.0, 225.0, 315.0, 30.0, 150.0, 210.0, 330.0];
+const TURNING_BEYOND: f64 = 0.12;
 /// How far an axis reaches beyond the part, as a share of its size.
 const AXIS_BEYOND: f64 = 0.02;
 /// Places of a turn at which the motion is looked at for the places of inspection.
@@ -134,18 +137,22 @@ fn front_marks(body: &dyn Body, part: &Part, front: &Extents) -> Vec<Mark> {
     if let Some(track) = part.track.as_ref().filter(|track| track.depth.is_some()) {
         marks.extend(groove_width(body, track.others.first().map(|flank| &flank.outline.contour)));
     }
-    let reach = reach_near(part, 45.0);
-    let sense = if machine.cam.rotation == Rotation::Clockwise { -1.0 } else { 1.0 };
-    marks.push(Mark::Turning {
-        class: "rotation",
-        radius: reach + 0.08 * front.size().max(),
-        from_deg: 45.0 - sense * TURNING,
-        sweep_deg: sense * 2.0 * TURNING,
-        text: "rotation".into(),
-    });
+    let arcs = TURNING_AT.into_iter().map(|degrees| rotation_arc(machine, part, degrees)).collect();
+    marks.push(Mark::Turning { class: "rotation", arcs, text: "rotation".into() });
     let right = Vector2::new(front.largest.x, 0.0);
     marks.push(Mark::Label { class: "axis", at: right, towards: Vector2::new(1.0, 0.5), text: "ψ = 0".into() });
     marks
+}
+
+/// The arc of the arrow that shows how the cam turns, outside the part near a polar angle, degrees.
+fn rotation_arc(machine: &Machine, part: &Part, degrees: f64) -> TurningArc {
+    let sense = if machine.cam.rotation == Rotation::Clockwise { -1.0 } else { 1.0 };
+    let reach = reach_near(part, degrees);
+    TurningArc {
+        radius: reach + TURNING_BEYOND * reach,
+        from_deg: degrees - sense * TURNING,
+        sweep_deg: sense * 2.0 * TURNING,
+    }
 }
 
 /// The largest radius of a part about a direction, degrees, mm.

@@ -7,7 +7,7 @@ use super::{curves_of, torque};
 use crate::machine::fit::HoleFit;
 use crate::machine::{Keyway, Machine, Rotation, parallel_key};
 use crate::report::sheet::Dimensions;
-use crate::report::sheet::{Mark, PlaceRow, PlaceTable, ShapeGroup, SheetShape, ToleranceSign, rounded};
+use crate::report::sheet::{Mark, PlaceRow, PlaceTable, ShapeGroup, SheetShape, ToleranceSign, TurningArc, rounded};
 use crate::report::trace::Trace;
 use camgen_kernel::geometry::contour::{Contour, Extents};
 use camgen_kernel::geometry::{Entity, MILLIMETRES, polar};
@@ -242,17 +242,17 @@ pub fn turning(machine: &Machine, base: f64, profile: f64, zero: &str) -> Vec<Ma
     vec![
         Mark::Turning {
             class: "rotation",
-            radius: 0.5 * (bore + base),
-            from_deg: 135.0 - sense * 35.0,
-            sweep_deg: sense * 70.0,
+            arcs: vec![TurningArc {
+                radius: 0.5 * (bore + base),
+                from_deg: 135.0 - sense * 35.0,
+                sweep_deg: sense * 70.0,
+            }],
             text: format!("turns {way}"),
         },
         // The angle of the drawing grows against the rotation.
         Mark::Turning {
             class: "axis",
-            radius: 0.82 * profile.max(bore),
-            from_deg: 0.0,
-            sweep_deg: -sense * SENSE_DEG,
+            arcs: vec![TurningArc { radius: 0.82 * profile.max(bore), from_deg: 0.0, sweep_deg: -sense * SENSE_DEG }],
             text: "θ".into(),
         },
         Mark::Label { class: "axis", at: right * profile, towards: Vector2::new(1.0, 0.4), text: zero.into() },

@@ -22,6 +22,7 @@ pub const FORMAT: View = View {
 };
 
 /// Whether a body has a motion diagram.
+#[cfg(feature = "pdf")]
 pub(super) fn fits(body: &dyn Body) -> bool {
     unfit(body).is_none()
 }

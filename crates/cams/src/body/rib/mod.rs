@@ -13,7 +13,9 @@ use super::disc::{self, Disc, DiscRole, Hold};
 use super::figures::with_subject;
 use super::part::{PartFlank, Track, as_turned, point_as_turned};
 use super::part_drawing;
-use super::{Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Layer, Part, Request, broken_limit};
+use super::{
+    Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Layer, Part, Request, RowFollower, broken_limit,
+};
 use crate::check::{AsWritten, Measures};
 use crate::machine::{FollowerData, Machine, Rotation};
 use crate::report::mechanism::MovingMechanism;
@@ -203,8 +205,8 @@ impl Body for Rib {
         self.outer.rows(samples).into_iter().map(|row| self.with_inner_flank(row)).collect()
     }
 
-    fn row_follower(&self) -> Option<&'static str> {
-        Some("outer roller")
+    fn row_follower(&self) -> Option<RowFollower> {
+        Some(RowFollower { name: "outer roller", greatest_pressure_angle: self.pressure_angle().value })
     }
 
     fn row_on(&self, piece: usize, parameter: f64) -> Option<Row> {

@@ -56,7 +56,7 @@ pub struct Impulse {
 #[derive(Debug, Clone, PartialEq)]
 pub struct DiagramPanel {
     /// Its name.
-    pub name: &'static str,
+    pub name: String,
     /// Its unit.
     pub unit: &'static str,
     /// The column of the table that has its values, and the factor of these.

@@ -415,7 +415,7 @@ impl Mark {
                 *corner *= scale;
                 *radius *= scale;
             }
-            Mark::Turning { radius, .. } => *radius *= scale,
+            Mark::Turning { arcs, .. } => arcs.iter_mut().for_each(|arc| arc.radius *= scale),
             Mark::Size { from, to, view, .. } => {
                 for place in [from, to, &mut view.least, &mut view.largest] {
                     *place *= scale;

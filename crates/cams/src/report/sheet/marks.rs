@@ -2,7 +2,7 @@
 
 use super::paper::rectangle;
 use super::placing::{OccupiedPaper, field_near, filling, half_field};
-use super::{Mark, ShapeGroup, SheetShape, TextAnchor, ToleranceSign, font, words};
+use super::{Mark, ShapeGroup, SheetShape, TextAnchor, ToleranceSign, TurningArc, font, words};
 use camgen_kernel::geometry::Entity;
 use camgen_kernel::geometry::contour::Extents;
 use nalgebra::Vector2;
@@ -202,9 +202,7 @@ impl Marker<'_> {
             Mark::Roughness { places, text } => ("dimension", self.roughness(places, text)),
             Mark::Start { at, along, outward } => ("dimension", self.start(*at, *along, *outward)),
             Mark::Datum { at, towards, letter } => ("dimension", self.datum(*at, *towards, letter)),
-            Mark::Turning { class, radius, from_deg, sweep_deg, text } => {
-                (*class, self.turning(class, *radius, *from_deg, *sweep_deg, text))
-            }
+            Mark::Turning { class, arcs, text } => (*class, self.turning(class, arcs, text)),
         };
         vec![ShapeGroup { id: String::new(), class, label: class.into(), colour: None, shapes, in_legend: false }]
     }
@@ -565,29 +563,50 @@ impl Marker<'_> {
         shapes
     }
 
-    fn turning(
-        &mut self,
-        class: &'static str,
-        radius: f64,
-        from_deg: f64,
-        sweep_deg: f64,
-        text: &str,
-    ) -> Vec<SheetShape> {
-        let on = |degrees: f64, radius: f64| {
-            let angle = degrees.to_radians();
-            Vector2::new(radius * libm::cos(angle), radius * libm::sin(angle))
-        };
-        let sense = libm::copysign(1.0, sweep_deg);
-        let end = from_deg + sweep_deg;
-        let (head, half) = (HEAD * self.lettering, 0.5 * SLENDER * HEAD * self.lettering);
-        let ahead = sense * (head / radius).to_degrees();
-        let shapes = vec![
-            SheetShape::Arc(on(from_deg, radius), on(end, radius), libm::tan(0.25 * sweep_deg.to_radians())),
-            SheetShape::Triangle([on(end, radius - half), on(end, radius + half), on(end + ahead, radius)]),
-        ];
+    /// The first arrow on free paper; if there is none, the first within the view; if there is none, the first.
+    fn turning(&mut self, class: &'static str, arcs: &[TurningArc], text: &str) -> Vec<SheetShape> {
+        let is_free = |arc: &&TurningArc| self.taken.free(&arc.extents());
+        let is_within = |arc: &&TurningArc| self.taken.contains(&arc.extents());
+        let found = arcs.iter().find(is_free).or_else(|| arcs.iter().find(is_within)).or_else(|| arcs.first());
+        let Some(arc) = found.copied() else { return Vec::new() };
+        let shapes = arc.arrow();
         self.put(&shapes);
-        let middle = from_deg + 0.5 * sweep_deg;
-        self.defer(class, on(middle, radius), on(middle, 1.0), text);
+        let middle = arc.from_deg + 0.5 * arc.sweep_deg;
+        self.defer(class, polar_point(middle, arc.radius), polar_point(middle, 1.0), text);
         shapes
+    }
+}
+
+/// The point at a polar angle, degrees, and a radius.
+fn polar_point(degrees: f64, radius: f64) -> Vector2<f64> {
+    let (sin, cos) = libm::sincos(degrees.to_radians());
+    Vector2::new(radius * cos, radius * sin)
+}
+
+impl TurningArc {
+    /// The arc with a head at its end.
+    fn arrow(&self) -> Vec<SheetShape> {
+        let (radius, end) = (self.radius, self.from_deg + self.sweep_deg);
+        let ahead = libm::copysign((HEAD / radius).to_degrees(), self.sweep_deg);
+        let half = 0.5 * SLENDER * HEAD;
+        vec![
+            SheetShape::Arc(
+                polar_point(self.from_deg, radius),
+                polar_point(end, radius),
+                libm::tan(0.25 * self.sweep_deg.to_radians()),
+            ),
+            SheetShape::Triangle([
+                polar_point(end, radius - half),
+                polar_point(end, radius + half),
+                polar_point(end + ahead, radius),
+            ]),
+        ]
+    }
+
+    /// The field that the arrow covers.
+    fn extents(&self) -> Extents {
+        let start = polar_point(self.from_deg, self.radius);
+        let fields = self.arrow().into_iter().filter_map(|shape| shape.extents());
+        fields.fold(Extents { least: start, largest: start }, |all, field| all.with(&field))
     }
 }

@@ -178,7 +178,8 @@ impl OccupiedPaper {
         self.contains(field) && self.cells(field).all(|cell| !self.texts.get(cell).copied().unwrap_or(true))
     }
 
-    fn contains(&self, field: &Extents) -> bool {
+    /// Whether a field lies in the region.
+    pub(in crate::report) fn contains(&self, field: &Extents) -> bool {
         let field = Extents { least: field.least.add_scalar(-MARGIN), largest: field.largest.add_scalar(MARGIN) };
         field.least.x >= self.region.least.x
             && field.least.y >= self.region.least.y

@@ -134,19 +134,26 @@ pub enum Mark {
         /// "A".
         letter: &'static str,
     },
-    /// An arrow along a circle.
+    /// An arrow along a circle about the origin.
     Turning {
         /// Style.
         class: &'static str,
-        /// Radius about the origin.
-        radius: f64,
-        /// Where it starts, degrees of the drawing.
-        from_deg: f64,
-        /// How far it turns, positive counter-clockwise.
-        sweep_deg: f64,
+        /// The arcs that it may follow, the preferred one first: the first on free paper is drawn.
+        arcs: Vec<TurningArc>,
         /// The words.
         text: String,
     },
+}
+
+/// An arc about the origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TurningArc {
+    /// Radius, mm of the drawing.
+    pub radius: f64,
+    /// Polar angle of its start, degrees of the drawing.
+    pub from_deg: f64,
+    /// Angle from its start to its end, degrees, positive counter-clockwise.
+    pub sweep_deg: f64,
 }
 
 /// What a frame of ISO 1101 tolerates.
