@@ -246,7 +246,7 @@ fn the_embedded_pair_is_made_and_each_file_is_found_again() {
         report(&run)["checks"].as_array().map(|checks| checks.iter().any(|check| check["check"] == "closure")),
         Some(true)
     );
-    assert_eq!(files(&run.directory.path().join("out")).len(), 11);
+    assert_eq!(files(&run.directory.path().join("out")).len(), 12);
     for forgotten in [false, true] {
         if forgotten {
             std::fs::remove_file(run.directory.path().join("out/.camgen.json")).expect("a record");

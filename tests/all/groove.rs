@@ -101,7 +101,7 @@ impl Body for Groove {
     fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {
         let part = |(name, curves)| -> Result<Part, OutlineError> {
             let outline = outline::profile(curves, request.fit)?;
-            Ok(Part { name, rpm: None, z: 0.0, outline, bore: None, drilled: Vec::new(), balancing: None, track: None })
+            Ok(Part { name, ..Part::solid_plate(outline) })
         };
         let parts = NAMES.into_iter().zip(self.curves()).map(part).collect::<Result<_, _>>()?;
         Ok(Drawn::of(parts))

@@ -153,6 +153,14 @@ fn machine(section: &KeySection, sets: &[String]) -> Option<Machine> {
         let text = format!("{press}\n[spring_buffer.body]\nstress = \"700 MPa\"\n{shape}");
         return Machine::from_toml("springs.toml", &text, sets).ok();
     }
+    if ["cam.hub", "cam.timing_mark"].contains(&section.path) {
+        let press = include_str!("../../profiles/dpi.toml");
+        let table = match section.path {
+            "cam.hub" => "[cam.hub]\ndiameter = \"60 mm\"\nlength = \"20 mm\"\n",
+            _ => "[cam.timing_mark]\ncircle_diameter = \"100 mm\"\n",
+        };
+        return Machine::from_toml("features.toml", &format!("{press}\n{table}"), sets).ok();
+    }
     if section.path == "cam.holes" {
         let press = include_str!("../../profiles/dpi.toml");
         let text = format!("{press}\n[[cam.holes]]\ndiameter = \"6 mm\"\ncircle_diameter = \"80 mm\"\n");

@@ -48,6 +48,7 @@ mod lobes;
 mod mistakes;
 mod mutations;
 mod oracle;
+mod part_features;
 mod pipeline;
 mod points;
 mod programs;

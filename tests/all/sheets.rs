@@ -378,7 +378,7 @@ fn the_sheet_has_fits_datums_and_tolerances() {
     let all: Vec<String> = fields(&drawn.sheet).into_iter().map(|(_, text)| text).collect();
     for wanted in [
         "Ø24 H7 +0.021/0",
-        "8 JS9 ±0.018",
+        "8 JS9 ±0.018 at ψ 45°",
         "27.3 +0.2/0 over the bore",
         "keyway DIN 6885-1, through",
         "0.03",
@@ -386,7 +386,7 @@ fn the_sheet_has_fits_datums_and_tolerances() {
         "B",
         "case-hardened and tempered, 58+4 HRC, CHD 0.8+0.4",
         "0.3 x 45°",
-        "start of the cut",
+        "start of cut (climb)",
         "15 ±0.1 *",
         "A–A",
     ] {
@@ -458,6 +458,6 @@ fn a_keyway_is_on_every_sheet() {
     }
     for design in ["barrel", "indexer"] {
         let drawn = solved("make", design, &keyway, &[]);
-        assert!(texts(&drawn).contains("Keyway 8"), "{design}");
+        assert!(texts(&drawn).contains("8 P9") && texts(&drawn).contains("over the bore"), "{design}");
     }
 }

@@ -1,6 +1,6 @@
 """Sheets of random cams as a shop gets them: nothing lies over anything else, and the table of the profile is the outline that is cut.
 
-Of each design: every text of the drawing and of the review sheet lies inside the frame, has letters of at least 2.5 mm, and lies over no other text
+Of each design: everything on the drawing and the review sheet, leaders and arrows too, lies inside the frame, every text has letters of at least 2.5 mm, and lies over no other text
 and on no straight line, circle or curve; each row of the drawing's table lies on the outline of the DXF file as ezdxf reads it, to the rounding of
 the table; the cam angle and the lift of a row are those of the CSV file at the same place of the profile; PDFium finds the table in the PDF.
 
@@ -124,7 +124,15 @@ def overlaps(path):
         rest = boxes[index + 1:]
         over = (rest[:, 0] < field[1] - APART) & (rest[:, 1] > field[0] + APART) & (rest[:, 2] < field[3] - APART) & (rest[:, 3] > field[2] + APART)
         wrong += [f"`{words}` over `{fields[index + 1 + other][0]}`" for other in np.flatnonzero(over)]
-    for of, chain in chains(root):
+    everything = list(chains(root))
+    # Not the centring marks, which are short.
+    sides = [chain for of, chain in everything if of == "frame" and np.abs(np.diff(chain, axis=0)).max() > 0.5 * height]
+    frame = np.concatenate(sides)
+    least, largest = frame.min(axis=0) - APART, frame.max(axis=0) + APART
+    for of, chain in everything:
+        if of not in ("frame", "grid-reference") and ((chain < least).any() or (chain > largest).any()):
+            wrong.append(f"{of} crosses the frame at {np.round(chain[np.abs(chain - (least + largest) / 2).max(axis=1).argmax()], 1)}")
+    for of, chain in everything:
         # Texts stand on tinted rows.
         if len(chain) < 2 or of == "area":
             continue

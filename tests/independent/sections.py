@@ -1,7 +1,8 @@
 """The sections of drawings before OpenCASCADE: the solid of the STEP file is cut by the plane that the cutting line names, and every edge of that cut
 lies on a line of the drawing, every flank of the drawing on an edge of the cut, within 0.01 mm; the hatch lies in the cut surface.
 
-Discs, grooves and ribs at random, in millimetres (first-angle projection) and in inches (third angle), with the symbol that belongs to it.
+Discs with hubs, grooves, ribs, barrels and globoids at random, in millimetres (first-angle projection) and in inches (third angle), with the symbol that
+belongs to it. The section of a barrel or a globoid lies along its axis.
 
 usage: sections.py CAMGEN_BINARY DIRECTORY [--count N] [--seed S] [--jobs N]
 """
@@ -9,8 +10,10 @@ import re
 import subprocess
 from xml.etree import ElementTree
 
+import barrel
 import cases
 import drawings
+import globoid
 import groove
 import numpy as np
 import rib
@@ -30,13 +33,17 @@ THICK = 20.0
 
 
 def design(rng):
-    """A machine file of a disc, a groove or a rib with a thickness."""
-    kind = rng.choice(["disc", "groove", "rib"])
+    """A machine file of a cam whose drawing has a true section, with a thickness."""
+    kind = rng.choice(["disc", "groove", "rib", "barrel", "globoid"])
     if kind == "disc":
         _, text = drawings.design(rng)
         text = re.sub(r'(?m)^thickness = .*\n', "", text).replace("[cam]\n", f'[cam]\nthickness = "{THICK} mm"\n', 1)
+        bore, base = (re.search(rf'{key} = "([\d.]+) mm"', text) for key in ("bore_radius", "base_radius"))
+        if bore and base and float(base[1]) > 1.8 * float(bore[1]) and rng.random() < 0.6:
+            text += f'[cam.hub]\ndiameter = "{1.7 * (float(bore[1]) + float(base[1])) * 0.55:.3f} mm"\nlength = "{rng.uniform(3, 30):.3f} mm"\n'
+            text += f'side = "{rng.choice(["back", "front", "both"])}"\n'
     else:
-        module = {"groove": groove, "rib": rib}[kind]
+        module = {"groove": groove, "rib": rib, "barrel": barrel, "globoid": globoid}[kind]
         text = module.toml(module.design(rng))
     if rng.random() < 0.3:
         text += '\n[output]\nunits = "inch"\n'
@@ -50,8 +57,8 @@ def solid(path):
     return reader.OneShape()
 
 
-def cut(shape, normal):
-    """The ends of the edges in which a plane through the axis cuts a solid: pairs of points, mm."""
+def cut(shape, normal, count=2):
+    """The edges in which a plane through the axis cuts a solid, each as so many points, mm."""
     section = BRepAlgoAPI_Section(shape, gp_Pln(gp_Pnt(0, 0, 0), gp_Dir(*normal)))
     section.Build()
     found, edges = [], TopExp_Explorer(section.Shape(), TopAbs_EDGE)
@@ -60,8 +67,8 @@ def cut(shape, normal):
     while edges.More():
         curve = BRepAdaptor_Curve(as_edge(edges.Current()))
         edges.Next()
-        ends = [curve.Value(curve.FirstParameter()), curve.Value(curve.LastParameter())]
-        found.append(np.array([[end.X(), end.Y(), end.Z()] for end in ends]))
+        points = [curve.Value(at) for at in np.linspace(curve.FirstParameter(), curve.LastParameter(), count)]
+        found.append(np.array([[point.X(), point.Y(), point.Z()] for point in points]))
     return found
 
 
@@ -69,8 +76,12 @@ def lines(root, name):
     """The lines of a group of a sheet, mm of paper, y upwards."""
     for group in root.iter(f"{SVG}g"):
         if group.get("id") == name:
-            return np.array([[[float(line.get("x1")), -float(line.get("y1"))], [float(line.get("x2")), -float(line.get("y2"))]]
-                             for line in group.findall(f"{SVG}line")]).reshape(-1, 2, 2)
+            found = [[[float(line.get("x1")), -float(line.get("y1"))], [float(line.get("x2")), -float(line.get("y2"))]]
+                     for line in group.findall(f"{SVG}line")]
+            for chain in group.findall(f"{SVG}polyline"):
+                points = [[float(x), -float(y)] for x, y in (pair.split(",") for pair in chain.get("points").split())]
+                found += [list(pair) for pair in zip(points, points[1:])]
+            return np.array(found).reshape(-1, 2, 2)
     return np.zeros((0, 2, 2))
 
 
@@ -93,11 +104,14 @@ def judge_section(root, letter, shape, is_inch):
     upright = 1 if letter == "A" else 0
     low, high = drawn[:, :, upright].min(), drawn[:, :, upright].max()
 
+    ends = np.concatenate(cut(shape, (0, 1, 0) if letter == "A" else (1, 0, 0)))[:, 2]
+    bottom = ends.min()
+
     def to_paper(point):
         along, height = point[1 - upright], point[2]
         # First angle: A seen from above, the face of the front view below; B seen from the left, that face at the right.
-        first = high - height if letter == "A" else low + height
-        third = low + height if letter == "A" else high - height
+        first = high - (height - bottom) if letter == "A" else low + (height - bottom)
+        third = low + (height - bottom) if letter == "A" else high - (height - bottom)
         place = third if is_inch else first
         return np.array([along, place] if letter == "A" else [place, along])
 
@@ -118,12 +132,42 @@ def judge_section(root, letter, shape, is_inch):
     for line in hatch[:: max(1, len(hatch) // 12)]:
         middle = line.mean(axis=0)
         along, place = (middle[0], middle[1]) if letter == "A" else (middle[1], middle[0])
-        height = (place - low) if (letter == "B") != is_inch else (high - place)
+        height = bottom + ((place - low) if (letter == "B") != is_inch else (high - place))
         point = gp_Pnt(along, 0, height) if letter == "A" else gp_Pnt(0, along, height)
         if BRepClass3d_SolidClassifier(shape, point, 1e-6).State() not in (TopAbs_IN, TopAbs_ON):
             wrong.append(f"{letter}: hatched at {np.round(middle, 3)}, where the solid is not")
     if not len(hatch):
         wrong.append(f"{letter}: nothing is hatched")
+    return wrong
+
+
+def scale_of(root):
+    """The scale of a sheet: its ruler is 100 mm or 4 in of paper long, and the scale stands in the title block."""
+    words = [text.text.strip() for text in root.iter(f"{SVG}text") if text.text]
+    (scale,) = [word for word in words if re.fullmatch(r"\d+:\d+", word)]
+    paper, true = map(int, scale.split(":"))
+    return paper / true
+
+
+def judge_round(root, shape):
+    """What is wrong with the section of a round cam along its axis: z to the right, psi = 0 upwards, the axis at y = 0."""
+    scale = scale_of(root)
+    edges, flanks, hatch, ends = (lines(root, f"{kind}-A") / scale for kind in ("section", "flanks", "hatch", "ends"))
+    drawn = np.concatenate([edges, flanks, ends])
+    if not len(flanks) or not len(hatch):
+        return ["there is no section A"]
+    wrong, on_paper = [], [points[:, [2, 0]] for points in cut(shape, (0, 1, 0), 9)]
+    for points in on_paper:
+        if (off := max(apart(point, drawn) for point in points)) > NEAR:
+            wrong.append(f"A: an edge of the solid at {np.round(points[0], 3)} is {off:.4f} mm off the drawing")
+    pieces = np.concatenate([np.stack([points[:-1], points[1:]], axis=1) for points in (p[:, [2, 0]] for p in cut(shape, (0, 1, 0), 200))])
+    for line in flanks:
+        if (off := max(apart(end, pieces) for end in line)) > NEAR:
+            wrong.append(f"A: the flank at {np.round(line, 3).tolist()} is {off:.4f} mm off the solid")
+    for line in hatch[:: max(1, len(hatch) // 12)]:
+        z, x = line.mean(axis=0)
+        if BRepClass3d_SolidClassifier(shape, gp_Pnt(x, 0, z), 1e-6).State() not in (TopAbs_IN, TopAbs_ON):
+            wrong.append(f"A: hatched at {np.round([z, x], 3)}, where the solid is not")
     return wrong
 
 
@@ -152,8 +196,11 @@ def main():
         root = ElementTree.parse(words.directory / f"{name}.svg").getroot()
         shape = solid(words.directory / f"{name}.step")
         wrong = symbol_faults(root, is_inch)
-        for letter in "A" if kind == "disc" else "AB":
-            wrong += judge_section(root, letter, shape, is_inch)
+        if kind in ("barrel", "globoid"):
+            wrong += judge_round(root, shape)
+        else:
+            for letter in "A" if kind == "disc" else "AB":
+                wrong += judge_section(root, letter, shape, is_inch)
         return f"{kind}{' in inches' if is_inch else ''}", wrong, " ".join(command)
 
     states, failed = cases.judged(words, one)

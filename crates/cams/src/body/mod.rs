@@ -23,7 +23,10 @@ pub mod loaded;
 pub mod mesh;
 pub mod motion_diagram;
 pub mod part;
-mod part_drawing;
+pub(crate) mod part_drawing;
+pub mod part_features;
+
+pub mod part_shapes;
 pub mod part_tolerance;
 pub mod picture;
 pub mod rib;

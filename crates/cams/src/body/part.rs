@@ -1,13 +1,13 @@
 //! The cut drawing of one section: outline, bore, holes.
 
 use super::balancing::{self, Balancing};
-use crate::machine::{HolePattern, Machine, Rotation};
-use crate::report::sheet::Dimensions;
+use super::part_shapes::{PartHub, RimNotch};
+use crate::machine::{Machine, Rotation};
 use crate::report::{OutlineMeasures, Weight};
 use camgen_kernel::geometry::contour::{Contour, Extents, Vertex};
 use camgen_kernel::geometry::cubics::{CurveRun, runs};
-use camgen_kernel::geometry::edge_tree::EdgeTree;
-use camgen_kernel::geometry::solid::{CheckedSolid, pocketed, prism};
+use camgen_kernel::geometry::solid::CheckedSolid;
+use camgen_kernel::geometry::solid::stacked::{Wall, stacked};
 use camgen_kernel::geometry::{Entity, MILLIMETRES};
 use camgen_kernel::profile::outline::Outline;
 use camgen_kernel::refusal::Refusal;
@@ -142,6 +142,10 @@ pub struct Part {
     pub balancing: Option<Balancing>,
     /// Of a part whose roller runs within it.
     pub track: Option<Track>,
+    /// Its hub.
+    pub hub: Option<PartHub>,
+    /// A notch in the rim of its blank.
+    pub notch: Option<RimNotch>,
 }
 
 /// Mass and moments of a part, SI.
@@ -161,7 +165,18 @@ impl Part {
     /// An outline and nothing else.
     #[must_use]
     pub fn solid_plate(outline: Outline) -> Self {
-        Self { name: "", rpm: None, z: 0.0, outline, bore: None, drilled: Vec::new(), balancing: None, track: None }
+        Self {
+            name: "",
+            rpm: None,
+            z: 0.0,
+            outline,
+            bore: None,
+            drilled: Vec::new(),
+            balancing: None,
+            track: None,
+            hub: None,
+            notch: None,
+        }
     }
 
     /// A section of a machine's turning cam: the outline of a clockwise one turned as the machine's, with its bore.
@@ -182,45 +197,6 @@ impl Part {
             balancing::balance((&self.outline.contour, round.as_ref(), &drilled), band, wall, NEGLIGIBLE_MM)
         });
         Self { balancing, ..self }
-    }
-
-    /// With the holes of the machine file.
-    pub(crate) fn drilled(self, machine: &Machine) -> Self {
-        let of = |pattern: &HolePattern| -> Vec<(Vector2<f64>, f64)> {
-            let radius = MILLIMETRES * pattern.radius;
-            pattern.centres().map(|centre| (point_as_turned(machine, centre * MILLIMETRES), radius)).collect()
-        };
-        Self { drilled: machine.holes.iter().flat_map(of).collect(), ..self }
-    }
-
-    /// Why a hole of the machine file cannot be drilled, with a remedy: where it does not lie in the metal, clear of what is cut otherwise.
-    pub(crate) fn hole_fault(&self, machine: &Machine) -> Option<Refusal> {
-        let rims: Vec<EdgeTree> = self.rims_without_holes().iter().map(EdgeTree::new).collect();
-        let patterns = machine.holes.iter().enumerate();
-        let holes = patterns.flat_map(|(index, pattern)| std::iter::repeat_n((index, pattern), pattern.count as usize));
-        for (place, ((index, pattern), (centre, radius))) in holes.zip(&self.drilled).enumerate() {
-            let room = rims.iter().filter_map(|rim| rim.nearest(*centre)).map(|nearest| nearest.left);
-            let to_others = self.drilled.iter().take(place).map(|(other, size)| (centre - other).norm() - size);
-            let room = room.chain(to_others).fold(f64::INFINITY, f64::min);
-            if room <= *radius {
-                let units = machine.units();
-                let what = format!(
-                    "cam.holes[{index}]: a hole of Ø{} {} on the circle Ø{} at {:.1}° does not lie in the metal",
-                    units.dimension(2.0 * radius),
-                    units.symbol(),
-                    units.dimension(2.0 * MILLIMETRES * pattern.circle_radius),
-                    libm::atan2(centre.y, centre.x).to_degrees().rem_euclid(360.0)
-                );
-                return Some(Refusal::new(what).remedy("give another circle_diameter or angle, or a smaller diameter"));
-            }
-        }
-        None
-    }
-
-    /// Everything that bounds its metal but the holes of the machine file and those that balance it, the metal on its left.
-    fn rims_without_holes(&self) -> Vec<Contour> {
-        let bare = Self { drilled: Vec::new(), balancing: None, ..self.clone() };
-        bare.walls().into_iter().map(|(contour, _)| contour).collect()
     }
 
     /// What is cut in addition to an outline (mm) of a machine's turning cam: bore and balance holes, counter-clockwise.
@@ -276,7 +252,10 @@ impl Part {
     /// The edge of its blank.
     fn blank(&self) -> Option<Entity> {
         let radius = self.track.as_ref()?.blank?;
-        Some(Entity::Circle(Vector2::zeros(), radius))
+        Some(match &self.notch {
+            Some(notch) => Entity::Polyline(notch.in_rim(radius)),
+            None => Entity::Circle(Vector2::zeros(), radius),
+        })
     }
 
     /// What is cut in addition to its outlines, counter-clockwise: bore, balance holes, and the edge of its blank.
@@ -303,26 +282,8 @@ impl Part {
     /// # Errors
     /// [`Refusal`] when its own checks fail: a fault of camgen.
     pub fn solid(&self, thickness: f64) -> Result<CheckedSolid, Refusal> {
-        let walls = self.walls();
-        let (through, pocket): (Vec<_>, Vec<_>) = walls.into_iter().partition(|(_, depth)| depth.is_none());
-        let contours = |walls: Vec<(Contour, _)>| walls.into_iter().map(|(contour, _)| contour).collect::<Vec<_>>();
-        let (through, pocket) = (contours(through), contours(pocket));
-        match self.track.as_ref().and_then(|track| track.depth) {
-            Some(depth) => pocketed(&through, &pocket, thickness, depth),
-            None => prism(&through, self.area_and_moment().0, thickness),
-        }
-    }
-
-    /// The contours that bound its metal, the outermost first, each on the left of the metal's edge, with how deep it reaches below the
-    /// upper face, mm.
-    fn walls(&self) -> Vec<(Contour, Option<f64>)> {
-        let wall = |rim: Rim| match rim.curve {
-            Entity::Polyline(contour) => (contour, rim.depth),
-            round if rim.layer == Layer::Bore => (round.contour().reversed(), rim.depth),
-            round => (round.contour(), rim.depth),
-        };
-        let (blank, rest): (Vec<Rim>, Vec<Rim>) = self.rims().into_iter().partition(|rim| rim.layer == Layer::Blank);
-        blank.into_iter().chain(rest).map(wall).collect()
+        let walls: Vec<Wall> = self.standing_rims(thickness).into_iter().map(|rim| rim.wall).collect();
+        stacked(&walls)
     }
 
     /// Area of the metal, mm², and its first moment about the shaft, mm³; of a part with a groove those of its upper face.
@@ -333,11 +294,7 @@ impl Part {
 
     /// The sum over all walls of area and first moment, each times a weight that belongs to its depth.
     fn swept(&self, weight: impl Fn(Option<f64>) -> f64) -> (f64, Vector2<f64>) {
-        self.areas().iter().fold((0.0, Vector2::zeros()), |(area, moment), (contour, sign, depth)| {
-            let (own, centroid) = contour.area_and_centroid();
-            let own = sign * own * weight(*depth);
-            (area + own, moment + centroid * own)
-        })
+        sum_of_areas(&self.areas(), weight)
     }
 
     /// What bounds its metal as areas: counter-clockwise, 1 where the metal lies inside and −1 where it lies around, and the depth.
@@ -346,7 +303,7 @@ impl Part {
         let of_track = |track: &Track| {
             let flanks = track.others.iter();
             let flanks = flanks.map(|flank| (flank.outline.contour.clone(), sign(flank.hollow), track.depth));
-            let blank = track.blank.map(|radius| (Contour::circle(Vector2::zeros(), radius), 1.0, None));
+            let blank = self.blank().map(|blank| (blank.contour(), 1.0, None));
             flanks.chain(blank).collect::<Vec<_>>()
         };
         let (hollow, depth) = self.track.as_ref().map_or((false, None), |track| (track.first.1, track.depth));
@@ -368,7 +325,10 @@ impl Part {
         // kg per mm², where there is a thickness.
         let weight =
             machine.cam.thickness.map(|thickness| thickness * machine.cam.density() / (MILLIMETRES * MILLIMETRES));
-        let (even, moment) = self.swept(Self::share_of_thickness(machine));
+        let share = Self::share_of_thickness(machine);
+        let (disc, of_disc) = self.swept(&share);
+        let (hub, of_hub) = sum_of_areas(&self.hub_areas(), share);
+        let (even, moment) = (disc + hub, of_disc + of_hub);
         Weight {
             area_mm2: Some(area),
             mass_kg: weight.map(|weight| even * weight),
@@ -384,17 +344,36 @@ impl Part {
         // kg per mm² of the drawing.
         let weight = thickness * machine.cam.density() / (MILLIMETRES * MILLIMETRES);
         let share = Self::share_of_thickness(machine);
-        let (area, moment) = self.swept(&share);
+        let (disc, of_disc) = self.swept(&share);
+        let hub_areas = self.hub_areas();
+        let (hub, of_hub) = sum_of_areas(&hub_areas, &share);
+        let (area, moment) = (disc + hub, of_disc + of_hub);
         let polar =
             |(contour, sign, depth): &(Contour, f64, Option<f64>)| sign * share(*depth) * contour.polar_moment();
         let areas = self.areas();
         let (flanks, holes) = areas.split_at(areas.len() - self.holes().len());
-        let polar = flanks.iter().map(polar).sum::<f64>() + holes.iter().map(polar).sum::<f64>();
+        let of_areas = |areas: &[(Contour, f64, Option<f64>)]| areas.iter().map(polar).sum::<f64>();
+        let polar = of_areas(flanks) + of_areas(holes) + of_areas(&hub_areas);
         let about_shaft = weight * polar / (MILLIMETRES * MILLIMETRES);
         let (mass, unbalance) = (weight * area, moment * (weight / MILLIMETRES));
         let polar = about_shaft - unbalance.norm_squared() / mass;
         // The mean of the two diameters.
-        let diametral = 0.5 * polar + mass * thickness * thickness / 12.0;
+        let mut diametral = 0.5 * polar + weight * disc * thickness * thickness / 12.0;
+        if let Some(PartHub { behind, in_front, .. }) = self.hub {
+            // Disc and hubs: mass, length, height of the middle.
+            let length = behind + in_front;
+            let of_hub = |part: f64| weight * hub * part / length;
+            let layers = [
+                (weight * disc, 0.0, 0.5 * thickness),
+                (of_hub(behind), behind / MILLIMETRES, -0.5 * behind / MILLIMETRES),
+                (of_hub(in_front), in_front / MILLIMETRES, thickness + 0.5 * in_front / MILLIMETRES),
+            ];
+            let centre = layers.iter().map(|(mass, _, middle)| mass * middle).sum::<f64>() / mass;
+            let along = |(mass, length, middle): &(f64, f64, f64)| {
+                mass * (length * length / 12.0 + (middle - centre) * (middle - centre))
+            };
+            diametral += layers.iter().map(along).sum::<f64>();
+        }
         Some(Inertia { mass, polar, diametral, unbalance: unbalance.into() })
     }
 
@@ -435,6 +414,15 @@ impl Part {
             length_mm: outline.contour.length(),
         }
     }
+}
+
+/// The sum of areas and of their first moments, each times a weight that belongs to its depth.
+fn sum_of_areas(areas: &[(Contour, f64, Option<f64>)], weight: impl Fn(Option<f64>) -> f64) -> (f64, Vector2<f64>) {
+    areas.iter().fold((0.0, Vector2::zeros()), |(area, moment), (contour, sign, depth)| {
+        let (own, centroid) = contour.area_and_centroid();
+        let own = sign * own * weight(*depth);
+        (area + own, moment + centroid * own)
+    })
 }
 
 /// The bore of a clockwise cam, with its keyway merged into one contour.

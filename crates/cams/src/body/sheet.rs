@@ -7,7 +7,9 @@ use super::{curves_of, torque};
 use crate::machine::fit::HoleFit;
 use crate::machine::{Keyway, Machine, Rotation, parallel_key};
 use crate::report::sheet::Dimensions;
-use crate::report::sheet::{Mark, PlaceRow, PlaceTable, ShapeGroup, SheetShape, ToleranceSign, TurningArc, rounded};
+use crate::report::sheet::{
+    FeatureFrame, Mark, PlaceRow, PlaceTable, ShapeGroup, SheetShape, ToleranceSign, TurningArc, rounded,
+};
 use crate::report::trace::Trace;
 use camgen_kernel::geometry::contour::{Contour, Extents};
 use camgen_kernel::geometry::{Entity, MILLIMETRES, polar};
@@ -144,12 +146,19 @@ pub(crate) fn tolerance_frame(
     machine: &Machine,
     tolerance: PartTolerance,
     places: Vec<(Vector2<f64>, Vector2<f64>)>,
+    second_datum: Option<&'static str>,
 ) -> Mark {
-    let cam = &machine.cam;
-    let datums = [cam.bore_radius.map(|_| "A"), cam.bore_radius.and(cam.keyway).map(|_| "B")];
+    let datums = [machine.cam.bore_radius.map(|_| "A"), machine.cam.bore_radius.and(second_datum)];
     let width = machine.units().zone(MILLIMETRES * tolerance.width);
     let cells = std::iter::once(width).chain(datums.into_iter().flatten().map(str::to_owned)).collect();
-    Mark::Tolerance { sign: ToleranceSign::ProfileAllAround, places, cells, behind: String::new() }
+    Mark::Tolerance(FeatureFrame {
+        places,
+        above: String::new(),
+        sign: Some(ToleranceSign::ProfileAllAround),
+        cells,
+        behind: String::new(),
+        datum: None,
+    })
 }
 
 fn size_with(fit: bool, length: f64, units: LengthUnit) -> String {

@@ -3,6 +3,7 @@
 use super::fit::{self, HoleFit};
 use super::material::{CamMaterial, Material};
 use super::parallel_key;
+use super::part_features;
 use super::plate::{self, PlateData};
 use super::track::{self, TrackData};
 use camgen_kernel::document::Presence::{Default, Optional, Required};
@@ -115,7 +116,7 @@ const BORE_RADIUS: Field<f64> = Field::quantity(
     LENGTH,
 )
 .only(TURNING)
-.also(&["hole", "shaft", "hub"]);
+.also(&["hole", "shaft"]);
 const BORE_DIAMETER: Key =
     BORE_RADIUS.diameter("bore_diameter", "diameter of the bore, in the place of its radius", "50 mm");
 const BORE_FIT: Field<String> = Field::text("bore_fit", "tolerance class of the bore, for the sheet", Optional("H7"))
@@ -185,6 +186,8 @@ pub(super) const SECTION: KeySection = KeySection {
         BALANCE.key,
         PROFILE_TOLERANCE.key,
         ROTATION.key,
+        part_features::CHAMFER.key,
+        part_features::SPLIT.key,
     ],
 };
 
@@ -235,9 +238,9 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<CamData> {
     balance_and_bore(&table);
     base_radius_and_bore(&table);
     let keyway = reader.find(&KEYWAY);
-    let keyway_fit = keyway.as_ref().and_then(|keyway| read_fit(keyway, &KEYWAY_FIT));
+    let keyway_fit = keyway.as_ref().and_then(|keyway| fit::read(keyway, &KEYWAY_FIT));
     let keyway = keyway.map(|keyway| read_keyway(&keyway, &table));
-    let bore_fit = read_fit(&table, &BORE_FIT);
+    let bore_fit = fit::read(&table, &BORE_FIT);
     if table.has(&BORE_FIT) && !table.has(&BORE_RADIUS) {
         table.fail(&BORE_FIT, "a fit of the bore needs a bore".into(), Some("add cam.bore_diameter".into()));
     }
@@ -314,11 +317,6 @@ fn base_radius_and_bore(table: &TableReader<'_>) {
         let (base, bore) = (table.typed(&BASE_RADIUS), table.typed(&BORE_RADIUS));
         table.fail(&BORE_RADIUS, format!("bore_radius must be below base_radius: {bore} ≥ {base}"), None);
     }
-}
-
-pub(super) fn read_fit(table: &TableReader<'_>, field: &Field<String>) -> Option<HoleFit> {
-    let text = table.get(field)?;
-    text.parse().map_err(|why| table.fail(field, why, Some(format!("give {}", fit::KNOWN)))).ok()
 }
 
 fn read_keyway(keyway: &TableReader<'_>, cam: &TableReader<'_>) -> Option<Keyway> {

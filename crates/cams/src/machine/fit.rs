@@ -1,5 +1,6 @@
 //! Tolerance classes of holes and of the width of keyways: ISO 286-1:2010, tables 1 to 3.
 
+use camgen_kernel::document::{Field, TableReader};
 use std::fmt;
 use std::str::FromStr;
 
@@ -121,6 +122,12 @@ impl HoleFit {
             (Letter::K | Letter::M | Letter::N | Letter::P, _) => return None,
         })
     }
+}
+
+/// The tolerance class that a key gives.
+pub(super) fn read(table: &TableReader<'_>, field: &Field<String>) -> Option<HoleFit> {
+    let text = table.get(field)?;
+    text.parse().map_err(|why| table.fail(field, why, Some(format!("give {KNOWN}")))).ok()
 }
 
 impl FromStr for HoleFit {

@@ -1,7 +1,8 @@
 //! The tables of a machine file.
 
 use super::{
-    ROOT, as_made, barrel, bearing, cutting, disc, dynamics, hole_pattern, limits, output, plate, title, track, turret,
+    ROOT, as_made, barrel, bearing, cutting, disc, dynamics, hole_pattern, limits, output, part_features, plate, title,
+    track, turret,
 };
 use camgen_kernel::document::KeySection;
 use camgen_kernel::follower::FOLLOWERS;
@@ -25,6 +26,8 @@ const BODY_TABLES: &[&KeySection] = &[
     &turret::SECTION,
     &plate::SECTION,
     &disc::KEYWAY,
+    &part_features::HUB,
+    &part_features::TIMING_MARK,
     &hole_pattern::SECTION,
     &track::COUNTER,
     &as_made::SECTION,

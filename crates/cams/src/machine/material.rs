@@ -268,6 +268,12 @@ impl CamMaterial {
         }
     }
 
+    /// Whether a hardened surface is presumed of a steel without a grade.
+    #[must_use]
+    pub fn needs_a_grade(&self) -> bool {
+        self.limit.is_none() && self.class == Material::Steel && self.source == Source::Class
+    }
+
     /// The treatment, with the hardness, that a limit which nobody has stated presumes, as a drawing asks for it; `None` where the file gives the
     /// limit, or where the material is used as it is cast or drawn.
     #[must_use]

@@ -21,6 +21,7 @@ mod material;
 mod other_files;
 mod output;
 pub mod parallel_key;
+mod part_features;
 mod parts;
 mod plate;
 mod source;
@@ -45,6 +46,7 @@ pub use limits::{Limits, OvershootLimit, customary_stress, customary_stress_of, 
 pub use list::sections;
 pub use material::{CamMaterial, Grade, Material};
 pub use output::UNITS_KEY;
+pub use part_features::{Hub, PartFeatures, TimingMark};
 pub use parts::{MachinePart, MachineParts};
 pub use plate::PlateData;
 pub use source::{Catalogue, MachineSource, ReadParts};
@@ -140,6 +142,8 @@ pub struct Machine {
     dynamics: Dynamics,
     /// Disc.
     pub cam: CamData,
+    /// Hub, timing mark, chamfers and joint of its disc.
+    pub features: PartFeatures,
     /// Its holes in addition to the bore.
     pub holes: Vec<HolePattern>,
     /// Errors of the cam and its follower as they are made.
@@ -259,6 +263,8 @@ impl Machine {
         if cam.track.body == cams::WEDGE {
             plate::refuse_turning(reader, &follower);
         }
+        let given = (cam.track.body, cam.thickness.is_some());
+        let (features, timing_hole) = part_features::read(reader, &reader.table(&disc::SECTION), given);
         let as_made = as_made::read(reader, &follower, cam.track.body);
         let counter = track::read_counter(reader, &follower);
         let barrel = barrel::read(reader, cam.track.groove_depth)?;
@@ -271,7 +277,8 @@ impl Machine {
             motion,
             timed: None,
             cam,
-            holes: hole_pattern::read(reader),
+            features,
+            holes: hole_pattern::read(reader, cam.track.body).into_iter().chain(timing_hole).collect(),
             as_made,
             material_name: disc::material_name(reader),
             dynamics: Dynamics::read(reader, &follower, quantity),

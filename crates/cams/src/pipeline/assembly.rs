@@ -1,6 +1,6 @@
 //! Cams that belong together: solved, drawn, proved and written as one, or not at all, with an analysis of the machine they are for.
 
-use super::{Cam, Drawing, Error, Proven};
+use super::{Cam, Drawing, Error, Proven, Writing};
 use crate::body::{Body, Request};
 use crate::check::Measure;
 use crate::report::{Finding, LazyReport, Report, Section, Verdict, failed};
@@ -49,7 +49,7 @@ pub trait AssemblyReport: fmt::Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Those files, under a title, with a mark and the time of their making.
+    /// Those files, under a title and with a mark.
     ///
     /// # Errors
     /// [`Error::Format`] when one cannot be made.
@@ -57,7 +57,8 @@ pub trait AssemblyReport: fmt::Debug + Send + Sync {
         &self,
         _first: &Proven,
         _others: &[(String, Proven)],
-        _titled: (&str, &str, Option<u64>),
+        _titled: (&str, &str),
+        _writing: &Writing,
     ) -> Result<Vec<Vec<u8>>, Error> {
         Ok(Vec::new())
     }

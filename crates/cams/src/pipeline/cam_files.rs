@@ -89,7 +89,7 @@ impl ProvenAssembly {
         }
         if let Some(report) = self.joint_report().filter(|_| !of_all.is_empty()) {
             let (title, mark) = (all.report().title(), all.report().mark());
-            let bytes = report.files(self.first(), self.others(), (&title, &mark, writing.created))?;
+            let bytes = report.files(self.first(), self.others(), (&title, &mark), writing)?;
             all.extend(of_all.into_iter().zip(bytes));
         }
         Ok(all)
@@ -119,8 +119,13 @@ fn made_of(
 /// The format that has the profile.
 const PROFILE: &str = "dxf";
 /// What a drawing calls the files of a format from which the part is made.
-const ROLES: [(&str, &str); 4] =
-    [(PROFILE, "Profile, 1:1"), ("step", "Solid"), ("gcode", "Program"), ("inspect", "Places to inspect")];
+const ROLES: [(&str, &str); 5] = [
+    (PROFILE, "Profile, 1:1"),
+    ("step", "Solid"),
+    ("gcode", "Program"),
+    ("inspect", "Points to inspect"),
+    ("further tables", "Table"),
+];
 
 /// The files from which the part is made, those of this run and always the profile.
 fn part_files(
@@ -191,8 +196,9 @@ fn of_first(whole: &ProvenAssembly, writing: &Writing, other_names: &[String]) -
         LazyLock::force(&report);
     }
     // The drawing names the files from which the part is made, with their hashes: they are made before it.
-    let (of_part, shown): (Vec<_>, Vec<_>) =
-        filled.into_iter().enumerate().partition(|(_, format)| !matches!(format.source, Listed::View(_)));
+    let (of_part, shown): (Vec<_>, Vec<_>) = filled.into_iter().enumerate().partition(|(_, format)| {
+        !matches!(format.source, Listed::View(_)) || ROLES.iter().any(|(name, _)| *name == format.name)
+    });
     let make = |(_, format): &(usize, &Format)| proven.written_in(format, &rendering);
     let mut bytes = made_of(&of_part, make)?;
     let has_sheet = shown.iter().any(|(_, format)| ["svg", "pdf"].contains(&format.name));

@@ -3,13 +3,14 @@
 use super::{Cam, Error, FileKind, diagnosis, report};
 use crate::body::conjugate::COUNTER;
 use crate::body::{Body, Cut, Layer, Request};
-use crate::reading::step::{FaceLoop, FlankShape, SolidForm, StepFile};
+use crate::reading::step::{FaceLoop, FlankShape, HubShape, SolidForm, StepFile};
 use crate::reading::{self, Chain, Reading, step};
 use crate::report::{Finding, Inputs, Report, Rolled, Section, Verdict};
 use crate::tool_files::dxf::{judge_path, judge_swept};
 use crate::tool_files::section::{CutSection, section};
 use crate::tool_files::{ExpectedFile, JudgedFile, SolvedCam};
 use crate::verify::{self, Evidence, WrittenOutline, WrittenSolid, join_reach, rolling, shell_reach};
+use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::profile::outline::MotionTolerance;
 use camgen_kernel::refusal::Refusal;
@@ -276,10 +277,18 @@ impl Cam {
         request: &Request,
     ) -> (Vec<Finding>, Vec<Rolled>) {
         let body = self.body();
-        let form = step::form(&file.boundary, flank, shell_reach(tolerance_mm));
+        let reach = shell_reach(tolerance_mm);
+        let (bare, hub) = match hub_of(body) {
+            Some(hub) => {
+                let (bare, off) = hub.taken_off(&file.boundary, reach);
+                (Some(bare), Some(off))
+            }
+            None => (None, None),
+        };
+        let form = step::form(bare.as_ref().unwrap_or(&file.boundary), flank, reach);
         let outlines = solid_outlines(body, &form);
         let rolled = rolling::roll_all(body, &outlines, tolerance_mm);
-        let solid = WrittenSolid { file, form };
+        let solid = WrittenSolid { file, form, hub };
         let checks = verify::run(&Evidence {
             outlines: &outlines,
             rolled: &rolled,
@@ -289,6 +298,17 @@ impl Cam {
         });
         (checks, rolled)
     }
+}
+
+/// The hub of the design of a disc.
+fn hub_of(body: &dyn Body) -> Option<HubShape> {
+    let is_disc = body.surface().is_none()
+        && body.swept().is_none()
+        && body.follower_motion().is_some_and(|motion| motion.period().is_some());
+    let hub = body.machine().features.hub.filter(|_| is_disc)?;
+    let (low, high) = body.height()?;
+    let ends = [low - MILLIMETRES * hub.behind, high + MILLIMETRES * hub.in_front];
+    Some(HubShape { radius: MILLIMETRES * hub.radius, ends, faces: [low, high] })
 }
 
 /// The outlines of the cuts of a body in a solid, with the holes beside them; none where there are not as many as there should be.

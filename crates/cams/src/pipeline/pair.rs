@@ -1,17 +1,22 @@
 //! What two discs of a pair do together: how they close on their rollers, and their solids in one file.
 
-use super::{AssemblyReport, Error, Proven};
-use crate::body::Body;
+use super::{AssemblyReport, Error, Proven, Writing};
 use crate::body::closure::{Closure, Pairing};
 use crate::body::conjugate::{self, MAIN_NAME};
+use crate::body::part_drawing::pair::{PairedDisc, of_pair};
+use crate::body::{Body, Part};
 use crate::check::Measure;
 use crate::report::Section;
+use crate::report::sheet::{SheetExtras, SheetKind, compose};
 use crate::verify::WrittenOutline;
 use crate::write::step_assembly::{self, PlacedSolid};
+use crate::write::svg;
 use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::refusal::Refusal;
 
-/// The name of the file of both solids after the stem.
-const PAIR: &str = "-pair.step";
+/// The names of the file of both solids and of the drawing of both discs after the stem.
+const SOLIDS: &str = "-pair.step";
+const SHEET: &str = "-pair.svg";
 
 /// The report on a pair.
 #[derive(Debug)]
@@ -35,28 +40,83 @@ impl AssemblyReport for PairReport {
     }
 
     fn file_names(&self, first: &Proven, formats: &[&str]) -> Vec<&'static str> {
-        let solid = first.body().machine().cam.thickness.is_some() && formats.contains(&"step");
-        solid.then_some(PAIR).into_iter().collect()
+        let has_thickness = first.body().machine().cam.thickness.is_some();
+        let files = [("step", SOLIDS), ("svg", SHEET)];
+        files
+            .into_iter()
+            .filter(|(format, _)| has_thickness && formats.contains(format))
+            .map(|(_, name)| name)
+            .collect()
     }
 
-    /// The discs next to each other on the shaft, each a product of its name.
     fn files(
         &self,
         first: &Proven,
         others: &[(String, Proven)],
-        (title, mark, created): (&str, &str, Option<u64>),
+        (title, mark): (&str, &str),
+        writing: &Writing,
     ) -> Result<Vec<Vec<u8>>, Error> {
-        let thickness = MILLIMETRES * first.body().machine().cam.thickness.unwrap_or(0.0);
-        let mut placed = Vec::new();
-        let mut z = 0.0;
-        for (name, cam) in std::iter::once((MAIN_NAME, first)).chain(others.iter().map(|(name, cam)| (&**name, cam))) {
-            let part = cam.drawn().and_then(|drawn| drawn.parts.first());
-            if let Some(part) = part {
-                let solid = part.solid(thickness).map_err(Error::Format)?;
-                placed.push(PlacedSolid { name: format!("{title} {name}"), solid, z });
-            }
-            z += thickness;
+        let (formats, _) = writing.chosen(first.body())?;
+        let formats: Vec<&str> = formats.iter().map(|format| format.name).collect();
+        let discs: Vec<(&str, &Proven)> =
+            std::iter::once((MAIN_NAME, first)).chain(others.iter().map(|(name, cam)| (&**name, cam))).collect();
+        let mut files = Vec::new();
+        for name in self.file_names(first, &formats) {
+            files.push(if name == SOLIDS {
+                solids(&discs, (title, mark), writing.created)?
+            } else {
+                sheet(&discs, mark, writing)?
+            });
         }
-        Ok(vec![step_assembly::write(&placed, title, created, mark)])
+        Ok(files)
     }
+}
+
+/// The discs next to each other on the shaft, each a product of its name.
+fn solids(discs: &[(&str, &Proven)], (title, mark): (&str, &str), created: Option<u64>) -> Result<Vec<u8>, Error> {
+    let mut placed = Vec::new();
+    let mut z = 0.0;
+    for (name, cam) in discs {
+        let thickness = MILLIMETRES * cam.body().machine().cam.thickness.unwrap_or(0.0);
+        if let Some(part) = cam.drawn().and_then(|drawn| drawn.parts.first()) {
+            let solid = part.solid(thickness).map_err(Error::Format)?;
+            placed.push(PlacedSolid { name: format!("{title} {name}"), solid, z });
+        }
+        z += thickness;
+    }
+    Ok(step_assembly::write(&placed, title, created, mark))
+}
+
+/// The drawing of both discs together.
+fn sheet(discs: &[(&str, &Proven)], mark: &str, writing: &Writing) -> Result<Vec<u8>, Error> {
+    let drawn = |(name, cam): &(&str, &Proven)| {
+        let part = cam.drawn()?.parts.first()?.clone();
+        let mass = part.weight(cam.body().machine()).mass_kg;
+        Some(((*name).to_owned(), part, mass))
+    };
+    let parts: Vec<(String, Part, Option<f64>)> = discs.iter().filter_map(drawn).collect();
+    let (Some((_, first)), [main, counter]) = (discs.first(), &parts[..]) else {
+        return Err(Error::Format(Refusal::new("a pair has two discs")));
+    };
+    let paired = [main, counter].map(|(name, part, mass)| PairedDisc {
+        name,
+        part,
+        drawing: format!("{}-{name}.svg", writing.stem),
+        mass: *mass,
+    });
+    let drawn = first.drawn().ok_or_else(|| Error::NoOutline("a disc has no outline".into()))?;
+    let review = first.body().view(drawn).map_err(|error| Error::Format(Refusal::of(error)))?;
+    let rollers = review.groups.into_iter().filter(|group| group.class == "roller").collect();
+    let view = of_pair(first.body().machine(), paired, rollers);
+    let report = first.report();
+    let extras = SheetExtras {
+        kind: SheetKind::Pair,
+        files: &[],
+        file_deviates: "",
+        number: "1/1",
+        traces: &[],
+        checks: &[],
+        passed_otherwise: 0,
+    };
+    svg::fill(&compose(&view, &report, &extras), &writing.template, true, mark).map_err(Error::Format)
 }

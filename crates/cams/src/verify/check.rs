@@ -46,8 +46,10 @@ pub struct WrittenPath {
 pub struct WrittenSolid {
     /// The file.
     pub file: StepFile,
-    /// What its boundary was recognised as.
+    /// What its boundary was recognised as, without its hub.
     pub form: SolidForm,
+    /// The distance of its hub from that of the design, mm; `None` of a design without a hub.
+    pub hub: Option<f64>,
 }
 
 /// What is known of a cam when it is checked.

@@ -29,6 +29,7 @@ pub const CHECKS: &[CheckEntry] = &[
     File(&solid::THICKNESS),
     File(&solid::VOLUME),
     File(&solid::HOLES),
+    File(&solid::HUB),
     Figure(&continuity::CHECK),
     Figure(&outlier::CHECK),
     Figure(&overshoot::CHECK),

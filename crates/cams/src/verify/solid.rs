@@ -92,6 +92,19 @@ pub(super) const HOLES: FileCheck = FileCheck::on_file(
     |evidence| Some(holes(evidence, evidence.solid?)),
 );
 
+pub(super) const HUB: FileCheck = FileCheck::on_file(
+    "hub",
+    "mm",
+    "The largest distance of the hub of a solid, its cylinder and its ends, from that of the design.",
+    CheckExplanation {
+        bound: Bound::AtMost,
+        formula: "the largest of |R − R₀| and |z − z₀|",
+        usual: "the tolerance",
+        change: "set `cam.hub` as in the file, or correct the file",
+    },
+    |evidence| Some(hub(evidence, evidence.solid?.hub?)),
+);
+
 /// Places on each segment at which the contours of holes are compared: a segment is an arc or a line, and so is its counterpart.
 const PLACES: u32 = 32;
 
@@ -246,6 +259,12 @@ fn holes(evidence: &Evidence<'_>, solid: &WrittenSolid) -> Finding {
     };
     let kept = value <= limit && found.len() == expected.len();
     Finding { note, ..HOLES.found(value, Some(limit), Verdict::of(kept)) }
+}
+
+fn hub(evidence: &Evidence<'_>, off: f64) -> Finding {
+    let limit = evidence.tolerance_mm;
+    let note = off.is_infinite().then(|| Text::from("the solid has no round hub about its axis"));
+    Finding { note, ..HUB.found(off, Some(limit), Verdict::of(off <= limit)) }
 }
 
 /// The largest distance of any place on these contours from the others, mm.

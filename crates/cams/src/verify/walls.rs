@@ -7,6 +7,7 @@ use crate::reading::Chain;
 use camgen_kernel::geometry::clearance::{self, Clearance};
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::geometry::edge_tree::EdgeTree;
+use camgen_kernel::geometry::section::crossings;
 use nalgebra::Vector2;
 
 /// The thinnest places of all outlines.
@@ -46,6 +47,13 @@ fn is_round_the_axis(contour: &Contour) -> bool {
     EdgeTree::new(contour).nearest(Vector2::zeros()).is_some_and(|axis| axis.left > 0.0)
 }
 
+/// Whether a contour lies inside another, by its first point.
+fn is_inside(outline: &Contour, contour: &Contour) -> bool {
+    let Some(first) = contour.edges().next() else { return false };
+    let beyond = crossings(outline, first.start(), Vector2::x()).into_iter().filter(|distance| *distance > 0.0);
+    beyond.count() % 2 == 1
+}
+
 /// Of one outline: about the hole that the shaft goes through, and about the others.
 fn of_outline(outline: &WrittenOutline, within: bool) -> [Option<Clearance>; 2] {
     let closed = outline.others.iter().filter(|chain| chain.closed);
@@ -61,7 +69,14 @@ fn of_outline(outline: &WrittenOutline, within: bool) -> [Option<Clearance>; 2] 
         let bore = is_round_the_axis(hole);
         let [about_bore, about_holes] = &mut found;
         let slot = if bore { about_bore } else { &mut *about_holes };
-        *slot = thinner(*slot, clearance::around(&outline.contour, hole));
+        // Of a groove a hole may lie outside of a flank, between the groove and the edge of the blank.
+        let from_outline = if within && !is_inside(&outline.contour, hole) {
+            clearance::between(&outline.contour, hole)
+        } else {
+            clearance::around(&outline.contour, hole)
+        };
+        *slot = thinner(*slot, from_outline);
+        *slot = round.iter().fold(*slot, |thin, blank| thinner(thin, clearance::around(blank, hole)));
         for other in holes.iter().skip(index + 1) {
             *about_holes = thinner(*about_holes, clearance::between(hole, other));
         }

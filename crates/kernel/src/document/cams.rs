@@ -63,6 +63,8 @@ pub const CYLINDERS: &[&str] = &[ROUND_A_CYLINDER];
 pub const WITH_AN_OUTSIDE: &[&str] = &[RING, ROUND_A_CYLINDER];
 /// Disc cams.
 pub const DISCS: &[&str] = &[DISC];
+/// Cams of discs that may have holes, a hub and a timing mark.
+pub const WITH_HOLES: &[&str] = &[DISC, GROOVE];
 /// Cams that are as thick everywhere.
 pub const EVEN: &[&str] = &[ONE_THICKNESS];
 /// Cams that are cut from a plate along one outline or more.

@@ -82,6 +82,13 @@ impl Contour {
         Self { vertices: vertices.collect() }
     }
 
+    /// The contour at another place, mm.
+    #[must_use]
+    pub fn moved(&self, by: Vector2<f64>) -> Self {
+        let vertices = self.vertices.iter().map(|vertex| Vertex { point: vertex.point + by, ..vertex.clone() });
+        Self { vertices: vertices.collect() }
+    }
+
     /// A full circle, counter-clockwise, as two half arcs.
     #[must_use]
     pub fn circle(centre: Vector2<f64>, radius: f64) -> Self {

@@ -39,6 +39,18 @@ impl Entity {
         }
     }
 
+    /// The entity at another place, mm.
+    #[must_use]
+    pub fn moved(&self, by: Vector2<f64>) -> Self {
+        match self {
+            Entity::Polyline(contour) => Entity::Polyline(contour.moved(by)),
+            Entity::Circle(centre, radius) => Entity::Circle(centre + by, *radius),
+            Entity::Segment(Segment { start, end, bulge }) => {
+                Entity::Segment(Segment { start: start + by, end: end + by, bulge: *bulge })
+            }
+        }
+    }
+
     /// Extents, mm.
     #[must_use]
     pub fn extents(&self) -> Extents {

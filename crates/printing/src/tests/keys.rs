@@ -168,6 +168,18 @@ const OTHERS: &[(&str, &str)] = &[
     ("cam.bore_diameter", "40 mm"),
     ("cam.balance", "40 mm .. 85 mm"),
     ("cam.profile_tolerance", "0.05 mm"),
+    ("cam.hub.diameter", "70 mm"),
+    ("cam.hub.length", "22 mm"),
+    ("cam.hub.side", "both"),
+    ("cam.timing_mark.form", "line"),
+    ("cam.timing_mark.angle", "20 deg"),
+    ("cam.timing_mark.circle_diameter", "90 mm"),
+    ("cam.timing_mark.diameter", "7 mm"),
+    ("cam.timing_mark.fit", "H7"),
+    ("cam.timing_mark.length", "9 mm"),
+    ("cam.timing_mark.depth", "3 mm"),
+    ("cam.chamfer", "2 mm"),
+    ("cam.split", "80 deg"),
     ("cam.holes[0].diameter", "7 mm"),
     ("cam.holes[0].circle_diameter", "90 mm"),
     ("cam.holes[0].count", "3"),
@@ -400,6 +412,11 @@ fn file_for(path: &str) -> String {
     };
     let shaft = match path {
         _ if path.starts_with("shaft.") => SHAFT,
+        _ if path.starts_with("cam.hub.") => "[cam.hub]\ndiameter = \"60 mm\"\nlength = \"20 mm\"\n",
+        // Each form has keys of its own.
+        "cam.timing_mark.length" => "[cam.timing_mark]\nform = \"line\"\ncircle_diameter = \"80 mm\"\n",
+        "cam.timing_mark.depth" => "[cam.timing_mark]\nform = \"notch\"\n",
+        _ if path.starts_with("cam.timing_mark.") => "[cam.timing_mark]\ncircle_diameter = \"80 mm\"\n",
         _ if path.starts_with("cam.holes") => "[[cam.holes]]\ndiameter = \"6 mm\"\ncircle_diameter = \"80 mm\"\n",
         _ => "",
     };
@@ -414,7 +431,11 @@ fn file_for(path: &str) -> String {
     };
     let of_plate = path == "motion.stroke";
     let dynamics = if path.starts_with("follower.") || of_arc || of_arms || of_plate { "" } else { DYNAMICS };
-    let press = if of_plate { press.replace("\n[cam]\n", "\n[cam]\nbody = \"wedge\"\n") } else { press };
+    let press = match path {
+        _ if of_plate => press.replace("\n[cam]\n", "\n[cam]\nbody = \"wedge\"\n"),
+        "cam.timing_mark.depth" => press.replace("\n[cam]\n", "\n[cam]\nbody = \"groove\"\ngroove_depth = \"6 mm\"\n"),
+        _ => press,
+    };
     let motion = match FOLLOWERS.iter().find(|kind| kind.section.path == section.path) {
         Some(kind) if kind.swings() && !of_arc => motion_for(path).replace(" mm\"", " deg\""),
         _ => motion_for(path),

@@ -1,6 +1,6 @@
 //! The barrel as a swept body.
 
-use super::{AxisLine, BARREL, Barrel, BarrelLine, BarrelRoller, RollerPath, mechanism, report, sheet};
+use super::{AxisLine, BARREL, Barrel, BarrelLine, BarrelRoller, RollerPath, drawing, mechanism, report, sheet};
 use crate::body::flank_switch::SwitchFigures;
 use crate::body::swept::{
     BlankSurface, FlankSide, LinePoint, NearestRoller, RollerLine, SweptBody, SweptDrawing, SweptGeometry, SweptGroove,
@@ -174,5 +174,9 @@ impl<R: BarrelRoller> SweptBody for Barrel<R> {
 
     fn fill_sheet(&self, drawn: Option<&SweptDrawing>, view: &mut SheetView) {
         sheet::fill(self, drawn, view);
+    }
+
+    fn fill_drawing(&self, drawn: &SweptDrawing, view: &mut SheetView) {
+        drawing::fill(self, drawn, view);
     }
 }

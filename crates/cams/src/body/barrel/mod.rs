@@ -6,6 +6,7 @@
 
 mod contact;
 mod developed;
+mod drawing;
 mod flank;
 mod implementation;
 pub mod measures;

@@ -122,7 +122,7 @@ fn section<R: BarrelRoller>(barrel: &Barrel<R>, view: &mut SheetView) {
 }
 
 /// Angle and height of both flanks on the outside and at the floor.
-fn tables<R: BarrelRoller>(barrel: &Barrel<R>) -> Vec<PlaceTable> {
+pub(super) fn tables<R: BarrelRoller>(barrel: &Barrel<R>) -> Vec<PlaceTable> {
     let units = barrel.groove.machine.units();
     let row = |index: u32| {
         let degrees = 360.0 * f64::from(index) / f64::from(ROWS);
@@ -141,10 +141,10 @@ fn tables<R: BarrelRoller>(barrel: &Barrel<R>) -> Vec<PlaceTable> {
     };
     let rows = PlaceTable::regular_rows((0..ROWS).map(row));
     let [outside, floor] = [barrel.outer, barrel.floor()].map(|radius| units.dimension(MILLIMETRES * radius));
-    let heads = ["θ", "φ above", "z above", "φ below", "z below", "φ above", "z above", "φ below", "z below"];
+    let heads = ["θ °", "ψ upper", "z upper", "ψ lower", "z lower", "ψ upper", "z upper", "ψ lower", "z lower"];
     let of = |every: usize| PlaceTable {
         title: format!(
-            "Both flanks, first on R {outside}, then on the floor R {floor}: angle φ, °, and height z, {}",
+            "Upper and lower flank (TED): on R {outside}, then on the floor R {floor}: polar angle ψ, °, and height z, {}",
             units.symbol()
         ),
         remarks: Vec::new(),

@@ -423,11 +423,7 @@ impl Body for Disc {
             }
             other => other.into(),
         })?;
-        let part = Part::turning(&self.machine, outline).drilled(&self.machine);
-        if let Some(fault) = part.hole_fault(&self.machine) {
-            return Err(DrawError::Refused(fault));
-        }
-        let part = part.balanced(&self.machine);
+        let part = Part::turning(&self.machine, outline).with_features(&self.machine)?;
         let cutter_path = |radius: f64| {
             let path = outline::cutter_path(curves, radius, request.fit)?;
             Ok::<_, OutlineError>(Part::turning(&self.machine, path).outline)

@@ -87,7 +87,7 @@ pub(super) fn lead_in(part: &Part) -> Option<ShapeGroup> {
 pub(super) fn of_profile(disc: &Disc, outline: &Outline) -> Vec<Mark> {
     let start = outline.contour.edges().next().map(|first| {
         let along = first.start_tangent();
-        Mark::Start { at: first.start(), along, outward: Vector2::new(along.y, -along.x) }
+        Mark::Start { at: first.start(), along, outward: Vector2::new(along.y, -along.x), text: "start of cut".into() }
     });
     // In steps of 30° from an angle that misses the axes.
     let places = |from_deg: f64| {
@@ -97,7 +97,12 @@ pub(super) fn of_profile(disc: &Disc, outline: &Outline) -> Vec<Mark> {
         let radii = polar::outermost(&outline.contour, &rays);
         rays.into_iter().zip(radii).filter_map(|(ray, radius)| Some((ray * radius?, ray))).collect()
     };
-    let frame = Some(tolerance_frame(&disc.machine, PartTolerance::of(disc), places(225.0)));
+    let frame = Some(tolerance_frame(
+        &disc.machine,
+        PartTolerance::of(disc),
+        places(225.0),
+        disc.machine.cam.keyway.map(|_| "B"),
+    ));
     let roughness = &disc.machine.title.surface_roughness;
     let roughness = roughness.as_ref().map(|text| Mark::Roughness { places: places(135.0), text: text.clone() });
     start.into_iter().chain(frame).chain(roughness).collect()

@@ -1,7 +1,7 @@
 //! The globoid as a swept body.
 
 use super::contact::TurretLine;
-use super::{GLOBOID, Globoid, mechanism, report, sheet};
+use super::{GLOBOID, Globoid, drawing, mechanism, report, sheet};
 use crate::body::flank_switch::SwitchFigures;
 use crate::body::swept::{
     BlankSurface, FlankSide, LinePoint, NearestRoller, RollerLine, SweptBody, SweptDrawing, SweptGeometry, SweptGroove,
@@ -156,5 +156,9 @@ impl SweptBody for Globoid {
 
     fn fill_sheet(&self, _drawn: Option<&SweptDrawing>, view: &mut SheetView) {
         sheet::fill(self, view);
+    }
+
+    fn fill_drawing(&self, drawn: &SweptDrawing, view: &mut SheetView) {
+        drawing::fill(self, drawn, view);
     }
 }

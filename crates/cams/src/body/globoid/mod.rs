@@ -5,6 +5,7 @@
 //! turret, the ends are cones about it.
 
 mod contact;
+mod drawing;
 mod flank;
 mod implementation;
 pub mod measures;

@@ -127,8 +127,9 @@ fn marks(globoid: &Globoid, view: &mut SheetView) {
     });
 }
 
-/// Angle, radius and height of both flanks on the outside and at the floor, from where the first groove enters to where it leaves.
-fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
+/// Angle, radius and height of both flanks on the outside, from where the first groove enters to where it leaves; between the first and the last row of a rest
+/// there are none.
+pub(super) fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
     let [Some(from), Some(to)] = [(FlankSide::Upper, End::Bottom), (FlankSide::Lower, End::Top)]
         .map(|(flank, end)| globoid.passes(FlankCurve { flank, roller: 0.0, from_turret: globoid.outside }, end))
     else {
@@ -143,33 +144,31 @@ fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
     while i <= last {
         let angle = i * step;
         let mut cells = vec![rounded(angle.to_degrees())];
-        for from_turret in [globoid.outside, globoid.floor] {
-            for flank in FlankSide::BOTH {
-                let found = globoid.edge(FlankCurve { flank, roller: 0.0, from_turret }, angle);
-                let inside =
-                    found.filter(|found| found.about_turret(globoid.turret.distance).abs() <= globoid.end_angle);
-                cells.extend(match inside {
-                    Some(found) => [
-                        format!("{:.2}", globoid.groove.sense() * (angle + found.ahead()).to_degrees()),
-                        units.cell(MILLIMETRES * found.radius()),
-                        units.cell(MILLIMETRES * found.place.z),
-                    ],
-                    None => [NOWHERE; 3].map(str::to_owned),
-                });
-            }
+        for flank in FlankSide::BOTH {
+            let found = globoid.edge(FlankCurve { flank, roller: 0.0, from_turret: globoid.outside }, angle);
+            let inside = found.filter(|found| found.about_turret(globoid.turret.distance).abs() <= globoid.end_angle);
+            cells.extend(match inside {
+                Some(found) => [
+                    format!("{:.3}", globoid.groove.sense() * (angle + found.ahead()).to_degrees()),
+                    units.cell(MILLIMETRES * found.radius()),
+                    units.cell(MILLIMETRES * found.place.z),
+                ],
+                None => [NOWHERE; 3].map(str::to_owned),
+            });
         }
         if cells.iter().skip(1).any(|cell| cell != NOWHERE) {
             rows.push(cells);
         }
         i += 1.0;
     }
+    let rows = without_rests(rows);
     let rows = PlaceTable::regular_rows(rows);
-    let group = ["φ above", "r above", "z above", "φ below", "r below", "z below"];
-    let heads: Vec<String> = ["θ"].into_iter().chain(group).chain(group).map(str::to_owned).collect();
-    let [outside, floor] = [globoid.outside, globoid.floor].map(|from| units.dimension(MILLIMETRES * from));
+    let group = ["ψ upper", "r upper", "z upper", "ψ lower", "r lower", "z lower"];
+    let heads: Vec<String> = ["θ °"].into_iter().chain(group).map(str::to_owned).collect();
+    let outside = units.dimension(MILLIMETRES * globoid.outside);
     let of = |every: usize| PlaceTable {
         title: format!(
-            "Both flanks of groove 1, first at R {outside} about the turret, then at the floor R {floor}: angle φ, °, radius r and height z, {}",
+            "Upper and lower flank of groove 1 at R {outside} about the turret (TED): polar angle ψ, °, radius r and height z, {}",
             units.symbol()
         ),
         remarks: Vec::new(),
@@ -178,4 +177,18 @@ fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
         every,
     };
     [1, 2, 3, 6, 12].map(of).to_vec()
+}
+
+/// The rows without those between the first and the last of a rest, in which radius and height stay.
+fn without_rests(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
+    let place = |row: &Vec<String>| [2, 3, 5, 6].map(|cell| row.get(cell).cloned());
+    let rests = |index: usize| {
+        let same = |other: Option<usize>| {
+            let pair = other.and_then(|other| Some((rows.get(other)?, rows.get(index)?)));
+            pair.is_some_and(|(one, other)| place(one) == place(other))
+        };
+        same(index.checked_sub(1)) && same(Some(index + 1))
+    };
+    let kept: Vec<usize> = (0..rows.len()).filter(|index| !rests(*index)).collect();
+    kept.into_iter().filter_map(|index| rows.get(index).cloned()).collect()
 }

@@ -14,6 +14,7 @@ use super::disc::{self, Disc, DiscRole, Hold};
 use super::figures::with_subject;
 use super::part::{PartFlank, Track, as_turned};
 use super::part_drawing;
+use super::part_features::edge_of_blank;
 use super::{Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Layer, Part, Request, WorstPlaces, largest};
 use crate::check::{Measures, contact_stress};
 use crate::machine::{Machine, Rotation};
@@ -29,7 +30,6 @@ use camgen_kernel::motion::Motion;
 use camgen_kernel::profile::outline::{self, Outline, OutlineError};
 use camgen_kernel::profile::{Curves, extremes, size};
 use camgen_kernel::refusal::Refusal;
-use nalgebra::Vector2;
 use std::sync::Arc;
 
 /// The groove of any motion.
@@ -207,7 +207,7 @@ impl Body for Groove {
     }
 
     fn holes_within(&self, _: &Contour) -> Vec<Entity> {
-        let blank = Entity::Circle(Vector2::zeros(), MILLIMETRES * self.blank_radius);
+        let blank = edge_of_blank(self.machine(), MILLIMETRES * self.blank_radius);
         Part { bore: super::part::bore(self.machine()), ..Part::solid_plate(Outline::empty()) }
             .drilled(self.machine())
             .holes()
@@ -242,10 +242,7 @@ impl Body for Groove {
             depth: self.depth().map(|depth| MILLIMETRES * depth),
         };
         let part = Part { track: Some(track), bore: super::part::bore(machine), ..Part::solid_plate(first) };
-        let part = part.drilled(machine);
-        if let Some(fault) = part.hole_fault(machine) {
-            return Err(DrawError::Refused(fault));
-        }
+        let part = part.with_features(machine)?;
         let path = |radius: f64| self.outlines(|curves| outline::cutter_path(curves, radius, request.fit));
         let mut paths = request.cutter_radius.map_or_else(Vec::new, path).into_iter();
         Ok(Drawn { cutter_path: paths.next(), other_cutter_paths: paths.collect(), ..Drawn::of(vec![part]) })

@@ -1,10 +1,11 @@
 //! Every swept cam as a [`Body`].
 
 use super::figures::least_fold;
-use super::{SweptBody, measures};
+use super::{SweptBody, SweptDrawing, measures};
 use crate::body::disc::program;
 use crate::body::in_groove::{self, GrooveForces};
 use crate::body::part;
+use crate::body::part_drawing;
 use crate::body::picture::RIGID;
 use crate::body::sheet::notes;
 use crate::body::{Body, Cut, DrawError, DrawingEvidence, Drawn, Kind, Request, SweptFlanks};
@@ -118,20 +119,31 @@ impl<B: SweptBody> Body for B {
     }
 
     fn view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
-        let machine = &self.groove().machine;
         let swept = drawn.swept.as_deref();
-        let (bottom, top) = self.ends();
-        let mut view = SheetView {
-            facts: TitleFacts {
-                thickness_mm: Some(MILLIMETRES * (top - bottom)),
-                ..TitleFacts::of(machine, swept.map(|swept| self.groove().mass(swept.solid.volume)))
-            },
-            notes: notes(machine),
-            ..SheetView::default()
-        };
+        let mut view = titled(self, swept);
+        view.notes = notes(&self.groove().machine);
         self.fill_sheet(swept, &mut view);
         Ok(view)
     }
+
+    fn part_view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
+        let Some(swept) = drawn.swept.as_deref() else { return Ok(part_drawing::without_mechanism(self.view(drawn)?)) };
+        let mut view = titled(self, Some(swept));
+        self.fill_drawing(swept, &mut view);
+        view.notes.push(part_drawing::proposals::PROPOSED_NOTE.into());
+        Ok(view)
+    }
+}
+
+/// An empty sheet with the title of a cam.
+fn titled<B: SweptBody>(body: &B, swept: Option<&SweptDrawing>) -> SheetView {
+    let groove = body.groove();
+    let (bottom, top) = body.ends();
+    let facts = TitleFacts {
+        thickness_mm: Some(MILLIMETRES * (top - bottom)),
+        ..TitleFacts::of(&groove.machine, swept.map(|swept| groove.mass(swept.solid.volume)))
+    };
+    SheetView { facts, ..SheetView::default() }
 }
 
 /// Refuses what is wished of an outline: these cams have none.

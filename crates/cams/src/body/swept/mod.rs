@@ -5,6 +5,7 @@
 //! [`SweptFlanks`].
 
 use camgen_kernel::text::Text;
+pub(super) mod drawing;
 mod figures;
 mod flanks;
 mod forces;
@@ -193,4 +194,7 @@ pub(crate) trait SweptBody: SweptGeometry + SweptMeasures + SweptFlanks {
 
     /// Adds what its review sheet shows to a title and the notes of any cam.
     fn fill_sheet(&self, drawn: Option<&SweptDrawing>, view: &mut SheetView);
+
+    /// Adds the views, sizes and tables of its drawing for manufacture.
+    fn fill_drawing(&self, drawn: &SweptDrawing, view: &mut SheetView);
 }

@@ -58,7 +58,7 @@ pub(super) fn view(wedge: &Wedge, drawn: &Drawn) -> Result<SheetView, OutlineErr
     seen.retain(|group| group.class == "side");
     groups.extend(seen);
     let weight = part.map(|part| part.weight(&wedge.machine));
-    let frame = Some(tolerance_frame(&wedge.machine, PartTolerance::of(wedge), flank_places(wedge)));
+    let frame = Some(tolerance_frame(&wedge.machine, PartTolerance::of(wedge), flank_places(wedge), None));
     Ok(SheetView {
         groups,
         marks: [overall(&outline, wedge.machine.units()), thickness, names, angle, frame.into_iter().collect()]

@@ -6,6 +6,7 @@
 
 mod exchange;
 mod form;
+mod hub;
 mod parameters;
 mod placement;
 mod runs;
@@ -13,6 +14,7 @@ mod shape;
 mod upright;
 
 pub use form::{FlankShape, SolidForm, form};
+pub use hub::HubShape;
 pub use placement::StepPlacement;
 pub use runs::FaceLoop;
 

@@ -23,7 +23,7 @@ const PROPOSED: &str = " *";
 
 /// Height of the block, mm.
 pub(in crate::report) fn height(kind: SheetKind) -> f64 {
-    if kind == SheetKind::Drawing { HEIGHT_OF_DRAWING } else { HEIGHT }
+    if kind.is_drawing() { HEIGHT_OF_DRAWING } else { HEIGHT }
 }
 
 /// A field: its name, its value, and its share of the row.
@@ -85,10 +85,15 @@ pub(in crate::report) struct TitleBlock<'a> {
     pub(in crate::report) file_deviates: String,
 }
 
+/// A mass, kg, in grams below a tenth of a kilogram.
+fn mass_words(mass: f64) -> String {
+    if mass < 0.1 { format!("{:.1} g", 1e3 * mass) } else { format!("{mass:.2} kg") }
+}
+
 impl TitleBlock<'_> {
     /// Heights of the rows and their fields.
     fn rows(&self) -> Vec<(f64, Vec<TitleField>)> {
-        if self.kind == SheetKind::Drawing { self.of_drawing() } else { self.of_other_sheet() }
+        if self.kind.is_drawing() { self.of_drawing() } else { self.of_other_sheet() }
     }
 
     /// What a shop needs to make the part: a value that nobody has given is proposed, with a mark.
@@ -108,7 +113,7 @@ impl TitleBlock<'_> {
         let treatment = (!treatment.is_empty()).then(|| treatment.join(", "));
         let presumed = self.facts.presumed_treatment.as_deref().unwrap_or_default();
         let roughness = of(title.surface_roughness.as_ref(), PROPOSED_ROUGHNESS);
-        let mass = self.facts.mass_kg.map_or(String::new(), |mass| format!("{mass:.2} kg"));
+        let mass = self.facts.mass_kg.map_or(String::new(), mass_words);
         vec![
             (
                 10.0,
@@ -239,7 +244,7 @@ impl TitleBlock<'_> {
             ShapeGroup::new("title-names", "names of the title block", names),
             ShapeGroup::new("title-values", "title block", values),
         ];
-        if self.kind == SheetKind::Drawing {
+        if self.kind.is_drawing() {
             let is_third_angle = self.report.units == LengthUnit::Inch;
             let name = if is_third_angle { "third-angle projection" } else { "first-angle projection" };
             let middle = Vector2::new(field.largest.x - 0.5 * SYMBOL, field.least.y + 6.5);

@@ -5,7 +5,10 @@ use super::marks::Marker;
 use super::panels::{self, PanelWriter, SheetPanel};
 use super::paper::{ENLARGEMENTS, PaperSize, REDUCTIONS, frame_and_grid, papers, rectangle};
 use super::placing::OccupiedPaper;
-use super::{Mark, STROKE, ShapeGroup, Sheet, SheetKind, SheetShape, SheetView, TextAnchor, TitleFacts, font, words};
+use super::{
+    FeatureFrame, Mark, STROKE, ShapeGroup, Sheet, SheetKind, SheetShape, SheetView, TextAnchor, TitleFacts, font,
+    words,
+};
 use crate::report::trace::{self, Trace};
 use crate::report::{Finding, Report, failed};
 use camgen_kernel::geometry::contour::Extents;
@@ -133,7 +136,7 @@ impl LayoutAttempt<'_> {
         let frame = self.paper.frame(Vector2::zeros()).size();
         let diagram = if self.extras.traces.is_empty() { 0.0 } else { DIAGRAM };
         let stamp = if self.report.passed() { 0.0 } else { STAMP };
-        let around = if self.extras.kind == SheetKind::Drawing { ROOM_OF_DRAWING } else { ROOM };
+        let around = if self.extras.kind.is_drawing() { ROOM_OF_DRAWING } else { ROOM };
         let needed = self.covered.size() * self.scale + 2.0 * around + self.dimensions();
         let room = Vector2::new(frame.x - block::WIDTH, frame.y - diagram - stamp);
         if needed.x > room.x || needed.y > room.y {
@@ -170,7 +173,7 @@ impl LayoutAttempt<'_> {
         let files = (!self.extras.files.is_empty()).then(|| panels::files(writer(), self.extras.files));
         match self.extras.kind {
             // What camgen assumed is for the reviewer: the drawing has what follows from it.
-            SheetKind::Drawing => table.into_iter().chain(files).chain(notes(&[])).collect(),
+            SheetKind::Drawing | SheetKind::Pair => table.into_iter().chain(files).chain(notes(&[])).collect(),
             SheetKind::Inspection => table.into_iter().chain(notes(&[])).collect(),
             SheetKind::Review => {
                 let checks =
@@ -292,11 +295,11 @@ impl Layout {
     fn marks(&self, view: &SheetView, covered: Extents, taken: &mut OccupiedPaper) -> Vec<ShapeGroup> {
         let scale = self.scale;
         let covered = Extents { least: covered.least * scale, largest: covered.largest * scale };
-        let mut marker = Marker { lettering: 1.0, taken, covered, lines: [0.0; 2], texts: Vec::new() };
+        let mut marker = Marker { taken, covered, lines: [0.0; 2], texts: Vec::new() };
         // Dimension lines come first, then what has a fixed place and datums; the texts take the rest, the longest first, since their leaders
         // are the longest as well and find no way between the others.
         let is_text = |mark: &&Mark| {
-            matches!(mark, Mark::Label { .. } | Mark::Flag { .. } | Mark::Tolerance { .. } | Mark::Roughness { .. })
+            matches!(mark, Mark::Label { .. } | Mark::Flag { .. } | Mark::Tolerance(_) | Mark::Roughness { .. })
         };
         let (texts, mut fixed): (Vec<&Mark>, Vec<&Mark>) = view.marks.iter().partition(is_text);
         fixed.sort_by_key(|mark| match mark {
@@ -398,7 +401,7 @@ impl Mark {
             Mark::Label { at, .. } | Mark::Datum { at, .. } | Mark::Start { at, .. } | Mark::Flag { at, .. } => {
                 *at *= scale;
             }
-            Mark::Tolerance { places, .. } | Mark::Roughness { places, .. } => {
+            Mark::Tolerance(FeatureFrame { places, .. }) | Mark::Roughness { places, .. } => {
                 for (at, _) in places.iter_mut() {
                     *at *= scale;
                 }
@@ -437,7 +440,10 @@ impl TitleFacts {
     pub fn of(machine: &crate::machine::Machine, mass_kg: Option<f64>) -> Self {
         Self {
             title: machine.title.clone(),
-            material: machine.material_name().map(str::to_owned),
+            material: match machine.cam.material {
+                Some(material) if material.needs_a_grade() => Some("steel for hardening *".into()),
+                _ => machine.material_name().map(str::to_owned),
+            },
             thickness_mm: machine.cam.thickness.map(|thickness| 1e3 * thickness),
             mass_kg,
             presumed_treatment: machine.cam.material.and_then(|material| material.presumed_treatment()),

@@ -2,7 +2,7 @@
 
 use super::paper::rectangle;
 use super::placing::{OccupiedPaper, field_near, filling, half_field};
-use super::{Mark, ShapeGroup, SheetShape, TextAnchor, ToleranceSign, TurningArc, font, words};
+use super::{FeatureFrame, Mark, ShapeGroup, SheetShape, TextAnchor, ToleranceSign, TurningArc, font, words};
 use camgen_kernel::geometry::Entity;
 use camgen_kernel::geometry::contour::Extents;
 use nalgebra::Vector2;
@@ -16,6 +16,8 @@ const FIRST: f64 = 10.0;
 const NEXT: f64 = 8.0;
 const OFF: f64 = 1.0;
 const BEYOND: f64 = 1.5;
+/// How far a half dimension line goes on beyond the middle, mm.
+const BEYOND_MIDDLE: f64 = 6.0;
 /// Size of the letters of views and cutting lines, mm: capitals of 5 mm.
 const VIEW_NAME: f64 = 5.0 / font::CAPITAL;
 /// Length of the strokes at the ends of a cutting line, and of its arrows, mm.
@@ -40,6 +42,9 @@ const MORE: u32 = 4;
 const DIRECTIONS: u32 = 24;
 /// Height of a frame over that of its letters (ISO 7083: 2).
 const CELL: f64 = 2.0;
+/// Height of the line of text above a frame over that of its letters, and length of the stem of a datum below it, mm.
+const ABOVE_FRAME: f64 = 1.7;
+const DATUM_STEM: f64 = 5.0;
 /// Distances of a frame or a ring from its place that are tried, mm, and degrees to either side of the direction outwards.
 const LEADERS: [f64; 6] = [9.0, 13.0, 18.0, 25.0, 34.0, 46.0];
 const TURNS: [f64; 9] = [0.0, 12.0, -12.0, 28.0, -28.0, 42.0, -42.0, 60.0, -60.0];
@@ -50,8 +55,6 @@ const TIED: f64 = 3.0;
 
 /// The pen with which marks are drawn.
 pub(super) struct Marker<'a> {
-    /// Size of the lettering over that of an A4.
-    pub(super) lettering: f64,
     /// The occupied parts of the paper.
     pub(super) taken: &'a mut OccupiedPaper,
     /// What the view covers, mm of paper.
@@ -63,16 +66,35 @@ pub(super) struct Marker<'a> {
 }
 
 /// A datum at the left end of a dimension line: a triangle in line with the arrow, and its letter in a frame.
-fn datum_at(end: Vector2<f64>, letter: &str, size: f64, k: f64) -> Vec<SheetShape> {
+fn datum_at(end: Vector2<f64>, letter: &str, size: f64) -> Vec<SheetShape> {
     let side = CELL * size;
-    let tip = end - Vector2::new(HEAD * k, 0.0);
-    let half = Vector2::new(0.0, 0.5 * HEAD * k);
-    let corner = tip - Vector2::new(1.5 * k + side, 0.5 * side);
+    let tip = end - Vector2::new(HEAD, 0.0);
+    let half = Vector2::new(0.0, 0.5 * HEAD);
+    let corner = tip - Vector2::new(1.5 + side, 0.5 * side);
     let mut shapes = rectangle(&Extents { least: corner, largest: corner.add_scalar(side) });
     shapes.push(SheetShape::Triangle([tip, end + half, end - half]));
-    shapes.push(SheetShape::Line(tip, tip - Vector2::new(1.5 * k, 0.0)));
+    shapes.push(SheetShape::Line(tip, tip - Vector2::new(1.5, 0.0)));
     let base = corner + Vector2::new(0.5 * side, 0.5 * side - 0.35 * size);
     shapes.push(words(base, size, TextAnchor::Middle, letter));
+    shapes
+}
+
+/// The point of a field nearest to a place.
+fn nearest_corner(field: &Extents, at: Vector2<f64>) -> Vector2<f64> {
+    at.sup(&field.least).inf(&field.largest)
+}
+
+/// A datum below a frame: a triangle on the frame, and the letter in a box.
+fn datum_below(at: Vector2<f64>, letter: &str) -> Vec<SheetShape> {
+    let side = CELL * TEXT;
+    let tip = at - Vector2::new(0.0, HEAD);
+    let half = Vector2::new(0.5 * HEAD, 0.0);
+    let corner = at - Vector2::new(0.5 * side, DATUM_STEM + side);
+    let mut shapes = rectangle(&Extents { least: corner, largest: corner.add_scalar(side) });
+    shapes.push(SheetShape::Triangle([tip, at + half, at - half]));
+    shapes.push(SheetShape::Line(tip, at - Vector2::new(0.0, DATUM_STEM)));
+    let base = corner + Vector2::new(0.5 * side, 0.5 * side - 0.35 * TEXT);
+    shapes.push(words(base, TEXT, TextAnchor::Middle, letter));
     shapes
 }
 
@@ -174,12 +196,20 @@ fn tolerance_sign(sign: ToleranceSign, corner: Vector2<f64>, side: f64) -> Vec<S
         ToleranceSign::Symmetry => {
             vec![line((0.32, 0.3), (0.68, 0.3)), line((0.2, 0.5), (0.8, 0.5)), line((0.32, 0.7), (0.68, 0.7))]
         }
+        ToleranceSign::Surface => {
+            vec![SheetShape::Arc(at(0.85, 0.3), at(0.15, 0.3), 1.0), line((0.15, 0.3), (0.85, 0.3))]
+        }
+        ToleranceSign::Position => vec![
+            SheetShape::Entity(Entity::Circle(at(0.5, 0.5), 0.22 * side)),
+            line((0.15, 0.5), (0.85, 0.5)),
+            line((0.5, 0.15), (0.5, 0.85)),
+        ],
     }
 }
 
 /// An arrow along a size.
-fn arrow(tip: Vector2<f64>, along: Vector2<f64>, k: f64) -> SheetShape {
-    triangle(tip, along, HEAD * k)
+fn arrow(tip: Vector2<f64>, along: Vector2<f64>) -> SheetShape {
+    triangle(tip, along, HEAD)
 }
 
 impl Marker<'_> {
@@ -196,11 +226,9 @@ impl Marker<'_> {
             Mark::Flag { at, outward, name } => ("dimension", self.flag(*at, *outward, name)),
             Mark::CuttingLine { ends, sight, letter } => return self.cutting_line(*ends, *sight, letter),
             Mark::Caption { view, text } => ("facts", self.caption(view, text)),
-            Mark::Tolerance { sign, places, cells, behind } => {
-                ("dimension", self.tolerance(*sign, places, cells, behind))
-            }
+            Mark::Tolerance(frame) => ("dimension", self.tolerance(frame)),
             Mark::Roughness { places, text } => ("dimension", self.roughness(places, text)),
-            Mark::Start { at, along, outward } => ("dimension", self.start(*at, *along, *outward)),
+            Mark::Start { at, along, outward, text } => ("dimension", self.start(*at, *along, *outward, text)),
             Mark::Datum { at, towards, letter } => ("dimension", self.datum(*at, *towards, letter)),
             Mark::Turning { class, arcs, text } => (*class, self.turning(class, arcs, text)),
         };
@@ -214,12 +242,12 @@ impl Marker<'_> {
     }
 
     fn label(&mut self, at: Vector2<f64>, towards: Vector2<f64>, text: &str) -> Vec<SheetShape> {
-        label(self.taken, self.lettering, at, towards, text)
+        label(self.taken, 1.0, at, towards, text)
     }
 
     /// A dimension line outside of the view, with its extension lines.
     fn distance(&mut self, from: Vector2<f64>, to: Vector2<f64>, away: Vector2<f64>, text: &str) -> Vec<SheetShape> {
-        let (k, size) = (self.lettering, TEXT * self.lettering);
+        let size = TEXT;
         let upright = away.x != 0.0;
         let number = self.lines.get_mut(usize::from(upright));
         let line = number.map_or(0.0, |number| {
@@ -228,19 +256,19 @@ impl Marker<'_> {
         });
         let covered = if away.x + away.y < 0.0 { self.covered.least } else { self.covered.largest };
         let moved = |point: Vector2<f64>| {
-            let place = covered + away * (APART * k * line);
+            let place = covered + away * (APART * line);
             if upright { Vector2::new(place.x, point.y) } else { Vector2::new(point.x, place.y) }
         };
         let (a, b) = (moved(from), moved(to));
         let (length, along) = ((b - a).norm(), (b - a).normalize());
         let mut shapes: Vec<SheetShape> = [(from, a), (to, b)]
             .into_iter()
-            .map(|(point, end)| SheetShape::Line(point + away * (1.0 * k), end + away * (1.5 * k)))
+            .map(|(point, end)| SheetShape::Line(point + away * 1.0, end + away * 1.5))
             .collect();
-        let inside = length > 3.0 * HEAD * k;
+        let inside = length > 3.0 * HEAD;
         let head = if inside { along } else { -along };
-        shapes.push(triangle(a, -head, HEAD * k));
-        shapes.push(triangle(b, head, HEAD * k));
+        shapes.push(triangle(a, -head, HEAD));
+        shapes.push(triangle(b, head, HEAD));
         let (half, middle) = (0.5 * font::width(text, size), 0.5 * (a + b));
         if upright {
             // The text is in a gap of the line.
@@ -248,7 +276,7 @@ impl Marker<'_> {
             shapes.push(SheetShape::Line(a, middle - gap));
             shapes.push(SheetShape::Line(middle + gap, b));
             shapes.push(words(middle - Vector2::new(0.0, 0.35 * size), size, TextAnchor::Middle, text));
-        } else if 2.0 * (half + HEAD * k) < length {
+        } else if 2.0 * (half + HEAD) < length {
             let gap = along * (half + 0.5 * size);
             shapes.push(SheetShape::Line(a, middle - gap));
             shapes.push(SheetShape::Line(middle + gap, b));
@@ -256,7 +284,7 @@ impl Marker<'_> {
         } else {
             shapes.push(SheetShape::Line(a, b));
             // To the right where there is paper, else to the left.
-            let apart = Vector2::new(1.5 * HEAD * k, 0.35 * size);
+            let apart = Vector2::new(1.5 * HEAD, 0.35 * size);
             let right = words(a.sup(&b) + Vector2::new(apart.x, -apart.y), size, TextAnchor::Start, text);
             let is_free = right.text_field().is_some_and(|field| self.taken.free(&field));
             let left = words(a.inf(&b) - apart, size, TextAnchor::End, text);
@@ -268,11 +296,11 @@ impl Marker<'_> {
 
     /// A dimension line beside a view, the text above it (ISO 129-1), with the datum that its axis or middle is.
     fn size(&mut self, mark: &Mark) -> Vec<SheetShape> {
-        let Mark::Size { from, to, away, view, line, text, datum } = mark else { return Vec::new() };
-        let (k, size) = (self.lettering, TEXT * self.lettering);
+        let Mark::Size { from, to, away, view, line, text, datum, is_half } = mark else { return Vec::new() };
+        let size = TEXT;
         let upright = away.x != 0.0;
         let edge = if away.x + away.y < 0.0 { view.least } else { view.largest };
-        let distance = (FIRST + NEXT * (f64::from(*line) - 1.0)) * k;
+        let distance = FIRST + NEXT * (f64::from(*line) - 1.0);
         let moved = |point: &Vector2<f64>| {
             let place = edge + away * distance;
             if upright { Vector2::new(place.x, point.y) } else { Vector2::new(point.x, place.y) }
@@ -280,19 +308,21 @@ impl Marker<'_> {
         let (a, b) = (moved(from), moved(to));
         let (a, b) = if (b - a).sum() >= 0.0 { (a, b) } else { (b, a) };
         let (length, along) = ((b - a).norm(), if upright { Vector2::y() } else { Vector2::x() });
-        let extension = |(point, end): (&Vector2<f64>, Vector2<f64>)| {
-            SheetShape::Line(point + away * (OFF * k), end + away * (BEYOND * k))
-        };
-        let mut shapes: Vec<SheetShape> = [(from, moved(from)), (to, moved(to))].map(extension).to_vec();
+        let extension =
+            |(point, end): (&Vector2<f64>, Vector2<f64>)| SheetShape::Line(point + away * OFF, end + away * BEYOND);
         let wide = font::width(text, size);
-        let is_inside = length > 3.0 * HEAD * k;
+        if *is_half {
+            return self.half_size((moved(from), moved(to)), extension((from, moved(from))), text, *datum);
+        }
+        let mut shapes: Vec<SheetShape> = [(from, moved(from)), (to, moved(to))].map(extension).to_vec();
+        let is_inside = length > 3.0 * HEAD;
         let head = if is_inside { along } else { -along };
-        shapes.extend([arrow(a, -head, k), arrow(b, head, k)]);
+        shapes.extend([arrow(a, -head), arrow(b, head)]);
         let lift = 0.35 * size;
         // A text stands above its line; where it is wider than the line, the line goes on below it.
         let (start, text_at, anchor) = if upright {
             // The text stands on a shelf at the upper end, or at the lower one where there is no room.
-            let beyond = along * (2.5 * HEAD * k);
+            let beyond = along * (2.5 * HEAD);
             let reach = away * (wide + 0.5 * size);
             let text_on = |end: Vector2<f64>| Vector2::new(end.x + 0.5 * reach.x, end.y + lift);
             let is_free = |end: &Vector2<f64>| {
@@ -312,18 +342,43 @@ impl Marker<'_> {
             shapes.push(SheetShape::Line(other, end));
             shapes.push(SheetShape::Line(end, end + reach));
             (end, text_on(end), TextAnchor::Middle)
-        } else if is_inside && wide + 2.0 * HEAD * k < length {
+        } else if is_inside && wide + 2.0 * HEAD < length {
             shapes.push(SheetShape::Line(a, b));
             (a, 0.5 * (a + b) + Vector2::new(0.0, lift), TextAnchor::Middle)
         } else {
-            let before = if is_inside { a } else { a - along * (2.0 * HEAD * k) };
-            let end = b + along * (2.0 * HEAD * k + wide + 0.5 * size);
+            let before = if is_inside { a } else { a - along * (2.0 * HEAD) };
+            let end = b + along * (2.0 * HEAD + wide + 0.5 * size);
             shapes.push(SheetShape::Line(before, end));
-            (before, b + Vector2::new(2.0 * HEAD * k, lift), TextAnchor::Start)
+            (before, b + Vector2::new(2.0 * HEAD, lift), TextAnchor::Start)
         };
         shapes.push(words(text_at, size, anchor, text.clone()));
         if let Some(letter) = datum.filter(|_| !upright) {
-            shapes.extend(datum_at(start, letter, size, k));
+            shapes.extend(datum_at(start, letter, size));
+        }
+        self.put(&shapes);
+        shapes
+    }
+
+    /// A level dimension line with an arrow at its first end alone, which goes on a little beyond the middle.
+    fn half_size(
+        &mut self,
+        (from, to): (Vector2<f64>, Vector2<f64>),
+        extension: SheetShape,
+        text: &str,
+        datum: Option<&'static str>,
+    ) -> Vec<SheetShape> {
+        let along = (to - from).normalize();
+        let beyond_middle = 0.5 * (to - from).norm() + BEYOND_MIDDLE;
+        let length = beyond_middle.max(font::width(text, TEXT) + 2.0 * HEAD);
+        let text_at = from + along * (0.5 * (length + HEAD)) + Vector2::new(0.0, 0.35 * TEXT);
+        let mut shapes = vec![
+            extension,
+            arrow(from, -along),
+            SheetShape::Line(from, from + along * length),
+            words(text_at, TEXT, TextAnchor::Middle, text),
+        ];
+        if let Some(letter) = datum {
+            shapes.extend(datum_at(from, letter, TEXT));
         }
         self.put(&shapes);
         shapes
@@ -331,16 +386,18 @@ impl Marker<'_> {
 
     /// A dot on the profile and its name in a ring.
     fn flag(&mut self, at: Vector2<f64>, outward: Vector2<f64>, name: &str) -> Vec<SheetShape> {
-        let (k, size) = (self.lettering, TEXT * self.lettering);
+        let size = TEXT;
         let radius = 0.5 * font::width(name, size) + 0.3 * size;
         let half = Vector2::repeat(radius);
-        let Some((field, _)) = LEADERS.iter().find_map(|distance| self.field_out(at, outward, *distance, half)) else {
+        let Some((field, _)) =
+            LEADERS.iter().find_map(|distance| self.field_out(at, outward, (*distance, half), &nearest_corner))
+        else {
             return Vec::new();
         };
         let centre = 0.5 * (field.least + field.largest);
         let corner = |index: u32| {
             let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(index) / f64::from(DOT_CORNERS));
-            at + Vector2::new(cos, sin) * (DOT * k)
+            at + Vector2::new(cos, sin) * DOT
         };
         let mut shapes = vec![
             SheetShape::Area((0..DOT_CORNERS).map(corner).collect()),
@@ -352,27 +409,26 @@ impl Marker<'_> {
         }
         self.put(&shapes);
         // No text lies on the dot.
-        self.put(&[SheetShape::Entity(Entity::Circle(at, DOT * k))]);
+        self.put(&[SheetShape::Entity(Entity::Circle(at, DOT))]);
         shapes
     }
 
     /// The strokes at both ends of a cutting line, with the arrows of sight and the letters.
     fn cutting_line(&mut self, ends: [Vector2<f64>; 2], sight: Vector2<f64>, letter: &str) -> Vec<ShapeGroup> {
-        let k = self.lettering;
         let [from, to] = ends;
         let Some(along) = (to - from).try_normalize(0.0) else { return Vec::new() };
         let (mut strokes, mut arrows) = (Vec::new(), Vec::new());
         for (end, outwards) in [(from, -along), (to, along)] {
-            let end = end + outwards * (CUT_OFF * k);
-            strokes.push(SheetShape::Line(end, end + outwards * (CUT_STROKE * k)));
-            let middle = end + outwards * (0.5 * CUT_STROKE * k);
-            let tail = middle - sight * (CUT_ARROW * k);
+            let end = end + outwards * CUT_OFF;
+            strokes.push(SheetShape::Line(end, end + outwards * CUT_STROKE));
+            let middle = end + outwards * (0.5 * CUT_STROKE);
+            let tail = middle - sight * CUT_ARROW;
             arrows.push(SheetShape::Line(tail, middle));
-            arrows.push(arrow(middle, sight, k));
-            let half = 0.5 * font::CAPITAL * VIEW_NAME * k;
+            arrows.push(arrow(middle, sight));
+            let half = 0.5 * font::CAPITAL * VIEW_NAME;
             let centre = tail - sight * (1.6 * half) + outwards * (2.0 * half);
             let base = centre - Vector2::new(0.0, half);
-            arrows.push(words(base, VIEW_NAME * k, TextAnchor::Middle, letter));
+            arrows.push(words(base, VIEW_NAME, TextAnchor::Middle, letter));
         }
         self.put(&strokes);
         self.put(&arrows);
@@ -383,15 +439,14 @@ impl Marker<'_> {
 
     /// The name of a view: above a tall one, at the left of a wide one.
     fn caption(&mut self, view: &Extents, text: &str) -> Vec<SheetShape> {
-        let k = self.lettering;
         let middle = 0.5 * (view.least + view.largest);
         let (at, anchor) = if view.size().x > view.size().y {
-            let base = middle.y - 0.5 * font::CAPITAL * VIEW_NAME * k;
-            (Vector2::new(view.least.x - CAPTION_BESIDE * k, base), TextAnchor::End)
+            let base = middle.y - 0.5 * font::CAPITAL * VIEW_NAME;
+            (Vector2::new(view.least.x - CAPTION_BESIDE, base), TextAnchor::End)
         } else {
-            (Vector2::new(middle.x, view.largest.y + CAPTION * k), TextAnchor::Middle)
+            (Vector2::new(middle.x, view.largest.y + CAPTION), TextAnchor::Middle)
         };
-        let shapes = vec![words(at, VIEW_NAME * k, anchor, text)];
+        let shapes = vec![words(at, VIEW_NAME, anchor, text)];
         self.put(&shapes);
         shapes
     }
@@ -403,7 +458,7 @@ impl Marker<'_> {
 
     fn radius(&mut self, class: &'static str, centre: Vector2<f64>, to: Vector2<f64>, text: &str) -> Vec<SheetShape> {
         let along = (to - centre).normalize();
-        let shapes = vec![SheetShape::Line(centre, to), triangle(to, along, HEAD * self.lettering)];
+        let shapes = vec![SheetShape::Line(centre, to), triangle(to, along, HEAD)];
         self.put(&shapes);
         self.defer(class, centre + (to - centre) * 0.6, Vector2::new(-along.y, along.x), text);
         shapes
@@ -429,43 +484,95 @@ impl Marker<'_> {
     }
 
     /// A frame of cells, the first with the sign, where there is room for it.
-    fn tolerance(
-        &mut self,
-        sign: ToleranceSign,
-        places: &[(Vector2<f64>, Vector2<f64>)],
-        cells: &[String],
-        behind: &str,
-    ) -> Vec<SheetShape> {
-        let size = TEXT * self.lettering;
+    /// The frame with its size above, its datum below, and the arrow to its feature.
+    fn tolerance(&mut self, frame: &FeatureFrame) -> Vec<SheetShape> {
+        let size = TEXT;
         let (high, inset) = (CELL * size, 0.5 * size);
-        let widths: Vec<f64> = std::iter::once(high)
-            .chain(cells.iter().map(|cell| (font::width(cell, size) + 2.0 * inset).max(high)))
-            .collect();
+        let wide = |cell: &String| (font::width(cell, size) + 2.0 * inset).max(high);
+        let widths: Vec<f64> = std::iter::once(high).chain(frame.cells.iter().map(wide)).collect();
+        // A size without a frame stands on a line.
+        let Some(sign) = frame.sign else { return self.size_on_line(frame) };
         let framed: f64 = widths.iter().sum();
-        let word = if behind.is_empty() { 0.0 } else { font::width(behind, size) + inset };
-        let Some((field, arrow)) = self.pointing(places, 0.5 * Vector2::new(framed + word, high)) else {
-            return Vec::new();
+        let word = if frame.behind.is_empty() { 0.0 } else { font::width(&frame.behind, size) + inset };
+        let above = if frame.above.is_empty() { 0.0 } else { ABOVE_FRAME * size };
+        let below = if frame.datum.is_some() { DATUM_STEM + high } else { 0.0 };
+        let width = (framed + word).max(font::width(&frame.above, size));
+        let half = 0.5 * Vector2::new(width, high + above + below);
+        let is_overhanging = width > framed + word;
+        // An arrow starts at a side of the frame if a datum hangs below it.
+        let start = |field: &Extents, at: Vector2<f64>| match frame.datum {
+            None => at.sup(&field.least).inf(&field.largest),
+            Some(_) => {
+                let right = field.least.x + framed + word;
+                if at.y > field.largest.y {
+                    return Vector2::new(at.x.clamp(field.least.x, right), field.largest.y);
+                }
+                if at.x < 0.5 * (field.least.x + right) {
+                    Vector2::new(field.least.x, field.least.y + below + 0.5 * high)
+                } else if is_overhanging {
+                    // At the end of the line on which the text stands.
+                    Vector2::new(field.largest.x, field.least.y + below + high)
+                } else {
+                    Vector2::new(right, field.least.y + below + 0.5 * high)
+                }
+            }
         };
-        let (low, base) = (field.least, field.least.y + 0.5 * (high - size) + 0.15 * size);
+        let Some((field, arrow)) = self.pointing(&frame.places, half, start) else { return Vec::new() };
+        let low = field.least + Vector2::new(0.0, below);
+        let base = low.y + 0.5 * (high - size) + 0.15 * size;
         let right = low.x + framed;
-        let line = |y: f64| SheetShape::Line(Vector2::new(low.x, y), Vector2::new(right, y));
-        let mut shapes = vec![line(low.y), line(low.y + high)];
+        let level = |y: f64| SheetShape::Line(Vector2::new(low.x, y), Vector2::new(right, y));
+        let mut shapes = vec![level(low.y), level(low.y + high)];
         shapes.extend(tolerance_sign(sign, low, high));
         let mut x = low.x;
         shapes.push(SheetShape::Line(Vector2::new(x, low.y), Vector2::new(x, low.y + high)));
-        for (width, text) in widths.iter().zip(std::iter::once("").chain(cells.iter().map(String::as_str))) {
+        for (width, text) in widths.iter().zip(std::iter::once("").chain(frame.cells.iter().map(String::as_str))) {
             if !text.is_empty() {
                 shapes.push(words(Vector2::new(x + 0.5 * width, base), size, TextAnchor::Middle, text));
             }
             x += width;
             shapes.push(SheetShape::Line(Vector2::new(x, low.y), Vector2::new(x, low.y + high)));
         }
-        if !behind.is_empty() {
-            shapes.push(words(Vector2::new(right + inset, base), size, TextAnchor::Start, behind));
+        if !frame.behind.is_empty() {
+            shapes.push(words(Vector2::new(right + inset, base), size, TextAnchor::Start, frame.behind.clone()));
+        }
+        if is_overhanging {
+            let top = Vector2::new(right, low.y + high);
+            shapes.push(SheetShape::Line(top, Vector2::new(field.largest.x, top.y)));
+        }
+        if !frame.above.is_empty() {
+            let at = Vector2::new(low.x, low.y + high + 0.45 * size);
+            shapes.push(words(at, size, TextAnchor::Start, frame.above.clone()));
+        }
+        if let Some(letter) = frame.datum {
+            shapes.extend(datum_below(Vector2::new(low.x + 0.5 * framed, low.y), letter));
         }
         if let ([SheetShape::Line(_, knee), _], ToleranceSign::ProfileAllAround) = (&arrow, sign) {
             // The ring at the frame: all around (ISO 1101).
             shapes.push(SheetShape::Entity(Entity::Circle(*knee, 0.3 * size)));
+        }
+        shapes.extend(arrow);
+        self.put(&shapes);
+        shapes
+    }
+
+    /// A size on a line, with its datum below, and the arrow to its feature.
+    fn size_on_line(&mut self, frame: &FeatureFrame) -> Vec<SheetShape> {
+        let below = if frame.datum.is_some() { DATUM_STEM + CELL * TEXT } else { 0.0 };
+        let width = font::width(&frame.above, TEXT);
+        let half = 0.5 * Vector2::new(width, ABOVE_FRAME * TEXT + below);
+        let start = |field: &Extents, at: Vector2<f64>| {
+            let x = if at.x < 0.5 * (field.least.x + field.largest.x) { field.least.x } else { field.largest.x };
+            Vector2::new(x, field.least.y + below)
+        };
+        let Some((field, arrow)) = self.pointing(&frame.places, half, start) else { return Vec::new() };
+        let line = field.least + Vector2::new(0.0, below);
+        let mut shapes = vec![
+            SheetShape::Line(line, line + Vector2::new(width, 0.0)),
+            words(line + Vector2::new(0.0, 0.45 * TEXT), TEXT, TextAnchor::Start, frame.above.clone()),
+        ];
+        if let Some(letter) = frame.datum {
+            shapes.extend(datum_below(line + Vector2::new(0.5 * width, 0.0), letter));
         }
         shapes.extend(arrow);
         self.put(&shapes);
@@ -477,46 +584,48 @@ impl Marker<'_> {
         &self,
         places: &[(Vector2<f64>, Vector2<f64>)],
         half: Vector2<f64>,
+        start: impl Fn(&Extents, Vector2<f64>) -> Vector2<f64>,
     ) -> Option<(Extents, [SheetShape; 2])> {
-        let k = self.lettering;
         let found = LEADERS.iter().find_map(|distance| {
             places.iter().find_map(|(at, towards)| {
-                let (field, end) = self.field_out(*at, *towards, *distance, half)?;
+                let (field, end) = self.field_out(*at, *towards, (*distance, half), &start)?;
                 Some((*at, field, end))
             })
         });
         let (at, field, end) = found?;
-        let arrow = arrow(at, (at - end).normalize(), k);
+        let arrow = arrow(at, (at - end).normalize());
         Some((field, [SheetShape::Line(at, end), arrow]))
     }
 
-    /// A free field so far out of a place, about in a direction, and the place of its edge that is nearest.
+    /// A free field of these half sides at a distance from a place, and the start of the leader at it.
     fn field_out(
         &self,
         at: Vector2<f64>,
         towards: Vector2<f64>,
-        distance: f64,
-        half: Vector2<f64>,
+        (distance, half): (f64, Vector2<f64>),
+        start: &impl Fn(&Extents, Vector2<f64>) -> Vector2<f64>,
     ) -> Option<(Extents, Vector2<f64>)> {
         TURNS.iter().find_map(|degrees| {
             let (sin, cos) = libm::sincos(f64::to_radians(*degrees));
             let along = Vector2::new(towards.x * cos - towards.y * sin, towards.x * sin + towards.y * cos);
-            let field = field_near(at, along, distance * self.lettering, half);
-            let end = at.sup(&field.least).inf(&field.largest);
-            let start = at + (end - at) * LEADER_START;
-            (self.taken.free(&field) && self.taken.clear(start, end)).then_some((field, end))
+            let field = field_near(at, along, distance, half);
+            let end = start(&field, at);
+            let near = at + (end - at) * LEADER_START;
+            (self.taken.free(&field) && self.taken.clear(near, end)).then_some((field, end))
         })
     }
 
     /// The sign of a roughness on a line, where there is room for it; its sizes over the lettering are those of ISO 21920-1, annex A.
     fn roughness(&mut self, places: &[(Vector2<f64>, Vector2<f64>)], text: &str) -> Vec<SheetShape> {
-        let size = TEXT * self.lettering;
+        let size = TEXT;
         let (short, long) = (1.4 * size, 3.0 * size);
         // The legs lean by 30° from upright.
         let lean = libm::tan(std::f64::consts::FRAC_PI_6);
         let after = (short + long) * lean;
         let width = after + font::width(text, size) + 0.6 * size;
-        let Some((field, arrow)) = self.pointing(places, 0.5 * Vector2::new(width, long)) else { return Vec::new() };
+        let Some((field, arrow)) = self.pointing(places, 0.5 * Vector2::new(width, long), nearest_corner) else {
+            return Vec::new();
+        };
         let at = |x: f64, y: f64| field.least + Vector2::new(x, y);
         let foot = short * lean;
         let mut shapes = vec![
@@ -531,31 +640,30 @@ impl Marker<'_> {
     }
 
     /// A tick across the profile, and an arrow beside it.
-    fn start(&mut self, at: Vector2<f64>, along: Vector2<f64>, outward: Vector2<f64>) -> Vec<SheetShape> {
-        let k = self.lettering;
-        let beside = at + outward * (1.5 * k);
-        let end = beside + along * (2.0 * HEAD * k);
+    fn start(&mut self, at: Vector2<f64>, along: Vector2<f64>, outward: Vector2<f64>, text: &str) -> Vec<SheetShape> {
+        let beside = at + outward * 1.5;
+        let end = beside + along * (2.0 * HEAD);
         let shapes = vec![
-            SheetShape::Line(at - outward * (1.5 * k), at + outward * (2.5 * k)),
+            SheetShape::Line(at - outward * 1.5, at + outward * 2.5),
             SheetShape::Line(beside, end),
-            triangle(end, along, HEAD * k),
+            triangle(end, along, HEAD),
         ];
         self.put(&shapes);
-        self.defer("dimension", at + outward * (2.5 * k), outward, "start of the cut");
+        self.defer("dimension", at + outward * 2.5, outward, text);
         shapes
     }
 
     fn datum(&mut self, at: Vector2<f64>, towards: Vector2<f64>, letter: &str) -> Vec<SheetShape> {
-        let (k, size) = (self.lettering, TEXT * self.lettering);
+        let size = TEXT;
         let half = Vector2::repeat(0.5 * CELL * size);
-        let Some((field, leader)) = place(self.taken, k, at, towards, (half, 0.0)) else { return Vec::new() };
+        let Some((field, leader)) = place(self.taken, 1.0, at, towards, (half, 0.0)) else { return Vec::new() };
         let mut shapes = rectangle(&field);
         let base = Vector2::new(0.5 * (field.least.x + field.largest.x), field.least.y + half.y - 0.35 * size);
         shapes.push(words(base, size, TextAnchor::Middle, letter));
         if let Some(SheetShape::Line(from, to)) = leader {
             // The base of the triangle lies on what is the datum.
             let along = (to - from).normalize();
-            let (tip, side) = (from + along * (HEAD * k), Vector2::new(-along.y, along.x) * (0.5 * HEAD * k));
+            let (tip, side) = (from + along * HEAD, Vector2::new(-along.y, along.x) * (0.5 * HEAD));
             shapes.push(SheetShape::Triangle([tip, from + side, from - side]));
             shapes.push(SheetShape::Line(tip, to));
         }

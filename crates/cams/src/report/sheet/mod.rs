@@ -22,7 +22,7 @@ pub use compose::{SheetExtras, compose};
 pub use dimension::Dimensions;
 pub use kind::SheetKind;
 pub use view::extents_of;
-pub use view::{Mark, PlaceRow, PlaceTable, SheetView, TitleFacts, ToleranceSign, TurningArc};
+pub use view::{FeatureFrame, Mark, PlaceRow, PlaceTable, SheetView, TitleFacts, ToleranceSign, TurningArc};
 
 use camgen_kernel::geometry::Entity;
 use camgen_kernel::geometry::contour::Extents;

@@ -269,7 +269,7 @@ pub(super) fn places(mut writer: PanelWriter, table: &PlaceTable) -> SheetPanel 
         writer.paragraph("facts", remark);
     }
     let shown: Vec<&PlaceRow> = table.shown().collect();
-    let heads = PlaceRow { cells: table.heads.clone(), number: Some(0), flag: None };
+    let heads = PlaceRow { cells: table.heads.clone(), number: Some(0), flag: None, is_change: false };
     let needed = needed_widths(std::iter::once(&heads).chain(shown.iter().copied()));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few columns")]
     let blocks = (writer.width / (needed.iter().sum::<f64>() + FLAG)).floor().clamp(1.0, 4.0) as u32;
@@ -282,7 +282,7 @@ pub(super) fn places(mut writer: PanelWriter, table: &PlaceTable) -> SheetPanel 
         writer.down = top;
         let left = step * f64::from(number) + FLAG;
         for row in std::iter::once(&heads).chain(rows.iter().copied()) {
-            if row.number.is_none() {
+            if row.is_change {
                 let high = 0.25 * ROW;
                 writer.area(TINT, [left, left + step - FLAG - 1.0], [writer.down + high - ROW, writer.down + high]);
             }

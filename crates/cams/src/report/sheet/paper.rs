@@ -114,7 +114,11 @@ pub(in crate::report) fn rectangle(rect: &Extents) -> Vec<SheetShape> {
 pub(in crate::report) fn frame_and_grid(paper: &PaperSize, corner: Vector2<f64>) -> Vec<ShapeGroup> {
     let frame = paper.frame(corner);
     let outer = Extents { least: frame.least.add_scalar(-BORDER), largest: frame.largest.add_scalar(BORDER) };
-    let middle = 0.5 * (frame.least + frame.largest);
+    // The centring marks of ISO 5457 lie on the axes of the sheet, whose left margin is wider.
+    let middle = match paper.border {
+        SheetBorder::Iso => corner + 0.5 * paper.size,
+        SheetBorder::Asme { .. } => 0.5 * (frame.least + frame.largest),
+    };
     let mut marks = vec![
         SheetShape::Line(Vector2::new(middle.x, outer.least.y), Vector2::new(middle.x, frame.least.y)),
         SheetShape::Line(Vector2::new(middle.x, frame.largest.y), Vector2::new(middle.x, outer.largest.y)),
@@ -155,9 +159,9 @@ pub(in crate::report) fn frame_and_grid(paper: &PaperSize, corner: Vector2<f64>)
     vec![ShapeGroup::new("grid-reference", "grid reference", grid), ShapeGroup::new("frame", "frame", marks)]
 }
 
-/// Edges of fields of 50 mm from the centring marks; the outermost take what is left.
+/// Edges of fields of 50 mm from the centring marks, as many as ISO 5457 has for the sheet; the outermost take the rest.
 fn fields_from(centre: f64, [low, high]: [f64; 2]) -> Vec<f64> {
-    let fields = ((0.5 * (high - low)) / FIELD).floor().max(1.0);
+    let fields = ((0.5 * (high - low)) / FIELD).round().max(1.0);
     let mut edges = vec![low];
     let mut step = -(fields - 1.0);
     while step <= fields - 1.0 {

@@ -72,6 +72,8 @@ pub enum Mark {
         text: String,
         /// The letter of the datum that the axis or the middle of the size is.
         datum: Option<&'static str>,
+        /// Whether only its first end has an arrow: the other edge is cut away, and the line goes on a little beyond the middle.
+        is_half: bool,
     },
     /// A numbered place of the profile at which the part is inspected.
     Flag {
@@ -98,17 +100,8 @@ pub enum Mark {
         /// "A–A".
         text: String,
     },
-    /// The frame of a tolerance, ISO 1101, with an arrow to one of some places.
-    Tolerance {
-        /// What is tolerated.
-        sign: ToleranceSign,
-        /// Places of the feature with the directions outwards, unit vectors: the one nearest to free paper is used.
-        places: Vec<(Vector2<f64>, Vector2<f64>)>,
-        /// Width of the zone, and the letters of the datums.
-        cells: Vec<String>,
-        /// A word behind the frame, such as that it is a proposal.
-        behind: String,
-    },
+    /// The frame of a tolerance, ISO 1101.
+    Tolerance(FeatureFrame),
     /// The sign of the roughness of the profile, ISO 21920-1, material removed, with an arrow to one of some places of it.
     Roughness {
         /// Places of the profile with the directions outwards, unit vectors: the one nearest to free paper is used.
@@ -124,6 +117,8 @@ pub enum Mark {
         along: Vector2<f64>,
         /// The direction away from the metal, a unit vector.
         outward: Vector2<f64>,
+        /// "start of the cut, climb milling".
+        text: String,
     },
     /// A datum, ISO 5459: its letter in a frame, and a triangle at a place.
     Datum {
@@ -156,6 +151,23 @@ pub struct TurningArc {
     pub sweep_deg: f64,
 }
 
+/// The frame of a tolerance, ISO 1101, with an arrow to one of some places of its feature, the size of the feature above and the datum that it is below.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FeatureFrame {
+    /// Places of the feature with the directions outwards, unit vectors: the one nearest to free paper is used.
+    pub places: Vec<(Vector2<f64>, Vector2<f64>)>,
+    /// The size of the feature, with its limits; empty if it has none.
+    pub above: String,
+    /// What is tolerated; `None` of a size without a frame, which stands on a line.
+    pub sign: Option<ToleranceSign>,
+    /// Width of the zone, and the letters of the datums.
+    pub cells: Vec<String>,
+    /// A word behind the frame, such as that it is a proposal.
+    pub behind: String,
+    /// The letter of the datum that the middle plane or the axis of the feature is (ISO 5459).
+    pub datum: Option<&'static str>,
+}
+
 /// What a frame of ISO 1101 tolerates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ToleranceSign {
@@ -169,6 +181,10 @@ pub enum ToleranceSign {
     Parallel,
     /// A middle plane in an axis.
     Symmetry,
+    /// An axis at its exact place.
+    Position,
+    /// The profile of a surface.
+    Surface,
 }
 
 /// A row of a table of places.
@@ -180,13 +196,15 @@ pub struct PlaceRow {
     pub number: Option<usize>,
     /// The name of the place of inspection that it has: "P1".
     pub flag: Option<String>,
+    /// Whether a segment of the motion begins there.
+    pub is_change: bool,
 }
 
 impl PlaceRow {
     /// The row of this number at equal distances.
     #[must_use]
     pub fn regular(number: usize, cells: Vec<String>) -> Self {
-        Self { cells, number: Some(number), flag: None }
+        Self { cells, number: Some(number), flag: None, is_change: false }
     }
 }
 

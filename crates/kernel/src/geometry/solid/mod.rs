@@ -5,10 +5,12 @@
 //! normal points away from its axis: out of the metal where the contour turns left, into it where it turns right, and
 //! there the face is the cylinder's other side. Both end faces are one plane each with the holes as inner wires.
 
+pub mod axial_section;
 mod flank_strip;
 pub mod globoid;
 pub mod grooved_cylinder;
 mod spline_surface;
+pub mod stacked;
 
 use super::contour::{Contour, Cubic, Edge, Segment, sweep_minus_sine};
 use crate::refusal::Refusal;
@@ -129,18 +131,6 @@ const REPORT: &str = "please report this";
 /// Largest relative difference of the two volumes: rounding of a few hundred terms.
 const VOLUME_TOLERANCE: f64 = 1e-11;
 
-/// A face of the given area (mm²) as a solid of a thickness (mm), with its underside at z = 0, checked: closed by the
-/// rules of truck, and with the volume that the drawing has. Every contour runs with the metal on its left: the outline, which comes
-/// first, counter-clockwise, holes clockwise.
-///
-/// # Errors
-/// [`Refusal`] when a check fails; both would be faults of camgen.
-pub fn prism(contours: &[Contour], area: f64, thickness: f64) -> Result<CheckedSolid, Refusal> {
-    let boundary = extruded(contours, thickness);
-    check_closed(&boundary)?;
-    as_drawn(boundary, area * thickness)
-}
-
 /// A boundary, if it encloses the volume of the drawing, mm³.
 fn as_drawn(boundary: TruckBoundary, expected: f64) -> Result<CheckedSolid, Refusal> {
     let volume = enclosed_volume(&boundary);
@@ -148,19 +138,6 @@ fn as_drawn(boundary: TruckBoundary, expected: f64) -> Result<CheckedSolid, Refu
         return Err(Refusal::new(format!("the solid encloses {volume} mm³ instead of {expected} mm³")).remedy(REPORT));
     }
     Ok(CheckedSolid { boundary, volume })
-}
-
-/// A face with a groove of a depth from its upper side as a solid (mm), checked as [`prism`]. `through` bounds the part, the outermost first,
-/// `flanks` the groove, the inner one first; each runs with the metal on its left.
-///
-/// # Errors
-/// [`Refusal`] when a check fails; both would be faults of camgen.
-pub fn pocketed(through: &[Contour], flanks: &[Contour], thickness: f64, depth: f64) -> Result<CheckedSolid, Refusal> {
-    let [outer, grooves] =
-        [through, flanks].map(|contours| contours.iter().map(|contour| contour.area_and_centroid().0).sum::<f64>());
-    let boundary = ShellBuilder::grooved(through, flanks, thickness, depth);
-    check_closed(&boundary)?;
-    as_drawn(boundary, outer * thickness + grooves * depth)
 }
 
 /// Refuses a boundary that is not one closed shell by the rules of truck.
@@ -287,44 +264,9 @@ impl ShellBuilder {
         self.level(above, high, Vector3::unit_z());
         CompressedSolid { boundaries: vec![self.shell] }
     }
-
-    /// A part with a groove between two flanks: its floor is a face of its own, and the upper face is one on either side of it.
-    fn grooved(through: &[Contour], flanks: &[Contour], thickness: f64, depth: f64) -> TruckBoundary {
-        let mut walls = Self::new((0.0, thickness));
-        for contour in through {
-            walls.over(contour);
-        }
-        let (under, mut around) = (std::mem::take(&mut walls.under), std::mem::take(&mut walls.above));
-        walls.ends.0 = thickness - depth;
-        for contour in flanks {
-            walls.over(contour);
-        }
-        let (mut floor, mut flanks) = (std::mem::take(&mut walls.under), std::mem::take(&mut walls.above));
-        // Of the upper face the blank's edge and the outer flank bound one part, the inner flank and the holes the other.
-        let holes = around.split_off(around.len().min(1));
-        around.extend(flanks.pop());
-        flanks.extend(holes);
-        let up = Vector3::unit_z();
-        walls.level(under, 0.0, -up);
-        // Counter-clockwise round the outer flank, which comes first.
-        floor.reverse();
-        walls.level(floor, thickness - depth, up);
-        walls.level(around, thickness, up);
-        walls.level(flanks, thickness, up);
-        CompressedSolid { boundaries: vec![walls.shell] }
-    }
 }
 
-/// Contours with the metal on their left, the outer one first, extruded from z = 0.
-fn extruded(contours: &[Contour], thickness: f64) -> TruckBoundary {
-    let mut walls = ShellBuilder::new((0.0, thickness));
-    for contour in contours {
-        walls.over(contour);
-    }
-    walls.capped()
-}
-
-/// A flank of spline patches with straight holes (clockwise) between two planes (mm), checked as [`prism`]; `area` is
+/// A flank of spline patches with straight holes (clockwise) between two planes (mm), checked as [`stacked`](stacked::stacked); `area` is
 /// the area of the holes and `volume` the volume that the flank encloses.
 ///
 /// # Errors

@@ -1,3 +1,4 @@
+use super::stacked::{Wall, stacked};
 use super::*;
 use crate::geometry::contour::Vertex;
 
@@ -10,8 +11,11 @@ fn ring() -> CheckedSolid {
             |i: u32| Vertex::new(Vector2::new(centre + radius * libm::cos(at(i)), radius * libm::sin(at(i))), bulge);
         Contour { vertices: (0..count).map(vertex).collect() }
     };
+    let walls = [arcs(8.0, 60.0, 1.0, 4), arcs(0.0, 12.5, -1.0, 2)].map(|contour| Wall::through(contour, 0.0, 30.0));
+    let solid = stacked(&walls).expect("a solid");
     let area = std::f64::consts::PI * (60.0 * 60.0 - 12.5 * 12.5);
-    prism(&[arcs(8.0, 60.0, 1.0, 4), arcs(0.0, 12.5, -1.0, 2)], area, 30.0).expect("a solid")
+    assert!((solid.volume / (30.0 * area) - 1.0).abs() < 1e-12);
+    solid
 }
 
 /// Faults planted in the boundary are caught before anything is written.
