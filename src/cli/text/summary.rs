@@ -2,7 +2,7 @@
 
 use super::{Page, painted_word, wrapped};
 use camgen::document::plain;
-use camgen::report::{Bound, Fact, FileVerdict, Finding, Report, Summary, SummaryTable, Topic, Verdict};
+use camgen::report::{Bound, Fact, FileVerdict, Finding, NOT_JUDGED, Report, Summary, SummaryTable, Topic, Verdict};
 use camgen::text::{KeyChange, Length, Text, significant};
 use camgen::units::LengthUnit;
 
@@ -396,30 +396,108 @@ fn last(verdict: &str, report: &Report, written: Written, page: Page) -> Vec<Str
     joined_line(&[verdict, may_be_cut, &told], page)
 }
 
+/// Checks whose figure is a count of one or nothing: their note is the finding.
+const TOLD_BY_NOTE: [&str; 2] = ["layer", "units"];
+/// What only changes the form of a file.
+const OF_ITS_FORM: [&str; 4] = ["layer", "units", "duplicates", "tangency"];
+/// How the explanation of a diagnosis begins.
+const EXPLAINED: &str = "It would be this cam ";
+/// How the note on a bore names what else would be cut, and what would not.
+const WOULD_BE_CUT: &str = "would be cut and does not belong";
+const IS_MISSING: &str = "is missing";
+
+/// "in inches, not in millimetres …" of a finding on the form of a file, without its figure.
+fn told(finding: &Finding, units: LengthUnit) -> String {
+    let note = finding.note.as_ref().map(|note| note.in_unit(units)).filter(|note| !note.is_empty());
+    match note {
+        Some(note) if TOLD_BY_NOTE.contains(&&*finding.check) => format!("{}: {note}", finding.title()),
+        Some(note) => format!("{}: {note}", asked(finding, units)),
+        None => asked(finding, units),
+    }
+}
+
+/// In a few words why the outline is that of the cam but the file is not, and what to do.
+fn but(finding: &Finding, units: LengthUnit) -> (String, &'static str) {
+    let note = finding.note.as_ref().map_or_else(String::new, |note| note.in_unit(units));
+    match &*finding.check {
+        "bore" => {
+            let more = note.matches(WOULD_BE_CUT).count();
+            if more > 0 && note.contains(IS_MISSING) {
+                ("more and less would be cut".into(), "correct the file: its bore is missing, and more would be cut")
+            } else if more > 0 {
+                let things = if more == 1 { "thing" } else { "things" };
+                (
+                    format!("{more} {things} more would be cut"),
+                    "if wanted: draw it on a layer that is not cut, or cut layers CAM_PROFILE and BORE only",
+                )
+            } else if note.contains(IS_MISSING) {
+                ("its bore would not be cut".into(), "add the bore to the file, or bore it in another operation")
+            } else {
+                (
+                    "its bore is another one".into(),
+                    "correct the bore of the file; if the file is right: set cam.bore_radius, cam.keyway and cam.balance as in it",
+                )
+            }
+        }
+        "layer" if note.contains("off or frozen") => {
+            ("its outline lies on a layer that is off".into(), "switch the layer on, and save the file")
+        }
+        "layer" => (
+            "its outline lies on another layer".into(),
+            "put the outline on CAM_PROFILE and delete the rest of that layer, or give --layer",
+        ),
+        "units" => ("its unit is not known".into(), "save the file in millimetres"),
+        "readable" => {
+            ("it has more than curves".into(), "delete or explode the entities that are named, and save the file")
+        }
+        "duplicates" => (
+            "some of it would be cut twice".into(),
+            "delete the segments that are named (OVERKILL in AutoCAD)",
+        ),
+        _ => (asked(finding, units), "correct the file"),
+    }
+}
+
 /// The summary of a checked file: whether it is the cam, and why not.
 pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> String {
     let summary = Summary::of(report);
     let units = report.units;
-    let (word, last) = match FileVerdict::of(report) {
+    let verdict = FileVerdict::of(report);
+    let (word, last) = match verdict {
         FileVerdict::ThisCam => ("THIS CAM", "may be cut"),
         FileVerdict::ThisCamBut => ("THIS CAM, BUT", "not as it is · exit code 1"),
+        FileVerdict::NotJudged => ("NOT JUDGED", "do not cut it unseen · exit code 1"),
         FileVerdict::NotThisCam => ("NOT THIS CAM", "do not cut"),
     };
     let outline = report.checks.iter().find(|finding| finding.check == "outline" && finding.verdict == Verdict::Pass);
-    let told = match (summary.failed.first(), outline) {
-        (Some(failed), _) => asked(failed, units),
-        (None, Some(outline)) => format!(
-            "outline within {} of the exact cam{}",
-            outline.brief_value(units),
-            outline.brief_limit(units).map_or_else(String::new, |limit| format!(" ({limit} allowed)"))
-        ),
-        (None, None) => format!("{} checks pass", summary.judged),
+    let within = outline.map(|outline| {
+        let limit = outline.brief_limit(units).map_or_else(String::new, |limit| format!(" ({limit} allowed)"));
+        format!("outline within {} of the exact cam{limit}", outline.brief_value(units))
+    });
+    let diagnosis = report.sections.iter().find(|section| section.key == "diagnosis");
+    let explained = diagnosis.and_then(|section| {
+        let words = section.words.first()?.text.in_unit(units);
+        let cause = words.strip_prefix(EXPLAINED)?.split(": ").next()?;
+        Some(format!("it would be this cam {cause}"))
+    });
+    let (head, told_in_head) = match (verdict, summary.failed.first(), within) {
+        (FileVerdict::ThisCamBut, Some(failed), within) => {
+            // What a shop would cut is asked first.
+            let first = summary.failed.iter().find(|finding| finding.check == "layer").unwrap_or(failed);
+            (format!("{word} {}", but(first, units).0), within.unwrap_or_default())
+        }
+        (FileVerdict::NotThisCam, Some(failed), _) => {
+            (word.to_owned(), explained.unwrap_or_else(|| asked_or_told(failed, units)))
+        }
+        (_, Some(failed), _) => (word.to_owned(), asked_or_told(failed, units)),
+        (_, None, Some(within)) => (word.to_owned(), within),
+        (_, None, None) => (word.to_owned(), format!("{} checks pass", summary.judged)),
     };
     let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
     let first = format!("{name} · against {}, {}{}", report.machine, report.noun, report.rpm);
-    let lines = [lines_in(&plain(&first), 2, page), joined_line(&[word, &told], page), vec![String::new()]].concat();
-    let mut blocks = vec![Block { keep: 9, lines }];
-    for section in report.sections.iter().filter(|section| section.key == "diagnosis" || section.key == "design") {
+    let lines = [lines_in(&plain(&first), 2, page), joined_line(&[&head, &told_in_head], page), vec![String::new()]];
+    let mut blocks = vec![Block { keep: 9, lines: lines.concat() }];
+    for section in report.sections.iter().filter(|section| ["diagnosis", "design", NOT_JUDGED].contains(&&*section.key)) {
         let label = if section.key == "design" { "design" } else { "evidence" };
         for (index, words) in section.words.iter().enumerate() {
             let text = plain(&words.text.in_unit(units)).into_owned();
@@ -427,10 +505,16 @@ pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> 
         }
     }
     for (index, finding) in summary.failed.iter().chain(&summary.warnings).enumerate() {
-        let note = finding.note.as_ref().map_or_else(String::new, |note| format!(": {}", note.in_unit(units)));
-        let text = plain(&format!("{}{note}", asked(finding, units))).into_owned();
-        let label = if finding.verdict == Verdict::Fail { "wrong" } else { "warning" };
+        let text = plain(&told(finding, units)).into_owned();
+        let label = match finding.verdict {
+            Verdict::Fail => "wrong",
+            _ if OF_ITS_FORM.contains(&&*finding.check) => "note",
+            _ => "warning",
+        };
         blocks.push(Block { keep: if index < 2 { 8 } else { 6 }, lines: labelled(label, &text, page) });
+        if verdict == FileVerdict::ThisCamBut && finding.verdict == Verdict::Fail {
+            blocks.push(Block { keep: 7, lines: labelled("remedy", but(finding, units).1, page) });
+        }
     }
     let passed: Vec<String> =
         report.checks.iter().filter(|finding| finding.verdict == Verdict::Pass).map(Finding::title).collect();
@@ -441,6 +525,11 @@ pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> 
     blocks.push(blank());
     blocks.push(Block { keep: 9, lines: joined_line(&[word, last], page) });
     fitted(blocks, HEIGHT).into_iter().map(|line| line + "\n").collect()
+}
+
+/// A finding in a line: its note where the figure is a count of one or nothing.
+fn asked_or_told(finding: &Finding, units: LengthUnit) -> String {
+    if TOLD_BY_NOTE.contains(&&*finding.check) { told(finding, units) } else { asked(finding, units) }
 }
 
 /// A table under its heads, words at the left and numbers at the right of their columns.

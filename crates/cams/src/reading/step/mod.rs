@@ -10,6 +10,7 @@ mod parameters;
 mod placement;
 mod runs;
 mod shape;
+mod splines;
 mod upright;
 
 pub use form::{FlankShape, SolidForm, form};
