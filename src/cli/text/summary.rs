@@ -406,11 +406,12 @@ const EXPLAINED: &str = "It would be this cam ";
 const WOULD_BE_CUT: &str = "would be cut and does not belong";
 const IS_MISSING: &str = "is missing";
 
-/// "in inches, not in millimetres …" of a finding on the form of a file, without its figure.
+/// A finding in words; its note alone where the figure is a count of one or nothing, or there is none.
 fn told(finding: &Finding, units: LengthUnit) -> String {
     let note = finding.note.as_ref().map(|note| note.in_unit(units)).filter(|note| !note.is_empty());
+    let by_note = TOLD_BY_NOTE.contains(&&*finding.check) || finding.check == "bore" && !finding.value.is_finite();
     match note {
-        Some(note) if TOLD_BY_NOTE.contains(&&*finding.check) => format!("{}: {note}", finding.title()),
+        Some(note) if by_note => note,
         Some(note) => format!("{}: {note}", asked(finding, units)),
         None => asked(finding, units),
     }
@@ -469,7 +470,8 @@ pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> 
         FileVerdict::NotJudged => ("NOT JUDGED", "do not cut it unseen · exit code 1"),
         FileVerdict::NotThisCam => ("NOT THIS CAM", "do not cut"),
     };
-    let outline = report.checks.iter().find(|finding| finding.check == "outline" && finding.verdict == Verdict::Pass);
+    let is_outline = |finding: &&Finding| matches!(&*finding.check, "outline" | "cutter_path");
+    let outline = report.checks.iter().filter(is_outline).find(|finding| finding.verdict == Verdict::Pass);
     let within = outline.map(|outline| {
         let limit = outline.brief_limit(units).map_or_else(String::new, |limit| format!(" ({limit} allowed)"));
         format!("outline within {} of the exact cam{limit}", outline.brief_value(units))
@@ -483,7 +485,8 @@ pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> 
     let (head, told_in_head) = match (verdict, summary.failed.first(), within) {
         (FileVerdict::ThisCamBut, Some(failed), within) => {
             // What a shop would cut is asked first.
-            let first = summary.failed.iter().find(|finding| finding.check == "layer").unwrap_or(failed);
+            let named = |check: &str| summary.failed.iter().find(|finding| finding.check == check);
+            let first = named("layer").or_else(|| named("bore")).unwrap_or(failed);
             (format!("{word} {}", but(first, units).0), within.unwrap_or_default())
         }
         (FileVerdict::NotThisCam, Some(failed), _) => {
@@ -512,9 +515,22 @@ pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> 
             _ => "warning",
         };
         blocks.push(Block { keep: if index < 2 { 8 } else { 6 }, lines: labelled(label, &text, page) });
-        if verdict == FileVerdict::ThisCamBut && finding.verdict == Verdict::Fail {
+        // Its bore makes them fail.
+        let follows = matches!(&*finding.check, "holes" | "volume");
+        if verdict == FileVerdict::ThisCamBut && finding.verdict == Verdict::Fail && !follows {
             blocks.push(Block { keep: 7, lines: labelled("remedy", but(finding, units).1, page) });
         }
+    }
+    let judged_right = |finding: &&Finding| matches!(finding.verdict, Verdict::Pass | Verdict::Info);
+    for finding in report.checks.iter().filter(judged_right).filter(|finding| OF_ITS_FORM.contains(&&*finding.check)) {
+        if let Some(note) = finding.note.as_ref().map(|note| note.in_unit(units)).filter(|note| !note.is_empty()) {
+            blocks.push(Block { keep: 6, lines: labelled("note", &plain(&note), page) });
+        }
+    }
+    if let Some(radius) = diagnosis.and_then(|section| offset_outward(&section.value)) {
+        let radius = significant(radius, 4);
+        let words = format!("the path of the centre of a cutter: then check it with --cutter-radius {radius}mm");
+        blocks.push(Block { keep: 8, lines: labelled("likely", &words, page) });
     }
     let passed: Vec<String> =
         report.checks.iter().filter(|finding| finding.verdict == Verdict::Pass).map(Finding::title).collect();
@@ -525,6 +541,13 @@ pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> 
     blocks.push(blank());
     blocks.push(Block { keep: 9, lines: joined_line(&[word, last], page) });
     fitted(blocks, HEIGHT).into_iter().map(|line| line + "\n").collect()
+}
+
+/// The distance by which a diagnosis finds an outline offset outward and nothing else, mm.
+fn offset_outward(diagnosis: &serde_json::Value) -> Option<f64> {
+    let first = diagnosis.get(0)?;
+    let value = first.get("value")?.as_f64().filter(|value| *value > 0.0)?;
+    (first.get("cause")?.as_str()? == "offset").then_some(value)
 }
 
 /// A finding in a line: its note where the figure is a count of one or nothing.

@@ -16,6 +16,7 @@ use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::contour::Contour;
 use camgen_kernel::profile::outline::MotionTolerance;
 use camgen_kernel::refusal::Refusal;
+use camgen_kernel::text::Text;
 use nalgebra::{Matrix3, Vector3};
 
 /// How the noun of a report begins on a file with the path of a cutter's centre.
@@ -176,9 +177,17 @@ impl Cam {
         if !chain.closed {
             return Ok(None);
         }
+        let taken = format!(
+            "the outermost contour is taken for the path of the centre of a cutter of Ø{} mm",
+            shown(2.0 * MILLIMETRES * radius)
+        );
         if reading.others.iter().all(verify::is_lead_in) {
+            let has_bore = self.body().machine().cam.bore_radius.is_some();
             let judged = judge_path_as_read(&self.solved(request), expected, reading)?;
-            return Ok(Some(self.report_on(CUTTER_PATH_NOUN, request, judged)));
+            let report = self.report_on(CUTTER_PATH_NOUN, request, judged);
+            let without = has_bore.then(|| "; the file has no bore, which is cut by another one".to_owned());
+            let note = Text::from(format!("{taken}{}", without.unwrap_or_default()));
+            return Ok(Some(Report { notes: [vec![note], report.notes].concat(), ..report }));
         }
         let hollow = self.body().cuts().get(cut).is_some_and(Cut::is_hollow);
         let (path, radius_mm) = (chain.counter_clockwise(), MILLIMETRES * radius);
@@ -189,14 +198,10 @@ impl Cam {
         };
         let Some(moved) = moved else { return Ok(None) };
         let sources = chain.sources.clone();
-        reading.remarks.push(format!(
-            "the outermost contour is taken for the path of the centre of a cutter of Ø{} mm",
-            shown(2.0 * radius_mm)
-        ));
         reading.chains = vec![Chain { sources, ..Chain::of(&moved) }];
         let report = self.check_outlines(std::slice::from_ref(&reading), (cut, section), request)?;
         let noun = format!("{CUTTER_PATH_NOUN} of a {}", report.noun).into();
-        Ok(Some(Report { noun, ..report }))
+        Ok(Some(Report { noun, notes: [vec![Text::from(taken)], report.notes].concat(), ..report }))
     }
 
     /// The reading of a file in which the outline of a cut lies elsewhere than expected: on another layer than the one it should be
@@ -388,18 +393,15 @@ impl Cam {
             let words = placement.words();
             return Some(told(format!("It would be this cam {words}: a placement in the file puts it there")));
         }
-        if self.body().surface().is_some() {
+        // What differs is not the outline: another bore, more holes.
+        let is_outline = judged.checks.iter().any(|finding| finding.check == "outline" && finding.verdict == Verdict::Pass);
+        let lies_there = judged.checks.iter().any(|finding| finding.check == "thickness" && finding.verdict == Verdict::Pass);
+        if self.body().surface().is_some() || is_outline && lies_there {
             return None;
         }
         let is_upright = |form: &SolidForm| form.strange.is_empty() && !form.under.is_empty() && !form.above.is_empty();
-        if is_upright(&judged.form) {
-            let outline = judged.outlines.first().map(|outline| &outline.contour);
-            let tolerance = request.fit.tolerance;
-            if let Some(of_outline) = diagnosis::of(self, (0, None), outline, (&judged.checks, tolerance)) {
-                return Some(of_outline);
-            }
-        }
         let (from, _) = self.body().height().unwrap_or_default();
+        let mut of_outline = None;
         for (axes, turned) in orientations() {
             let boundary = StepPlacement::moved(&file.boundary, Vector3::zeros(), axes);
             let form = step::form(&boundary, flank, shell_reach(limits.0));
@@ -408,19 +410,26 @@ impl Cam {
             }
             let up = form.low.first().map_or(0.0, |low| from - low);
             let moved = boundary_judged(StepPlacement::moved(&boundary, Vector3::z() * up, Matrix3::identity()));
-            let by = if up.abs() > limits.0 { format!("moved by {:.4} mm along its axis", -up) } else { String::new() };
-            let words: Vec<&str> = [turned, &*by].into_iter().filter(|words| !words.is_empty()).collect();
-            let words = words.join(" and ");
+            // Turned over it lies below the plane on which it was; where it lies along its axis is no other matter then.
+            let is_moved = up.abs() > limits.0 && turned.is_empty();
+            let by = if is_moved { format!("moved by {:.4} mm along its axis", -up) } else { String::new() };
+            let words = if turned.is_empty() { by } else { turned.to_owned() };
             if passes(&moved) && !words.is_empty() {
                 return Some(told(format!("It would be this cam {words}: the rest of the solid is right")));
             }
-            let outline = moved.outlines.first().map(|outline| &outline.contour);
-            let found = diagnosis::of(self, (0, None), outline, (&moved.checks, request.fit.tolerance));
-            if let Some(found) = found.filter(|_| !turned.is_empty()) {
-                let and = |line: &ReportLine| format!("The solid is {turned}. {}", line.text);
-                let lines: Vec<String> = found.words.iter().map(and).collect();
-                return Some(Section { words: lines.into_iter().map(ReportLine::from).collect(), ..found });
+            if of_outline.is_none() {
+                let outline = moved.outlines.first().map(|outline| &outline.contour);
+                let found = diagnosis::of(self, (0, None), outline, (&moved.checks, request.fit.tolerance));
+                of_outline = found.map(|found| (turned, found));
             }
+        }
+        match of_outline {
+            Some(("", found)) => return Some(found),
+            Some((turned, found)) => {
+                let and = |line: &ReportLine| ReportLine::from(format!("The solid is {turned}. {}", line.text));
+                return Some(Section { words: found.words.iter().map(and).collect(), ..found });
+            }
+            None => {}
         }
         (judged.form.unread_splines > 0 && judged.outlines.is_empty()).then(|| {
             let count = judged.form.unread_splines;

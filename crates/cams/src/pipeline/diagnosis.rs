@@ -147,14 +147,14 @@ fn changes(registration: &Registration, free: FreeParameters) -> Vec<Change> {
     let mut found = Vec::new();
     if free.scale {
         let times = registration.scale;
-        let why = if (times / INCH - 1.0).abs() < NEAR {
-            ": millimetres taken for inches"
+        let words = if (times / INCH - 1.0).abs() < NEAR {
+            "scaled by 25.4 (millimetres taken for inches)".to_owned()
         } else if (times * INCH - 1.0).abs() < NEAR {
-            ": inches taken for millimetres"
+            "scaled by 1/25.4 (inches taken for millimetres)".to_owned()
         } else {
-            ""
+            format!("scaled by {times:.7}")
         };
-        found.push(change("scaled", Some(times), "1", format!("scaled by {times:.7}{why}")));
+        found.push(change("scaled", Some(times), "1", words));
     }
     if free.turn {
         let turn = registration.turn - TAU * (registration.turn / TAU).round();

@@ -117,6 +117,8 @@ pub enum OutlinePlace {
     Layer(String),
     /// It is the only closed contour of the file, which has nothing on the layer of the outline.
     OnlyContour,
+    /// It is the outermost closed contour on the layer of this name, on which there is more.
+    OutermostOn(String),
     /// It is the outermost of several closed contours of the file, which has nothing on the layer of the outline: the layers it is on.
     Outermost(String),
     /// On other layers than that of the outline, on which there is something else.
@@ -186,13 +188,9 @@ impl Reading {
 
     /// Keeps one of the chains on the layer of the outline; the rest goes to the others.
     fn keep_chain(&mut self, index: usize) {
-        let rest = self.chains.len().saturating_sub(1);
-        let is_hole = around_all(&self.chains) == Some(index);
-        self.remarks.push(if is_hole {
-            format!("{rest} contours inside the outline lie on its layer and are taken for its holes")
-        } else {
-            format!("{rest} more curves lie on the layer of the outline, which is the outermost closed contour")
-        });
+        if let OutlinePlace::Layer(name) = &self.outline {
+            self.outline = OutlinePlace::OutermostOn(name.clone());
+        }
         let own = self.chains.swap_remove(index);
         self.others.extend(std::mem::replace(&mut self.chains, vec![own]));
     }

@@ -148,7 +148,8 @@ fn located(chain: &Chain) -> Text {
     let at = centre(chain);
     let kind = if chain.closed { "" } else { " (open)" };
     let [x, y] = [at.x, at.y].map(|at| Length::mm(at).decimals(3).bare());
-    text!("{} at ({}, {}) {}{}", chain.names(), x, y, &LengthKind::MM, kind)
+    let names = Some(chain.names()).filter(|names| !names.is_empty()).unwrap_or_else(|| "the contour".to_owned());
+    text!("{} at ({}, {}) {}{}", names, x, y, &LengthKind::MM, kind)
 }
 
 /// The centroid of a closed chain, or the middle of the first segment of an open one.

@@ -152,6 +152,13 @@ fn layer(reading: &Reading) -> Finding {
             "the outline lies on layer {own}, and layer {OUTLINE_LAYER} has something else; put the outline on {OUTLINE_LAYER}, or give \
              its layer with --layer"
         )),
+        OutlinePlace::OutermostOn(name) => count(
+            &LAYER,
+            1,
+            1,
+            true,
+            Some(format!("the outermost closed contour on layer {name} is taken for the outline, the others for holes")),
+        ),
         OutlinePlace::Layer(name) => {
             let there = reading.layers.iter().any(|layer| layer.eq_ignore_ascii_case(name));
             let note = (!there).then(|| {
@@ -167,12 +174,12 @@ fn layer(reading: &Reading) -> Finding {
 fn unit(stated: FileUnit, files: LengthUnit) -> Finding {
     let (verdict, note) = match stated {
         FileUnit::Millimetres if files == LengthUnit::Inch => {
-            let why = "in millimetres, and the design has its files in inches";
+            let why = "the file is in millimetres, and the design has its files in inches";
             (Verdict::Warn, Some(why.to_owned()))
         }
         FileUnit::Millimetres => (Verdict::Pass, None),
         FileUnit::Other(INCHES) if files == LengthUnit::Inch => {
-            (Verdict::Pass, Some("in inches, as its design has it".to_owned()))
+            (Verdict::Pass, Some("the file is in inches, as its design has it".to_owned()))
         }
         FileUnit::Unstated => (Verdict::Info, Some("the file states no unit; read as millimetres".to_owned())),
         FileUnit::UnstatedEnglish => {
@@ -181,13 +188,13 @@ fn unit(stated: FileUnit, files: LengthUnit) -> Finding {
         }
         FileUnit::Other(name @ (MANY_UNITS | UNKNOWN_UNIT)) => (
             Verdict::Fail,
-            Some(format!("in {name}: its size is not known; save it in millimetres")),
+            Some(format!("the file is in {name}: its size is not known; save it in millimetres")),
         ),
         FileUnit::Other(name) => (
             Verdict::Warn,
             Some(format!(
-                "in {name}, not in millimetres: converted, and the other checks are of its true size; a program that does not read the unit \
-                 cuts it in the wrong size"
+                "the file is in {name}, not in millimetres; its lengths are converted, and the other checks are of its true size; a program \
+                 that does not read the unit cuts it in the wrong size"
             )),
         ),
     };
