@@ -78,10 +78,16 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
         other => Failure::new(other),
     })?;
     drop(progress);
-    if idle_cutter.is_some() && report.passed() && matches!(FileKind::of(&bytes), FileKind::Dxf) && !report.noun.starts_with(CUTTER_PATH_NOUN) {
+    let is_outline = matches!(FileKind::of(&bytes), FileKind::Dxf) && !report.noun.starts_with(CUTTER_PATH_NOUN);
+    if idle_cutter.is_some() && report.passed() && is_outline {
         return Err(Failure(format!(
             "`{file}` holds the outline of this cam itself, not the path of a cutter's centre: {IDLE_CUTTER}"
         )));
+    }
+    if args.given_cutter().is_some() && is_outline && report.passed() {
+        report.notes.push(
+            "the file holds the outline itself; the cutter only has an effect on the base radius that is chosen".into(),
+        );
     }
     report.sections.push(Section::new("verdict", &FileVerdict::of(&report).key()));
     report.sections.insert(0, Section::new("file", &file));

@@ -451,10 +451,9 @@ fn but(finding: &Finding, units: LengthUnit) -> (String, &'static str) {
         "readable" => {
             ("it has more than curves".into(), "delete or explode the entities that are named, and save the file")
         }
-        "duplicates" => (
-            "some of it would be cut twice".into(),
-            "delete the segments that are named (OVERKILL in AutoCAD)",
-        ),
+        "duplicates" => {
+            ("some of it would be cut twice".into(), "delete the segments that are named (OVERKILL in AutoCAD)")
+        }
         _ => (asked(finding, units), "correct the file"),
     }
 }
@@ -500,7 +499,8 @@ pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> 
     let first = format!("{name} · against {}, {}{}", report.machine, report.noun, report.rpm);
     let lines = [lines_in(&plain(&first), 2, page), joined_line(&[&head, &told_in_head], page), vec![String::new()]];
     let mut blocks = vec![Block { keep: 9, lines: lines.concat() }];
-    for section in report.sections.iter().filter(|section| ["diagnosis", "design", NOT_JUDGED].contains(&&*section.key)) {
+    for section in report.sections.iter().filter(|section| ["diagnosis", "design", NOT_JUDGED].contains(&&*section.key))
+    {
         let label = if section.key == "design" { "design" } else { "evidence" };
         for (index, words) in section.words.iter().enumerate() {
             let text = plain(&words.text.in_unit(units)).into_owned();

@@ -5,9 +5,7 @@ use crate::body::conjugate::COUNTER;
 use crate::body::{Body, Cut, Layer, Request};
 use crate::reading::step::{FaceLoop, FlankShape, SolidForm, StepBoundary, StepFile, StepPlacement};
 use crate::reading::{self, Chain, OutlinePlace, Reading, step};
-use crate::report::{
-    FileVerdict, Finding, Inputs, NOT_JUDGED, Report, ReportLine, Rolled, Section, Verdict, shown,
-};
+use crate::report::{FileVerdict, Finding, Inputs, NOT_JUDGED, Report, ReportLine, Rolled, Section, Verdict, shown};
 use crate::tool_files::dxf::{judge_path, judge_path_as_read, judge_swept};
 use crate::tool_files::section::{CutSection, section};
 use crate::tool_files::{ExpectedFile, JudgedFile, SolvedCam};
@@ -362,7 +360,8 @@ impl Cam {
         let flank = if body.surface().is_some() { FlankShape::Patches } else { FlankShape::Upright };
         let failed = |checks: &[Finding]| checks.iter().any(|finding| finding.verdict == Verdict::Fail);
         let judged = self.judge_solid(file.clone(), flank, (tolerance_mm, motion), request);
-        let mut sections = vec![Section::new("cam", &body.kind().noun), Section::new("rolling", &judged.rolled.first())];
+        let mut sections =
+            vec![Section::new("cam", &body.kind().noun), Section::new("rolling", &judged.rolled.first())];
         if failed(&judged.checks) {
             sections.extend(self.why_another_solid(&file, flank, &judged, (tolerance_mm, motion), request));
         }
@@ -394,8 +393,10 @@ impl Cam {
             return Some(told(format!("It would be this cam {words}: a placement in the file puts it there")));
         }
         // What differs is not the outline: another bore, more holes.
-        let is_outline = judged.checks.iter().any(|finding| finding.check == "outline" && finding.verdict == Verdict::Pass);
-        let lies_there = judged.checks.iter().any(|finding| finding.check == "thickness" && finding.verdict == Verdict::Pass);
+        let is_outline =
+            judged.checks.iter().any(|finding| finding.check == "outline" && finding.verdict == Verdict::Pass);
+        let lies_there =
+            judged.checks.iter().any(|finding| finding.check == "thickness" && finding.verdict == Verdict::Pass);
         if self.body().surface().is_some() || is_outline && lies_there {
             return None;
         }

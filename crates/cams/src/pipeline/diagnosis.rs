@@ -382,7 +382,14 @@ impl Search<'_> {
         self.several(best, &ALONE.map(|free| (Mirror::AboutX, free)));
         self.several(best, &TOGETHER.map(|free| (Mirror::None, free)));
         if self.best() > self.explained() {
-            self.several(best, &TOGETHER.map(|free| (Mirror::AboutY, free)).into_iter().filter(|(_, free)| !free.turn).collect::<Vec<_>>());
+            self.several(
+                best,
+                &TOGETHER
+                    .map(|free| (Mirror::AboutY, free))
+                    .into_iter()
+                    .filter(|(_, free)| !free.turn)
+                    .collect::<Vec<_>>(),
+            );
             self.several(best, &TOGETHER.map(|free| (Mirror::AboutX, free)));
         }
     }

@@ -238,8 +238,7 @@ impl EdgeIndex {
             return found(&middles);
         }
         let (forth, round) = (by_end.near(end), by_start.near(end));
-        let (first, then) =
-            if there.1 + back.1 <= forth.1 + round.1 { (&there, &back) } else { (&forth, &round) };
+        let (first, then) = if there.1 + back.1 <= forth.1 + round.1 { (&there, &back) } else { (&forth, &round) };
         match found(first)? {
             Some(apart) => Ok(Some(apart)),
             None => found(then),

@@ -119,11 +119,11 @@ impl FileVerdict {
         if report.section(NOT_JUDGED).is_some() {
             return Self::NotJudged;
         }
-        let is_outline = report.checks.iter().any(|finding| finding.check == "outline" && finding.verdict == Verdict::Pass);
+        let is_outline =
+            report.checks.iter().any(|finding| finding.check == "outline" && finding.verdict == Verdict::Pass);
         let of_bore = failed.contains(&"bore");
-        let is_beside = failed
-            .iter()
-            .all(|check| BESIDE_THE_OUTLINE.contains(check) || of_bore && OF_A_WRONG_BORE.contains(check));
+        let is_beside =
+            failed.iter().all(|check| BESIDE_THE_OUTLINE.contains(check) || of_bore && OF_A_WRONG_BORE.contains(check));
         if is_outline && is_beside { Self::ThisCamBut } else { Self::NotThisCam }
     }
 

@@ -157,7 +157,9 @@ fn layer(reading: &Reading) -> Finding {
             1,
             1,
             true,
-            Some(format!("the outermost closed contour on layer {name} is taken for the outline, the others for holes")),
+            Some(format!(
+                "the outermost closed contour on layer {name} is taken for the outline, the others for holes"
+            )),
         ),
         OutlinePlace::Layer(name) => {
             let there = reading.layers.iter().any(|layer| layer.eq_ignore_ascii_case(name));
@@ -186,10 +188,9 @@ fn unit(stated: FileUnit, files: LengthUnit) -> Finding {
             let why = "the file states no unit, and its $MEASUREMENT = 0 stands for inches; read as millimetres";
             (Verdict::Warn, Some(why.to_owned()))
         }
-        FileUnit::Other(name @ (MANY_UNITS | UNKNOWN_UNIT)) => (
-            Verdict::Fail,
-            Some(format!("the file is in {name}: its size is not known; save it in millimetres")),
-        ),
+        FileUnit::Other(name @ (MANY_UNITS | UNKNOWN_UNIT)) => {
+            (Verdict::Fail, Some(format!("the file is in {name}: its size is not known; save it in millimetres")))
+        }
         FileUnit::Other(name) => (
             Verdict::Warn,
             Some(format!(
@@ -237,7 +238,9 @@ fn duplicates(evidence: &Evidence<'_>, reading: &Reading) -> Finding {
     let harmless = found > 0 && points == 0 && reading.duplicates_apart <= SAME_SEGMENT;
     let note = first.map(|_| {
         if harmless {
-            format!("{repeated} segments repeat another one exactly: the part is the same, but some programs cut them twice")
+            format!(
+                "{repeated} segments repeat another one exactly: the part is the same, but some programs cut them twice"
+            )
         } else if reading.duplicates_apart.is_finite() && reading.duplicates_apart > SAME_SEGMENT {
             let apart = reading.duplicates_apart;
             format!("{repeated} segments lie on another one, up to {apart:.6} mm away from it, {points} have no length")

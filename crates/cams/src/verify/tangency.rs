@@ -6,9 +6,9 @@
 //! outline and the rolling are within the tolerance nevertheless, or their checks fail.
 
 use super::check::{Evidence, FileCheck, WrittenOutline, place};
-use crate::reading::Reading;
 use crate::body::CORNER_REACH;
 use crate::check::{Check, CheckExplanation, CheckScope};
+use crate::reading::Reading;
 use crate::report::{Bound, Finding, Place, Verdict};
 use camgen_kernel::geometry::contour::{Contour, Vertex};
 use camgen_kernel::profile::followed::LARGEST_SMOOTH_KINK;

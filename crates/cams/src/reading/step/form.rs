@@ -1,8 +1,8 @@
 //! Recognises a boundary as a cam: a shell that closes, two level end faces with their contours, and upright walls between them; for a
 //! conoid, a flank of spline patches.
 
-use super::splines::with_plain_shapes;
 use super::runs::{FaceLoop, arcs, cubic_vertices, end_difference, sweep};
+use super::splines::with_plain_shapes;
 use super::upright::{LevelEdge, SweptSurface, WORK, with_lines_for_splines};
 use super::{StepBoundary, StepCurve, StepEdge, StepFace, StepSurface};
 use camgen_kernel::geometry::contour::{Contour, Vertex};
@@ -97,8 +97,8 @@ struct FormRecognizer<'a> {
 /// Recognises a boundary; places within `reach` (mm) count as one.
 #[must_use]
 pub fn form(boundary: &StepBoundary, flank: FlankShape, reach: f64) -> SolidForm {
-    let straight = (flank == FlankShape::Upright)
-        .then(|| with_lines_for_splines(&with_plain_shapes(boundary, reach), reach));
+    let straight =
+        (flank == FlankShape::Upright).then(|| with_lines_for_splines(&with_plain_shapes(boundary, reach), reach));
     let boundary = straight.as_ref().unwrap_or(boundary);
     let size = boundary.vertices.iter().map(Vector3::norm).fold(0.0, f64::max);
     let uses = vec![Vec::new(); boundary.edges.len()];
@@ -125,7 +125,8 @@ pub fn form(boundary: &StepBoundary, flank: FlankShape, reach: f64) -> SolidForm
     let strange = former.roles.contains(&FaceRole::Strange);
     let unread = (0..boundary.edges.len()).any(|edge| former.is_unread(edge));
     let is_spline = |(role, face): (&FaceRole, &StepFace)| {
-        let is_curved = matches!(face.surface, StepSurface::Spline(_) | StepSurface::Swept { .. } | StepSurface::Other(_));
+        let is_curved =
+            matches!(face.surface, StepSurface::Spline(_) | StepSurface::Swept { .. } | StepSurface::Other(_));
         *role == FaceRole::Strange && is_curved
     };
     former.form.unread_splines = former.roles.iter().zip(&boundary.faces).filter(|of| is_spline(*of)).count()

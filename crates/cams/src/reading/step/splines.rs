@@ -131,11 +131,8 @@ fn cylinder(patch: &NurbsSurface, within: f64) -> Option<(StepSurface, bool)> {
     let stands = |along: Vector3<f64>| along.xy().norm() <= along.z.abs();
     let [point, along_u, along_v] = middle(patch);
     // One parameter goes round, the other up.
-    let points = if stands(along_v) {
-        thirds(u0, u1).map(|u| flat(u, half_v))
-    } else {
-        thirds(v0, v1).map(|v| flat(half_u, v))
-    };
+    let points =
+        if stands(along_v) { thirds(u0, u1).map(|u| flat(u, half_v)) } else { thirds(v0, v1).map(|v| flat(half_u, v)) };
     let (centre, _, radius) = through(points)?;
     let is_on = |u: f64, v: f64| ((flat(u, v) - centre).norm() - radius).abs() <= within;
     if !all_u.iter().all(|u| all_v.iter().all(|v| is_on(*u, *v))) {
