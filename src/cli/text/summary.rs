@@ -2,6 +2,7 @@
 
 use super::{Page, painted_word, wrapped};
 use camgen::document::plain;
+use camgen::pipeline::CUT_BESIDE;
 use camgen::report::{Bound, Fact, FileVerdict, Finding, NOT_JUDGED, Report, Summary, SummaryTable, Topic, Verdict};
 use camgen::text::{KeyChange, Length, Text, significant};
 use camgen::units::LengthUnit;
@@ -400,12 +401,6 @@ fn last(verdict: &str, report: &Report, written: Written, page: Page) -> Vec<Str
 const TOLD_BY_NOTE: [&str; 2] = ["layer", "units"];
 /// What only changes the form of a file.
 const OF_ITS_FORM: [&str; 4] = ["layer", "units", "duplicates", "tangency"];
-/// How the explanation of a diagnosis begins.
-const EXPLAINED: &str = "It would be this cam ";
-/// How the note on a bore names what else would be cut, and what would not.
-const WOULD_BE_CUT: &str = "would be cut and does not belong";
-const IS_MISSING: &str = "is missing";
-
 /// A finding in words; its note alone where the figure is a count of one or nothing, or there is none.
 fn told(finding: &Finding, units: LengthUnit) -> String {
     let note = finding.note.as_ref().map(|note| note.in_unit(units)).filter(|note| !note.is_empty());
@@ -418,29 +413,27 @@ fn told(finding: &Finding, units: LengthUnit) -> String {
 }
 
 /// In a few words why the outline is that of the cam but the file is not, and what to do.
-fn but(finding: &Finding, units: LengthUnit) -> (String, &'static str) {
-    let note = finding.note.as_ref().map_or_else(String::new, |note| note.in_unit(units));
+fn but(finding: &Finding, report: &Report) -> (String, &'static str) {
+    let beside = report.section(CUT_BESIDE);
+    let count = |key: &str| beside.and_then(|beside| beside.get(key)?.as_u64()).unwrap_or(0);
+    let is_hidden = beside.and_then(|beside| beside.get("hidden")?.as_bool()).unwrap_or(false);
     match &*finding.check {
-        "bore" => {
-            let more = note.matches(WOULD_BE_CUT).count();
-            if more > 0 && note.contains(IS_MISSING) {
-                ("more and less would be cut".into(), "correct the file: its bore is missing, and more would be cut")
-            } else if more > 0 {
+        "bore" => match (count("more"), count("missing")) {
+            (0, 0) => (
+                "its bore is another one".into(),
+                "correct the bore of the file; if the file is right: set cam.bore_radius, cam.keyway and cam.balance as in it",
+            ),
+            (0, _) => ("its bore would not be cut".into(), "add the bore to the file, or bore it in another operation"),
+            (more, 0) => {
                 let things = if more == 1 { "thing" } else { "things" };
                 (
                     format!("{more} {things} more would be cut"),
                     "if wanted: draw it on a layer that is not cut, or cut layers CAM_PROFILE and BORE only",
                 )
-            } else if note.contains(IS_MISSING) {
-                ("its bore would not be cut".into(), "add the bore to the file, or bore it in another operation")
-            } else {
-                (
-                    "its bore is another one".into(),
-                    "correct the bore of the file; if the file is right: set cam.bore_radius, cam.keyway and cam.balance as in it",
-                )
             }
-        }
-        "layer" if note.contains("off or frozen") => {
+            _ => ("more and less would be cut".into(), "correct the file: its bore is missing, and more would be cut"),
+        },
+        "layer" if is_hidden => {
             ("its outline lies on a layer that is off".into(), "switch the layer on, and save the file")
         }
         "layer" => (
@@ -454,7 +447,7 @@ fn but(finding: &Finding, units: LengthUnit) -> (String, &'static str) {
         "duplicates" => {
             ("some of it would be cut twice".into(), "delete the segments that are named (OVERKILL in AutoCAD)")
         }
-        _ => (asked(finding, units), "correct the file"),
+        _ => (asked(finding, report.units), "correct the file"),
     }
 }
 
@@ -476,17 +469,13 @@ pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> 
         format!("outline within {} of the exact cam{limit}", outline.brief_value(units))
     });
     let diagnosis = report.sections.iter().find(|section| section.key == "diagnosis");
-    let explained = diagnosis.and_then(|section| {
-        let words = section.words.first()?.text.in_unit(units);
-        let cause = words.strip_prefix(EXPLAINED)?.split(": ").next()?;
-        Some(format!("it would be this cam {cause}"))
-    });
+    let explained = diagnosis.and_then(|section| named_cause(&section.value));
     let (head, told_in_head) = match (verdict, summary.failed.first(), within) {
         (FileVerdict::ThisCamBut, Some(failed), within) => {
             // What a shop would cut is asked first.
             let named = |check: &str| summary.failed.iter().find(|finding| finding.check == check);
             let first = named("layer").or_else(|| named("bore")).unwrap_or(failed);
-            (format!("{word} {}", but(first, units).0), within.unwrap_or_default())
+            (format!("{word} {}", but(first, report).0), within.unwrap_or_default())
         }
         (FileVerdict::NotThisCam, Some(failed), _) => {
             (word.to_owned(), explained.unwrap_or_else(|| asked_or_told(failed, units)))
@@ -518,7 +507,7 @@ pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> 
         // Its bore makes them fail.
         let follows = matches!(&*finding.check, "holes" | "volume");
         if verdict == FileVerdict::ThisCamBut && finding.verdict == Verdict::Fail && !follows {
-            blocks.push(Block { keep: 7, lines: labelled("remedy", but(finding, units).1, page) });
+            blocks.push(Block { keep: 7, lines: labelled("remedy", but(finding, report).1, page) });
         }
     }
     let judged_right = |finding: &&Finding| matches!(finding.verdict, Verdict::Pass | Verdict::Info);
@@ -541,6 +530,16 @@ pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> 
     blocks.push(blank());
     blocks.push(Block { keep: 9, lines: joined_line(&[word, last], page) });
     fitted(blocks, HEIGHT).into_iter().map(|line| line + "\n").collect()
+}
+
+/// "cause: offset, 8.000 mm", the first one of a diagnosis.
+fn named_cause(diagnosis: &serde_json::Value) -> Option<String> {
+    let first = diagnosis.get(0)?;
+    let cause = first.get("cause")?.as_str()?;
+    let unit = first.get("unit").and_then(serde_json::Value::as_str).filter(|unit| *unit != "1").unwrap_or_default();
+    let value = first.get("value").and_then(serde_json::Value::as_f64);
+    let value = value.map_or_else(String::new, |value| format!(", {} {unit}", significant(value, 4)));
+    Some(format!("cause: {cause}{}", value.trim_end()))
 }
 
 /// The distance by which a diagnosis finds an outline offset outward and nothing else, mm.

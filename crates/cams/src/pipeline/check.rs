@@ -16,7 +16,10 @@ use camgen_kernel::profile::outline::MotionTolerance;
 use camgen_kernel::refusal::Refusal;
 use camgen_kernel::text::Text;
 use nalgebra::{Matrix3, Vector3};
+use serde::Serialize;
 
+/// The section of a report on a drawing with how what would be cut differs from the part.
+pub const CUT_BESIDE: &str = "cut_beside";
 /// How the noun of a report begins on a file with the path of a cutter's centre.
 pub const CUTTER_PATH_NOUN: &str = "path of a cutter";
 /// A contour whose extents are nearer to those of the cam than this many tolerances is compared with it, wherever it lies in its file.
@@ -315,16 +318,21 @@ impl Cam {
         };
         let outlines: Vec<WrittenOutline> = readings.iter().enumerate().filter_map(outline).collect();
         let rolled = rolling::roll_all(body, &outlines, tolerance_mm);
-        let checks = verify::run(&Evidence {
+        let evidence = Evidence {
             outlines: &outlines,
             rolled: &rolled,
             foreign: readings,
             strict: request.strict,
             ..Evidence::without_files(body, tolerance_mm, motion)
-        });
+        };
+        let checks = verify::run(&evidence);
+        let [more, missing] = verify::counted_beside(&evidence).unwrap_or_default();
+        let hidden = readings.iter().any(|reading| matches!(reading.outline, OutlinePlace::Hidden(_)));
+        let beside = CutBeside { more, missing, hidden };
         let mut sections = vec![Section::new("cam", &body.kind().noun)];
         sections.extend(section.map(|section| Section::new("section", &section)));
         sections.push(Section::new("rolling", &rolled.first()));
+        sections.push(Section::new(CUT_BESIDE, &beside));
         let found = outlines.first().map(|outline| &outline.contour);
         sections.extend(diagnosis::of(
             self,
@@ -464,6 +472,17 @@ impl Cam {
         });
         SolidJudgement { form: solid.form, outlines, checks, rolled }
     }
+}
+
+/// How what a file would cut differs from the part, apart from the outline.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct CutBeside {
+    /// Contours that are not the part.
+    more: usize,
+    /// Contours of the part that are missing.
+    missing: usize,
+    /// Whether the outline lies on a layer that is off or frozen.
+    hidden: bool,
 }
 
 /// What was found of a solid.

@@ -378,18 +378,15 @@ impl Search<'_> {
         if best <= self.explained() {
             return;
         }
-        self.several(best, &ALONE.map(|free| (Mirror::AboutY, free)));
+        // With a turn the two mirror images are one.
+        let about_y = |all: &[FreeParameters]| -> Vec<(Mirror, FreeParameters)> {
+            all.iter().filter(|free| !free.turn).map(|free| (Mirror::AboutY, *free)).collect()
+        };
+        self.several(best, &about_y(&ALONE));
         self.several(best, &ALONE.map(|free| (Mirror::AboutX, free)));
         self.several(best, &TOGETHER.map(|free| (Mirror::None, free)));
         if self.best() > self.explained() {
-            self.several(
-                best,
-                &TOGETHER
-                    .map(|free| (Mirror::AboutY, free))
-                    .into_iter()
-                    .filter(|(_, free)| !free.turn)
-                    .collect::<Vec<_>>(),
-            );
+            self.several(best, &about_y(&TOGETHER));
             self.several(best, &TOGETHER.map(|free| (Mirror::AboutX, free)));
         }
     }

@@ -22,7 +22,7 @@ pub(super) const CHECK: FileCheck = FileCheck {
         unit: "deg",
         about: "The largest kink between neighbouring arcs and lines of the outline. Controls and shops treat up to 0.05° as smooth; \
                 more leaves a mark on the metal and knocks the follower. Of a checked file whose vertices are rounded to a few decimals, \
-                kinks up to 0.25° are a warning where the rounding explains them.",
+                kinks up to 0.5° are a warning where the rounding explains them.",
         explained: CheckExplanation {
             bound: Bound::AtMost,
             formula: "the angle between the tangents on both sides of a joint",
@@ -38,7 +38,7 @@ const DECIMALS: [i32; 4] = [3, 4, 5, 6];
 /// A coordinate is on a grid within this share of its width.
 const ON_GRID: f64 = 1e-3;
 /// Rounding explains no larger kink than this, degrees.
-const MOST_ROUNDED: f64 = 0.25;
+const MOST_ROUNDED: f64 = 0.5;
 /// An outline of fewer vertices may be on a grid by design.
 const ENOUGH: usize = 8;
 
