@@ -245,7 +245,7 @@ impl Cam {
         };
         let tolerance = quantity("tolerance", tolerance, "m", parse::tolerance)?;
         let cutter = quantity("cutter_diameter", cutter_diameter, "m", parse::cutter_diameter)?.or(self.cutter_radius);
-        let expected = ExpectedFile { layer, section: section_rpm, cut: None, cutter };
+        let expected = ExpectedFile { layer, section: section_rpm, cut: None, cutter, cutter_is_recorded: false };
         let request = Request::within(tolerance.unwrap_or(Accuracy::default().tolerance()));
         let found = ok(py.detach(|| self.assembly.first().check_file(&bytes, &expected, request)))?;
         report(py, &found)

@@ -14,14 +14,17 @@ use camgen::domains::press::SpecOfPress;
 use camgen::domains::press::motion::equation_18::Solver;
 use camgen::domains::press::wedge::LAW_TOLERANCE;
 use camgen::machine::{Machine, UNITS_KEY};
-use camgen::pipeline::{Cam, Error, ExpectedFile, FileKind, Spec};
+use camgen::pipeline::{CUTTER_PATH_NOUN, Cam, Error, ExpectedFile, FileKind, Spec};
 use camgen::profile::outline::Fit;
 use camgen::reading::LARGEST_FILE;
-use camgen::report::{Report, Section, Speeds};
+use camgen::report::{FileVerdict, Report, Section, Speeds};
 use camgen::units::LengthUnit;
 use camgen::write::json;
 use camgen::write::record::{self, RecordedRun};
 use std::path::Path;
+
+/// What is wrong with a cutter that changes nothing.
+const IDLE_CUTTER: &str = "--cutter-radius and --cutter-diameter have no effect; leave them out";
 
 pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
     let bytes = read(&args.file)?;
@@ -38,7 +41,8 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
         layer: args.layer.as_deref(),
         section: args.section.or_else(|| design.recorded.as_ref().and_then(|run| section_of(&args.file, run))),
         cut: None,
-        cutter: args.cutter_radius.or(args.cutter_diameter).or(recorded_cutter),
+        cutter: args.given_cutter().or(recorded_cutter),
+        cutter_is_recorded: args.given_cutter().is_none(),
     };
     let Design { spec, told, recorded, exact } = design;
     let in_units = |spec: Spec| match args.units.or_else(|| recorded_units(&args.file)) {
@@ -49,6 +53,11 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
     let progress = Progress::of_stages(args.common.report.shows_progress());
     progress.stage("solving");
     let machine = spec.machine().clone();
+    // A base radius that is chosen depends on the cutter.
+    let idle_cutter = args.given_cutter().filter(|_| machine.cam.base_radius.is_some());
+    if idle_cutter.is_some() && matches!(FileKind::of(&bytes), FileKind::Step) {
+        return Err(Failure(format!("`{file}` is a solid, not the path of a cutter: {IDLE_CUTTER}")));
+    }
     let cam = spec.solve().map_err(Failure::new)?;
     if let Some(run) = recorded.filter(|run| exact && !cam.is_made_from(&run.inputs)) {
         return Err(Failure(format!(
@@ -69,6 +78,18 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
         other => Failure::new(other),
     })?;
     drop(progress);
+    let is_outline = matches!(FileKind::of(&bytes), FileKind::Dxf) && !report.noun.starts_with(CUTTER_PATH_NOUN);
+    if idle_cutter.is_some() && report.passed() && is_outline {
+        return Err(Failure(format!(
+            "`{file}` holds the outline of this cam itself, not the path of a cutter's centre: {IDLE_CUTTER}"
+        )));
+    }
+    if args.given_cutter().is_some() && is_outline && report.passed() {
+        report.notes.push(
+            "the file holds the outline itself; the cutter only has an effect on the base radius that is chosen".into(),
+        );
+    }
+    report.sections.push(Section::new("verdict", &FileVerdict::of(&report).key()));
     report.sections.insert(0, Section::new("file", &file));
     if let Some(told) = told {
         report.sections.insert(1, Section::new("design", &told).with_words(vec![told]));
@@ -164,10 +185,15 @@ fn design(args: &CheckArgs, bytes: &[u8]) -> Result<Design, Failure> {
 }
 
 impl CheckArgs {
+    /// The radius of the cutter that the flags give, m.
+    fn given_cutter(&self) -> Option<f64> {
+        self.cutter_radius.or(self.cutter_diameter)
+    }
+
     /// The machine of a file with the overrides and the given cutter: a size `auto` becomes the one that `make` chooses for this cutter.
     pub(super) fn machine_of(&self, name: &str) -> Result<(Machine, String), Failure> {
         let (mut machine, name) = self.common.machine_of(name)?;
-        if let Some(radius) = self.cutter_radius.or(self.cutter_diameter) {
+        if let Some(radius) = self.given_cutter() {
             machine.ask_for_cutter(radius);
         }
         Ok((machine, name))

@@ -123,7 +123,14 @@ fn painted_word(line: &str, page: Page) -> String {
     if !page.colour {
         return line.to_owned();
     }
-    for (word, paint) in [("FAIL", RED), ("NOT THIS CAM", RED), ("PASS", GREEN), ("THIS CAM", GREEN)] {
+    for (word, paint) in [
+        ("FAIL", RED),
+        ("NOT THIS CAM", RED),
+        ("NOT JUDGED", RED),
+        ("THIS CAM, BUT", YELLOW),
+        ("PASS", GREEN),
+        ("THIS CAM", GREEN),
+    ] {
         if let Some((before, behind)) = line.split_once(word) {
             return format!("{before}{paint}{word}{PLAIN}{behind}");
         }

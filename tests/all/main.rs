@@ -15,6 +15,7 @@ mod analyses;
 mod architecture;
 mod arcs;
 mod as_made;
+mod as_returned;
 mod barrels;
 mod bounds;
 #[cfg(feature = "printing")]

@@ -170,9 +170,9 @@ fn what_else_would_be_cut_is_named_with_its_layer_and_place() {
     ] {
         fails(&with(&format!("{BORE}\n{more}")), "bore", &[words]);
     }
-    // A second copy is what it always was.
-    fails(&with(&format!("{BORE}\n{BORE}")), "duplicates", &["lie on another one"]);
-    fails(&with(&format!("{BORE}\n{}", polyline(&outline(), "0", ""))), "duplicates", &[]);
+    // An exact second copy is the same part.
+    passes(&with(&format!("{BORE}\n{BORE}")), "a bore twice");
+    passes(&with(&format!("{BORE}\n{}", polyline(&outline(), "0", ""))), "an outline twice");
 }
 
 #[test]

@@ -471,7 +471,8 @@ fn every_check_is_run_for_some_cam() {
         "follower.roller.bearing.dynamic_rating=20kN",
         "follower.roller.bearing.inertia=0.00002kg*m2",
     ];
-    let hub = lifter(LIFTER, &["cam.hub.diameter=30mm", "cam.hub.length=10mm", "cam.thickness=12mm"]).solve().expect("a cam");
+    let hub =
+        lifter(LIFTER, &["cam.hub.diameter=30mm", "cam.hub.length=10mm", "cam.thickness=12mm"]).solve().expect("a cam");
     reports.extend(reports_on_files(&hub));
     let moving = lifter(LIFTER, &dynamics).solve().expect("a cam");
     reports.push(("lifter with spring, guide and train".into(), report_of(&moving)));

@@ -4,8 +4,9 @@ The exact outline is a file camgen wrote a thousand times finer than the toleran
 files). It is walked here by arc length, deformed along its normal by known amounts, and written as biarcs, lines or splines by
 a DXF writer of its own; whatever else would be cut is added, moved or taken away. Each class of fault has a generator; a
 file counts as wrong when it is by construction at least 1.01 tolerances off (or not one simple loop, or not this part), as
-right when it stays within 0.99 of it with kinks of at most 0.05 degrees. A right file in inches or centimetres must fail by its unit
-alone. Solids are moved, turned and doubled by OpenCASCADE, which also says where they lie.
+right when it stays within 0.99 of it with kinks of at most 0.05 degrees, or kinks that rounding to a few decimals explains. Other layers
+and blocks, exact doubles and units that are stated rightly leave a file right; a right file in inches or centimetres must pass with a
+warning on its unit alone. Solids are moved, turned and doubled by OpenCASCADE, which also says where they lie.
 
 usage: adversary.py CAMGEN_BINARY DIRECTORY [--wrong N] [--right N] [--units N] [--solids N]
                     [--seed N] [--jobs N]
@@ -100,7 +101,7 @@ def wrong(case, rng):
     plain = lambda: put(drawing, case.vertices, rng, how="lw")
     holes = case.draw_holes
     kinds = ["bump", "bump", "bump", "slot", "fin", "loop", "backtrack", "step", "moved", "open", "stray", "block",
-             "height", "width", "unit", "second", "kink", "inverted", "lost", "misreversed", "decimals", "layer", "wrong-unit"]
+             "height", "width", "unknown-unit", "second", "hidden", "frame", "grid", "elsewhere", "kink", "inverted", "lost", "misreversed", "decimals", "layer", "wrong-unit"]
     if case.kind == "rotary":
         kinds += ["hole", "hole", "through", "none", "chords"]
     kind = rng.choice(kinds)
@@ -230,11 +231,43 @@ def wrong(case, rng):
         w = rng.choice([3.0, 0.5])
         extra = [(43, w)]
         drawing.poly("CAM_PROFILE", case.vertices.tolist(), extra=extra)
-    elif kind == "unit":
-        title = "inches"
-        drawing.unit = rng.choice([1, 5, 6])
+    elif kind == "unknown-unit":
+        title = "a unit whose size is not known"
+        drawing.unit = rng.choice([3, 7, 11, 17, 21])
         plain()
         holes(drawing)
+    elif kind == "hidden":
+        # A shop would not cut it, with or without a contour that it would cut.
+        layer = rng.choice(["CAM_PROFILE", "CONTOUR"])
+        title = f"outline on hidden layer {layer}"
+        put(drawing, case.vertices, rng, how="lw", layer=layer)
+        drawing.layers = {layer: rng.choice([(-3, 0), (3, 1)])}
+        holes(drawing)
+        if rng.random() < 0.4:
+            put(drawing, transformed(case.vertices, factor=0.9), rng, how="lw", layer="0")
+    elif kind == "frame":
+        title = "a closed contour around the outline"
+        reach = 1.3 * np.abs(case.vertices[:, :2]).max()
+        put(drawing, case.vertices, rng, how="lw", layer=rng.choice(["CAM_PROFILE", "0"]))
+        holes(drawing)
+        corners = [(-reach, -reach, 0.0), (reach, -reach, 0.0), (reach, reach, 0.0), (-reach, reach, 0.0)]
+        drawing.poly(rng.choice(["0", "FRAME", "CAM_PROFILE"]), corners)
+    elif kind == "grid":
+        # On a grid of a tenth of the tolerance and less, with one vertex off by more than that.
+        decimals = max(3, int(math.ceil(-math.log10(0.1 * tolerance))))
+        a = amount(rng, tolerance, 1.3, 20)
+        vertices = np.array(case.vertices)
+        index = rng.randrange(len(vertices))
+        vertices[index, :2] *= 1 + a / np.hypot(*vertices[index, :2])
+        title = f"{decimals} decimals, a vertex off by {a / tolerance:.2f} tol"
+        put(drawing, np.column_stack([np.round(vertices[:, :2], decimals), vertices[:, 2]]), rng, how="lw")
+        holes(drawing)
+    elif kind == "elsewhere":
+        # The outline on another layer, and something else where it should be.
+        title = "something else on the layer of the outline"
+        put(drawing, case.vertices, rng, how="lw", layer="CONTOUR")
+        holes(drawing)
+        drawing.circle("CAM_PROFILE", (0.0, 0.0), case.bore * rng.uniform(0.2, 0.8))
     elif kind == "wrong-unit":
         # Inches called centimetres, and so on: the size is wrong.
         unit, factor = rng.choice([(1, 10.0), (5, 25.4), (6, 25.4), (4, 25.4), (4, 10.0), (0, 25.4)])
@@ -254,7 +287,7 @@ def wrong(case, rng):
         put(drawing, rounded, rng, how="lw")
         holes(drawing)
     elif kind == "layer":
-        # On another layer, beside holes: which contour is meant is not known.
+        # On another layer, and more than the part would be cut.
         title = "layer of another name"
         put(drawing, case.vertices, rng, how="lw", layer=rng.choice(["0", "CONTOUR", "CAM_PROFIL"]))
         holes(drawing)
@@ -262,8 +295,9 @@ def wrong(case, rng):
     elif kind == "second":
         plain()
         holes(drawing)
-        title = "the outline twice"
-        put(drawing, case.vertices, rng, how="lw", layer=rng.choice(["CAM_PROFILE", "0"]))
+        by = rng.choice([max(0.05 * tolerance, 1e-5), 0.5 * tolerance, 30 * tolerance])
+        title = f"the outline twice, {by / tolerance:.2f} tol apart"
+        put(drawing, transformed(case.vertices, shift=(by, 0.0)), rng, how="lw", layer=rng.choice(["CAM_PROFILE", "0"]))
     elif kind == "hole":
         plain()
         how = rng.choice(["moved", "wider", "scaled"] + (["turned"] if case.keyway else []))
@@ -316,7 +350,7 @@ def misbulged(vertices, kind, rng):
     return wrong
 
 
-# ---- right files in other units: refused by the unit alone
+# ---- right files in other units: a warning on the unit
 
 
 def in_units(case, rng):
@@ -354,7 +388,7 @@ def right(case, rng):
     tolerance, exact = case.tolerance, case.exact
     drawing = Drawing()
     holes_done = False
-    kinds = ["own", "insert", "information", "reversed"]
+    kinds = ["own", "insert", "information", "reversed", "doubled", "layers", "one-layer", "blocks", "grid"]
     if case.kind == "rotary":
         kinds += ["biarcs", "biarcs", "wave", "wave", "lines", "spline", "rounded"]
     kind = rng.choice(kinds)
@@ -410,6 +444,30 @@ def right(case, rng):
         drawing.poly(rng.choice(["0", "CAM_PROFILE"]), transformed(case.vertices, shift=(-7.5, 3.25)).tolist(), block="CAM")
         drawing.entity("INSERT", "CAM_PROFILE", (2, "CAM"), (10, 7.5), (20, -3.25))
         drawing.layers = {"CAM_PROFILE": (7, 0)}
+    elif kind == "doubled":
+        put(drawing, case.vertices, rng, how="lw")
+        put(drawing, case.vertices, rng, how=rng.choice(["lw", "reversed"]), layer=rng.choice(["CAM_PROFILE", "0"]))
+    elif kind == "layers":
+        # Without the layer of the outline the outermost contour is it; names of layers have no capitals.
+        layer = rng.choice(["0", "CONTOUR", "cam_profile"])
+        title = f"outline on layer {layer}"
+        put(drawing, case.vertices, rng, how=rng.choice(["lw", "exploded"]), layer=layer)
+        case.draw_holes(drawing, layer=rng.choice(["bore", "0", layer]))
+        holes_done = True
+    elif kind == "one-layer":
+        put(drawing, case.vertices, rng, how="lw")
+        case.draw_holes(drawing, layer="CAM_PROFILE")
+        holes_done = True
+    elif kind == "blocks":
+        drawing.poly("0", transformed(case.vertices, shift=(-7.5, 3.25)).tolist(), block="CAM")
+        drawing.entity("INSERT", rng.choice(["0", "PARTS"]), (2, "CAM"), (10, 7.5), (20, -3.25))
+    elif kind == "grid":
+        # The exact outline is short of segments that rounding kinks by more than it explains.
+        shortest = np.hypot(*np.diff(case.vertices[:, :2], axis=0).T).min()
+        width = min(0.1 * tolerance, 5e-4 * shortest)
+        decimals = max(3, int(math.ceil(-math.log10(width))))
+        title = f"vertices with {decimals} decimals"
+        put(drawing, np.column_stack([np.round(case.vertices[:, :2], decimals), case.vertices[:, 2]]), rng, how="lw")
     elif kind == "information":
         put(drawing, case.vertices, rng, how="lw")
         drawing.layers = {"OFF": (-3, 0), "FROZEN": (3, 1), "CAM_PROFILE": (7, 0)}
@@ -431,10 +489,10 @@ def judge(binary, directory, case, number, kind, seed):
     path = directory / f"{kind}-{number % 64}-{number}.dxf"
     path.write_text(text)
     run = subprocess.run([binary, case.check[0], str(path), *case.check[1:], "--json"], capture_output=True, text=True)
-    expected = 0 if kind == "right" else 1
+    expected = 1 if kind == "wrong" else 0
     good = run.returncode == expected
     if good and kind == "units":
-        good = [c["check"] for c in json.loads(run.stdout)["checks"] if c["verdict"] == "fail"] == ["units"]
+        good = [c["check"] for c in json.loads(run.stdout)["checks"] if c["verdict"] == "warn" and c["check"] == "units"] == ["units"]
     said = ""
     if not good:
         kept = directory / "kept"

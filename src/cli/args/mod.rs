@@ -307,7 +307,7 @@ pub(super) struct CheckArgs {
     #[arg(long, value_name = "FORMAT", default_value = "text", ignore_case = true)]
     pub(super) format: ReportFormat,
 
-    /// Layer of the outline in a DXF file [default: CAM_PROFILE; without that layer the only closed contour]
+    /// Layer of the outline in a DXF file [default: CAM_PROFILE; without that layer the outermost closed contour]
     #[arg(long, value_name = "NAME")]
     pub(super) layer: Option<String>,
 

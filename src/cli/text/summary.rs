@@ -2,7 +2,8 @@
 
 use super::{Page, painted_word, wrapped};
 use camgen::document::plain;
-use camgen::report::{Bound, Fact, FileVerdict, Finding, Report, Summary, SummaryTable, Topic, Verdict};
+use camgen::pipeline::CUT_BESIDE;
+use camgen::report::{Bound, Fact, FileVerdict, Finding, NOT_JUDGED, Report, Summary, SummaryTable, Topic, Verdict};
 use camgen::text::{KeyChange, Length, Text, significant};
 use camgen::units::LengthUnit;
 
@@ -396,30 +397,99 @@ fn last(verdict: &str, report: &Report, written: Written, page: Page) -> Vec<Str
     joined_line(&[verdict, may_be_cut, &told], page)
 }
 
+/// Checks whose figure is a count of one or nothing: their note is the finding.
+const TOLD_BY_NOTE: [&str; 2] = ["layer", "units"];
+/// What only changes the form of a file.
+const OF_ITS_FORM: [&str; 4] = ["layer", "units", "duplicates", "tangency"];
+/// A finding in words; its note alone where the figure is a count of one or nothing, or there is none.
+fn told(finding: &Finding, units: LengthUnit) -> String {
+    let note = finding.note.as_ref().map(|note| note.in_unit(units)).filter(|note| !note.is_empty());
+    let by_note = TOLD_BY_NOTE.contains(&&*finding.check) || finding.check == "bore" && !finding.value.is_finite();
+    match note {
+        Some(note) if by_note => note,
+        Some(note) => format!("{}: {note}", asked(finding, units)),
+        None => asked(finding, units),
+    }
+}
+
+/// In a few words why the outline is that of the cam but the file is not, and what to do.
+fn but(finding: &Finding, report: &Report) -> (String, &'static str) {
+    let beside = report.section(CUT_BESIDE);
+    let count = |key: &str| beside.and_then(|beside| beside.get(key)?.as_u64()).unwrap_or(0);
+    let is_hidden = beside.and_then(|beside| beside.get("hidden")?.as_bool()).unwrap_or(false);
+    match &*finding.check {
+        "bore" => match (count("more"), count("missing")) {
+            (0, 0) => (
+                "its bore is another one".into(),
+                "correct the bore of the file; if the file is right: set cam.bore_radius, cam.keyway and cam.balance as in it",
+            ),
+            (0, _) => ("its bore would not be cut".into(), "add the bore to the file, or bore it in another operation"),
+            (more, 0) => {
+                let things = if more == 1 { "thing" } else { "things" };
+                (
+                    format!("{more} {things} more would be cut"),
+                    "if wanted: draw it on a layer that is not cut, or cut layers CAM_PROFILE and BORE only",
+                )
+            }
+            _ => ("more and less would be cut".into(), "correct the file: its bore is missing, and more would be cut"),
+        },
+        "layer" if is_hidden => {
+            ("its outline lies on a layer that is off".into(), "switch the layer on, and save the file")
+        }
+        "layer" => (
+            "its outline lies on another layer".into(),
+            "put the outline on CAM_PROFILE and delete the rest of that layer, or give --layer",
+        ),
+        "units" => ("its unit is not known".into(), "save the file in millimetres"),
+        "readable" => {
+            ("it has more than curves".into(), "delete or explode the entities that are named, and save the file")
+        }
+        "duplicates" => {
+            ("some of it would be cut twice".into(), "delete the segments that are named (OVERKILL in AutoCAD)")
+        }
+        _ => (asked(finding, report.units), "correct the file"),
+    }
+}
+
 /// The summary of a checked file: whether it is the cam, and why not.
 pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> String {
     let summary = Summary::of(report);
     let units = report.units;
-    let (word, last) = match FileVerdict::of(report) {
+    let verdict = FileVerdict::of(report);
+    let (word, last) = match verdict {
         FileVerdict::ThisCam => ("THIS CAM", "may be cut"),
         FileVerdict::ThisCamBut => ("THIS CAM, BUT", "not as it is · exit code 1"),
+        FileVerdict::NotJudged => ("NOT JUDGED", "do not cut it unseen · exit code 1"),
         FileVerdict::NotThisCam => ("NOT THIS CAM", "do not cut"),
     };
-    let outline = report.checks.iter().find(|finding| finding.check == "outline" && finding.verdict == Verdict::Pass);
-    let told = match (summary.failed.first(), outline) {
-        (Some(failed), _) => asked(failed, units),
-        (None, Some(outline)) => format!(
-            "outline within {} of the exact cam{}",
-            outline.brief_value(units),
-            outline.brief_limit(units).map_or_else(String::new, |limit| format!(" ({limit} allowed)"))
-        ),
-        (None, None) => format!("{} checks pass", summary.judged),
+    let is_outline = |finding: &&Finding| matches!(&*finding.check, "outline" | "cutter_path");
+    let outline = report.checks.iter().filter(is_outline).find(|finding| finding.verdict == Verdict::Pass);
+    let within = outline.map(|outline| {
+        let limit = outline.brief_limit(units).map_or_else(String::new, |limit| format!(" ({limit} allowed)"));
+        format!("outline within {} of the exact cam{limit}", outline.brief_value(units))
+    });
+    let diagnosis = report.sections.iter().find(|section| section.key == "diagnosis");
+    let explained = diagnosis.and_then(|section| named_cause(&section.value));
+    let (head, told_in_head) = match (verdict, summary.failed.first(), within) {
+        (FileVerdict::ThisCamBut, Some(failed), within) => {
+            // What a shop would cut is asked first.
+            let named = |check: &str| summary.failed.iter().find(|finding| finding.check == check);
+            let first = named("layer").or_else(|| named("bore")).unwrap_or(failed);
+            (format!("{word} {}", but(first, report).0), within.unwrap_or_default())
+        }
+        (FileVerdict::NotThisCam, Some(failed), _) => {
+            (word.to_owned(), explained.unwrap_or_else(|| asked_or_told(failed, units)))
+        }
+        (_, Some(failed), _) => (word.to_owned(), asked_or_told(failed, units)),
+        (_, None, Some(within)) => (word.to_owned(), within),
+        (_, None, None) => (word.to_owned(), format!("{} checks pass", summary.judged)),
     };
     let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
     let first = format!("{name} · against {}, {}{}", report.machine, report.noun, report.rpm);
-    let lines = [lines_in(&plain(&first), 2, page), joined_line(&[word, &told], page), vec![String::new()]].concat();
-    let mut blocks = vec![Block { keep: 9, lines }];
-    for section in report.sections.iter().filter(|section| section.key == "diagnosis" || section.key == "design") {
+    let lines = [lines_in(&plain(&first), 2, page), joined_line(&[&head, &told_in_head], page), vec![String::new()]];
+    let mut blocks = vec![Block { keep: 9, lines: lines.concat() }];
+    for section in report.sections.iter().filter(|section| ["diagnosis", "design", NOT_JUDGED].contains(&&*section.key))
+    {
         let label = if section.key == "design" { "design" } else { "evidence" };
         for (index, words) in section.words.iter().enumerate() {
             let text = plain(&words.text.in_unit(units)).into_owned();
@@ -427,10 +497,29 @@ pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> 
         }
     }
     for (index, finding) in summary.failed.iter().chain(&summary.warnings).enumerate() {
-        let note = finding.note.as_ref().map_or_else(String::new, |note| format!(": {}", note.in_unit(units)));
-        let text = plain(&format!("{}{note}", asked(finding, units))).into_owned();
-        let label = if finding.verdict == Verdict::Fail { "wrong" } else { "warning" };
+        let text = plain(&told(finding, units)).into_owned();
+        let label = match finding.verdict {
+            Verdict::Fail => "wrong",
+            _ if OF_ITS_FORM.contains(&&*finding.check) => "note",
+            _ => "warning",
+        };
         blocks.push(Block { keep: if index < 2 { 8 } else { 6 }, lines: labelled(label, &text, page) });
+        // Its bore makes them fail.
+        let follows = matches!(&*finding.check, "holes" | "volume");
+        if verdict == FileVerdict::ThisCamBut && finding.verdict == Verdict::Fail && !follows {
+            blocks.push(Block { keep: 7, lines: labelled("remedy", but(finding, report).1, page) });
+        }
+    }
+    let judged_right = |finding: &&Finding| matches!(finding.verdict, Verdict::Pass | Verdict::Info);
+    for finding in report.checks.iter().filter(judged_right).filter(|finding| OF_ITS_FORM.contains(&&*finding.check)) {
+        if let Some(note) = finding.note.as_ref().map(|note| note.in_unit(units)).filter(|note| !note.is_empty()) {
+            blocks.push(Block { keep: 6, lines: labelled("note", &plain(&note), page) });
+        }
+    }
+    if let Some(radius) = diagnosis.and_then(|section| offset_outward(&section.value)) {
+        let radius = significant(radius, 4);
+        let words = format!("the path of the centre of a cutter: then check it with --cutter-radius {radius}mm");
+        blocks.push(Block { keep: 8, lines: labelled("likely", &words, page) });
     }
     let passed: Vec<String> =
         report.checks.iter().filter(|finding| finding.verdict == Verdict::Pass).map(Finding::title).collect();
@@ -441,6 +530,28 @@ pub(in crate::cli) fn check_summary(file: &str, report: &Report, page: Page) -> 
     blocks.push(blank());
     blocks.push(Block { keep: 9, lines: joined_line(&[word, last], page) });
     fitted(blocks, HEIGHT).into_iter().map(|line| line + "\n").collect()
+}
+
+/// "cause: offset, 8.000 mm", the first one of a diagnosis.
+fn named_cause(diagnosis: &serde_json::Value) -> Option<String> {
+    let first = diagnosis.get(0)?;
+    let cause = first.get("cause")?.as_str()?;
+    let unit = first.get("unit").and_then(serde_json::Value::as_str).filter(|unit| *unit != "1").unwrap_or_default();
+    let value = first.get("value").and_then(serde_json::Value::as_f64);
+    let value = value.map_or_else(String::new, |value| format!(", {} {unit}", significant(value, 4)));
+    Some(format!("cause: {cause}{}", value.trim_end()))
+}
+
+/// The distance by which a diagnosis finds an outline offset outward and nothing else, mm.
+fn offset_outward(diagnosis: &serde_json::Value) -> Option<f64> {
+    let first = diagnosis.get(0)?;
+    let value = first.get("value")?.as_f64().filter(|value| *value > 0.0)?;
+    (first.get("cause")?.as_str()? == "offset").then_some(value)
+}
+
+/// A finding in a line: its note where the figure is a count of one or nothing.
+fn asked_or_told(finding: &Finding, units: LengthUnit) -> String {
+    if TOLD_BY_NOTE.contains(&&*finding.check) { told(finding, units) } else { asked(finding, units) }
 }
 
 /// A table under its heads, words at the left and numbers at the right of their columns.

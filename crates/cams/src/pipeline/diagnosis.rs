@@ -2,15 +2,16 @@
 //! section, the cam of another speed or of the other end of the bed's stroke, bulges that a program wrote wrongly; and the distance that
 //! remains then.
 //!
-//! The outline of the file is compared with camgen's own drawing of the cam, contour with contour. Each change is tried alone, and
-//! two together where a single one is not enough.
+//! The outline of the file is compared with camgen's own drawing of the cam, contour with contour. Each change is tried alone, two
+//! together where a single one is not enough, and a mirror image with two more. A change is a cause only where it leaves no more than the
+//! tolerance: one that leaves more would send whoever reads it to the wrong setting.
 
 use super::Cam;
 use crate::body::{Body, Request};
 use crate::machine::{Machine, valid_rpm};
 use crate::report::{Finding, Section, Speeds, Verdict};
 use camgen_kernel::geometry::MILLIMETRES;
-use camgen_kernel::geometry::contour::{Contour, Vertex};
+use camgen_kernel::geometry::contour::{Contour, Edge, Segment, Vertex};
 use camgen_kernel::geometry::registration::{FreeParameters, Registration, RegistrationOutline};
 use camgen_kernel::numeric::extremum;
 use nalgebra::Vector2;
@@ -28,6 +29,9 @@ const EXPLAINED: f64 = 0.1;
 const EXPLAINED_WITHIN: f64 = 0.5;
 /// An outline that is off by less than this many tolerances may be so for a cause that its own errors hide.
 const TELLING: f64 = 3.0;
+/// A cause may leave the tolerance, which the file may use up, and this share of it: the drawing that the file is compared with is off by
+/// [`FINER`], and the fit of a change ends near the best one, not at it.
+const FIT_SHARE: f64 = 0.25;
 /// The cam is drawn so much finer than the tolerance, but not finer than this, m.
 const FINER: f64 = 0.1;
 const FINEST: f64 = 1e-8;
@@ -110,18 +114,10 @@ impl Explanation {
         self.changes.iter().filter(|change| change.value.is_some()).count()
     }
 
-    /// In words: a cause only where it leaves no more than `most` mm.
-    fn words(&self, most: f64) -> String {
+    /// In words.
+    fn words(&self) -> String {
         let changes: Vec<&str> = self.changes.iter().map(|change| &*change.words).collect();
-        let changes = changes.join(" and ");
-        if self.remaining_mm <= most {
-            format!("It would be this cam {changes}: {:.4} mm remain", self.remaining_mm)
-        } else {
-            format!(
-                "It comes near this cam {changes}, but {:.4} mm remain: another cause, or a further one",
-                self.remaining_mm
-            )
-        }
+        format!("It would be this cam {}: {:.4} mm remain", changes.join(" and "), self.remaining_mm)
     }
 }
 
@@ -133,19 +129,32 @@ fn mirrored() -> Change {
     change("mirrored", None, "", "mirrored about X (the other rotation)".into())
 }
 
+fn mirrored_about_y() -> Change {
+    change("mirrored about Y", None, "", "mirrored about Y (seen from the other side)".into())
+}
+
+/// A contour turned by half a turn about the origin.
+fn half_turned(contour: &Contour) -> Contour {
+    let turned = |edge: Edge| match edge {
+        Edge::Segment(Segment { start, end, bulge }) => Edge::Segment(Segment { start: -start, end: -end, bulge }),
+        Edge::Cubic(cubic) => Edge::Cubic(cubic.mapped(|point| -point)),
+    };
+    Contour::from_edges(contour.edges().map(turned))
+}
+
 /// The changes of a registration, of those that were free.
 fn changes(registration: &Registration, free: FreeParameters) -> Vec<Change> {
     let mut found = Vec::new();
     if free.scale {
         let times = registration.scale;
-        let why = if (times / INCH - 1.0).abs() < NEAR {
-            ": millimetres taken for inches"
+        let words = if (times / INCH - 1.0).abs() < NEAR {
+            "scaled by 25.4 (millimetres taken for inches)".to_owned()
         } else if (times * INCH - 1.0).abs() < NEAR {
-            ": inches taken for millimetres"
+            "scaled by 1/25.4 (inches taken for millimetres)".to_owned()
         } else {
-            ""
+            format!("scaled by {times:.7}")
         };
-        found.push(change("scaled", Some(times), "1", format!("scaled by {times:.7}{why}")));
+        found.push(change("scaled", Some(times), "1", words));
     }
     if free.turn {
         let turn = registration.turn - TAU * (registration.turn / TAU).round();
@@ -184,7 +193,7 @@ const TOGETHER: [FreeParameters; 6] = [
 ];
 
 /// The outline of a cut as drawn to a tolerance, m.
-fn drawn(body: &dyn Body, cut: usize, tolerance: f64) -> Option<Contour> {
+pub(super) fn drawn(body: &dyn Body, cut: usize, tolerance: f64) -> Option<Contour> {
     let drawn = body.draw(&Request::within(tolerance)).ok()?;
     drawn.outlines().nth(cut).map(|(.., outline)| outline.contour.clone())
 }
@@ -231,6 +240,14 @@ fn misread_bulges(contour: &Contour) -> Vec<(Contour, &'static str, String)> {
     mended
 }
 
+/// Which mirror image of the cam is compared.
+#[derive(Debug, Clone, Copy)]
+enum Mirror {
+    None,
+    AboutX,
+    AboutY,
+}
+
 /// The search for explanations.
 struct Search<'a> {
     cam: &'a Cam,
@@ -239,6 +256,7 @@ struct Search<'a> {
     section: Option<f64>,
     model: RegistrationOutline,
     mirrored: RegistrationOutline,
+    mirrored_about_y: RegistrationOutline,
     found: RegistrationOutline,
     /// The outline of the file as it was read.
     contour: &'a Contour,
@@ -264,11 +282,23 @@ pub(super) fn of(
     let fine = (FINER * tolerance).max(FINEST);
     let own = drawn(cam.body(), cut, fine).or_else(|| drawn(cam.body(), cut, tolerance))?;
     let (model, mirrored) = (RegistrationOutline::new(&own)?, RegistrationOutline::new(&own.mirrored_about_x())?);
+    let mirrored_about_y = RegistrationOutline::new(&half_turned(&own.mirrored_about_x()))?;
     let contour = found?;
     let found = RegistrationOutline::new(contour)?;
     let distance = model.remaining(&found, &Registration::SAME);
-    let mut search =
-        Search { cam, cut, section, model, mirrored, found, contour, tolerance, distance, explanations: Vec::new() };
+    let mut search = Search {
+        cam,
+        cut,
+        section,
+        model,
+        mirrored,
+        mirrored_about_y,
+        found,
+        contour,
+        tolerance,
+        distance,
+        explanations: Vec::new(),
+    };
     search.alone();
     search.bulges();
     search.straightened();
@@ -300,6 +330,8 @@ impl Search<'_> {
     fn alone(&mut self) {
         let remaining = self.mirrored.remaining(&self.found, &Registration::SAME);
         self.consider(vec![mirrored()], remaining);
+        let remaining = self.mirrored_about_y.remaining(&self.found, &Registration::SAME);
+        self.consider(vec![mirrored_about_y()], remaining);
         for free in ALONE {
             let registration = self.model.registration(&self.found, free);
             let remaining = self.model.remaining(&self.found, &registration);
@@ -335,21 +367,42 @@ impl Search<'_> {
         }
     }
 
-    /// Two changes at once, where they leave much less than one.
+    /// What a cause may leave, mm.
+    fn explained(&self) -> f64 {
+        (1.0 + FIT_SHARE) * MILLIMETRES * self.tolerance
+    }
+
+    /// Two changes at once, where they leave much less than one; a mirror image with two more where that is not enough.
     fn together(&mut self) {
         let best = self.best();
-        // Both outlines may be off by the tolerance.
-        if best <= 2.0 * MILLIMETRES * self.tolerance {
+        if best <= self.explained() {
             return;
         }
-        let mirrored_too = ALONE.map(|free| (true, free));
-        for (mirror, free) in mirrored_too.into_iter().chain(TOGETHER.map(|free| (false, free))) {
-            let model = if mirror { &self.mirrored } else { &self.model };
-            let registration = model.registration(&self.found, free);
+        // With a turn the two mirror images are one.
+        let about_y = |all: &[FreeParameters]| -> Vec<(Mirror, FreeParameters)> {
+            all.iter().filter(|free| !free.turn).map(|free| (Mirror::AboutY, *free)).collect()
+        };
+        self.several(best, &about_y(&ALONE));
+        self.several(best, &ALONE.map(|free| (Mirror::AboutX, free)));
+        self.several(best, &TOGETHER.map(|free| (Mirror::None, free)));
+        if self.best() > self.explained() {
+            self.several(best, &about_y(&TOGETHER));
+            self.several(best, &TOGETHER.map(|free| (Mirror::AboutX, free)));
+        }
+    }
+
+    /// Several changes at once, noted where they leave much less than `best`.
+    fn several(&mut self, best: f64, all: &[(Mirror, FreeParameters)]) {
+        for (mirror, free) in all {
+            let (model, first) = match mirror {
+                Mirror::None => (&self.model, None),
+                Mirror::AboutX => (&self.mirrored, Some(mirrored())),
+                Mirror::AboutY => (&self.mirrored_about_y, Some(mirrored_about_y())),
+            };
+            let registration = model.registration(&self.found, *free);
             let remaining = model.remaining(&self.found, &registration);
             if remaining <= EXPLAINED * best {
-                let first = if mirror { vec![mirrored()] } else { Vec::new() };
-                self.consider(first.into_iter().chain(changes(&registration, free)).collect(), remaining);
+                self.consider(first.into_iter().chain(changes(&registration, *free)).collect(), remaining);
             }
         }
     }
@@ -430,6 +483,8 @@ impl Search<'_> {
     /// The explanations, best first: within the tolerance the simpler one is the better, and one that fits no number of its own: a
     /// reversed symmetric motion is also the cam turned by some angle.
     fn section(mut self) -> Section {
+        let explained = self.explained();
+        self.explanations.retain(|found| found.remaining_mm <= explained);
         let worth = |found: &Explanation| found.remaining_mm.max(MILLIMETRES * self.tolerance);
         self.explanations.sort_by(|a, b| {
             let simpler = a.changes.len().cmp(&b.changes.len()).then(a.numbers().cmp(&b.numbers()));
@@ -450,10 +505,7 @@ impl Search<'_> {
                  bulges are not those of this cam inverted, lost or at other vertices",
                 self.distance
             )],
-            all => {
-                let most = TELLING * MILLIMETRES * self.tolerance;
-                all.iter().map(|found| found.words(most)).collect()
-            }
+            all => all.iter().map(Explanation::words).collect(),
         };
         Section::new("diagnosis", &self.explanations).with_words(words)
     }

@@ -4,6 +4,7 @@ use crate::body::Body;
 use crate::reading::{self, step};
 use crate::tool_files::{ToolFile, recognised};
 use camgen_kernel::refusal::Refusal;
+use std::borrow::Cow;
 
 /// The kinds of files.
 #[derive(Debug, Clone, Copy)]
@@ -36,10 +37,54 @@ const TRIANGLE: usize = 50;
 /// Ends that are joined where it only matters whether a file can be read, mm.
 const JOINED: f64 = 1e-3;
 
+/// A table of numbers that camgen does not know.
+const TABLE: &str = "a table of numbers (CSV) whose first line does not name the columns of a table that camgen writes";
+/// Rows of numbers by which a table is recognised.
+const TABLE_ROWS: usize = 3;
+
+/// The bytes of a file as camgen would have written them: a text without a byte order mark, and a table of a program that separates its
+/// cells with semicolons (and writes numbers with a decimal comma) with commas.
+pub(super) fn plain(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let head = bytes.split(|byte| *byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
+    let has = |mark: u8| head.contains(&mark);
+    let is_of_name = |byte: &u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || b"_;".contains(byte);
+    // A program has no such line: its words have no underscores.
+    if !has(b';') || !has(b'_') || !head.trim_ascii().iter().all(is_of_name) {
+        return Cow::Borrowed(bytes);
+    }
+    let mut is_comment = false;
+    let mut at_start = true;
+    let with_commas = bytes.iter().map(|byte| {
+        is_comment = if at_start { *byte == b'#' } else { is_comment };
+        at_start = *byte == b'\n';
+        match byte {
+            b',' if !is_comment => b'.',
+            b';' if !is_comment => b',',
+            other => *other,
+        }
+    });
+    Cow::Owned(with_commas.collect())
+}
+
+/// Whether a text is a table of numbers, whatever its columns: several lines of numbers, all with as many cells.
+fn is_table(head: &str) -> bool {
+    let cells = |line: &str| -> Option<usize> {
+        let separator = [';', '\t', ','].into_iter().find(|separator| line.contains(*separator))?;
+        let cells: Vec<&str> = line.trim_end_matches(separator).split(separator).collect();
+        let numbers = cells.iter().all(|cell| cell.trim().trim_matches('"').replace(',', ".").parse::<f64>().is_ok());
+        (numbers && cells.len() > 1).then_some(cells.len())
+    };
+    let rows: Vec<Option<usize>> = head.lines().skip(1).take(TABLE_ROWS).map(cells).collect();
+    rows.len() == TABLE_ROWS && rows.iter().all(|row| row.is_some() && rows.first() == Some(row))
+}
+
 impl FileKind {
     /// The kind of a file.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Self {
+        let plain = plain(bytes);
+        let bytes = &*plain;
         if step::is_step(bytes) {
             return Self::Step;
         }
@@ -67,6 +112,8 @@ impl FileKind {
     /// # Errors
     /// [`Refusal`] with the cause.
     pub fn readable(bytes: &[u8]) -> Result<(), Refusal> {
+        let plain = plain(bytes);
+        let bytes = &*plain;
         match Self::of(bytes) {
             Self::Dxf => reading::read(bytes, JOINED).map(drop),
             Self::Step => step::read(bytes).map(drop),
@@ -78,6 +125,10 @@ impl FileKind {
 
 /// That nothing is cut, measured or moved by a file.
 fn not_cut(what: &str) -> Refusal {
+    if what == TABLE {
+        let refusal = Refusal::new(what);
+        return refusal.remedy("name its columns as camgen does, or compare measured points with camgen compare");
+    }
     let refusal =
         Refusal::new(format!("{what}, from which nothing is cut, measured or moved: there is nothing to prove"));
     refusal.remedy("check the DXF, the STEP file, a program or a table of the same run")
@@ -100,7 +151,10 @@ fn shown(bytes: &[u8]) -> Option<&'static str> {
     }
     let tables = head.lines().filter(|line| line.starts_with('[') && line.trim_end().ends_with(']')).count();
     let keys = head.lines().filter(|line| line.contains(" = ")).count();
-    (tables > 0 && keys > 1).then_some("a design file (TOML)")
+    if tables > 0 && keys > 1 {
+        return Some("a design file (TOML)");
+    }
+    is_table(head).then_some(TABLE)
 }
 
 #[cfg(test)]
@@ -138,6 +192,10 @@ mod tests {
             ("{\"schema\": 1}", "a report (JSON)"),
             ("name = \"A\"\n[motion]\nrpm = 3\n", "a design file (TOML)"),
             ("  0\nSECTION\n  2\nENTITIES\n", "dxf"),
+            ("\u{feff}cam_deg,lift_mm\n0,1\n", "table"),
+            ("cam_deg;lift_mm\n0;1,5\n", "table"),
+            ("\u{feff}cam_deg;radius_mm\r\n0;1,5\r\n", "points"),
+            ("Winkel;Hub\n0;1,5\n1;1,6\n2;1,7\n", TABLE),
             ("999\na comment\n0\nSECTION\n", "dxf"),
         ] {
             assert_eq!(known_as(text.as_bytes()), kind, "{text}");

@@ -4,7 +4,7 @@ use super::groups::{DxfGroup, DxfSection, DxfSections, TYPE};
 use super::limits::MOST_NAMES;
 use super::record::EntityRecord;
 use super::too_much;
-use super::{FileUnit, INCHES};
+use super::{FileUnit, INCHES, MANY_UNITS, UNKNOWN_UNIT};
 use camgen_kernel::refusal::Refusal;
 use std::collections::BTreeMap;
 
@@ -98,7 +98,7 @@ impl<'g> DxfContents<'g> {
             } else if of_unit && *code == FLAGS {
                 let found = unit(value.whole()?);
                 let same = self.unit == FileUnit::Unstated || self.unit == found.0;
-                (self.unit, self.scale) = if same { found } else { (FileUnit::Other("more than one unit"), 1.0) };
+                (self.unit, self.scale) = if same { found } else { (FileUnit::Other(MANY_UNITS), 1.0) };
             }
         }
         if english && self.unit == FileUnit::Unstated {
@@ -176,7 +176,7 @@ fn unit(number: i64) -> (FileUnit, f64) {
         12 => ("nanometres", 1e-6),
         13 => ("micrometres", 1e-3),
         14 => ("decimetres", 100.0),
-        _ => ("another unit than millimetres", 1.0),
+        _ => (UNKNOWN_UNIT, 1.0),
     };
     (FileUnit::Other(name), scale)
 }

@@ -62,6 +62,23 @@ impl Chain {
         !self.sources.is_empty() && self.sources.iter().all(|source| source.on_layer(layer))
     }
 
+    /// Whether a part of it is on the layer of the holes.
+    pub(super) fn touches_bore(&self) -> bool {
+        self.sources.iter().any(EntitySource::on_bore)
+    }
+
+    /// The layers that it is on: `0`, or `0, HOLES`.
+    #[must_use]
+    pub fn layers(&self) -> String {
+        let mut names: Vec<String> = Vec::new();
+        for source in self.sources.iter().filter(|source| !source.layer.is_empty()) {
+            if !names.contains(&source.layer) {
+                names.push(source.layer.clone());
+            }
+        }
+        super::few(&names)
+    }
+
     /// Refuses a chain with so many segments on top of each other that measuring it would take too long.
     pub(super) fn check_length(&self) -> Result<(), Refusal> {
         let ends = || self.edges.iter().flat_map(|edge| [edge.start(), edge.end()]);
@@ -96,6 +113,8 @@ pub(super) struct JoinedChains {
     /// The chains on all other layers.
     pub(super) others: Vec<Chain>,
     pub(super) duplicates: Vec<Vector2<f64>>,
+    /// Largest distance of a duplicate from what it repeats, mm; infinite where an entity repeats a part of itself.
+    pub(super) duplicates_apart: f64,
     pub(super) points: Vec<Vector2<f64>>,
 }
 
@@ -184,6 +203,8 @@ impl PlaceGrid {
 /// Segments that were kept, found by their middles and by their ends: of many segments that share one of these few share another.
 struct EdgeIndex {
     edges: Vec<Edge>,
+    /// Of each the entity that it belongs to.
+    entities: Vec<usize>,
     by_middle: PlaceGrid,
     /// By start, and by end, once too many have a middle in common.
     by_ends: Option<[PlaceGrid; 2]>,
@@ -192,16 +213,20 @@ struct EdgeIndex {
 
 impl EdgeIndex {
     fn new(reach: f64) -> Self {
-        Self { edges: Vec::new(), by_middle: PlaceGrid::new(reach), by_ends: None, reach }
+        Self { edges: Vec::new(), entities: Vec::new(), by_middle: PlaceGrid::new(reach), by_ends: None, reach }
     }
 
-    fn has(&mut self, edge: &Edge, effort: &mut WorkCount) -> Result<bool, Refusal> {
+    /// How far an edge of an entity is from the one that it repeats, mm, infinite where both belong to that entity; `None` where it
+    /// repeats none.
+    fn repeats(&mut self, edge: &Edge, entity: usize, effort: &mut WorkCount) -> Result<Option<f64>, Refusal> {
         let (start, end) = (edge.start(), edge.end());
         let middles = self.by_middle.near(edge.middle());
         let mut found = |(lists, count): &(Vec<&[usize]>, usize)| {
             effort.compared(*count)?;
-            let mut all = lists.iter().flat_map(|list| list.iter()).filter_map(|index| self.edges.get(*index));
-            Ok(all.any(|other| same(edge, other, self.reach)))
+            let all = lists.iter().flat_map(|list| list.iter()).copied();
+            let mut all = all.filter_map(|index| Some((self.edges.get(index)?, self.entities.get(index)?)));
+            let repeated = all.find(|(other, _)| same(edge, other, self.reach));
+            Ok(repeated.map(|(other, of)| if *of == entity { f64::INFINITY } else { apart(edge, other) }))
         };
         if middles.1 <= FEW {
             return found(&middles);
@@ -213,14 +238,14 @@ impl EdgeIndex {
             return found(&middles);
         }
         let (forth, round) = (by_end.near(end), by_start.near(end));
-        if there.1 + back.1 <= forth.1 + round.1 {
-            Ok(found(&there)? || found(&back)?)
-        } else {
-            Ok(found(&forth)? || found(&round)?)
+        let (first, then) = if there.1 + back.1 <= forth.1 + round.1 { (&there, &back) } else { (&forth, &round) };
+        match found(first)? {
+            Some(apart) => Ok(Some(apart)),
+            None => found(then),
         }
     }
 
-    fn add(&mut self, edge: Edge) {
+    fn add(&mut self, edge: Edge, entity: usize) {
         let index = self.edges.len();
         self.by_middle.insert(edge.middle(), index);
         if let Some([by_start, by_end]) = &mut self.by_ends {
@@ -228,6 +253,7 @@ impl EdgeIndex {
             by_end.insert(edge.end(), index);
         }
         self.edges.push(edge);
+        self.entities.push(entity);
     }
 }
 
@@ -289,24 +315,27 @@ pub(super) fn join(
     reach: f64,
     effort: &mut WorkCount,
 ) -> Result<JoinedChains, Refusal> {
-    let (mut duplicates, mut points) = (Vec::new(), Vec::new());
+    let (mut duplicates, mut duplicates_apart, mut points) = (Vec::new(), 0.0_f64, Vec::new());
     let mut known = EdgeIndex::new(reach);
     let (mut outline, mut others) = (Vec::new(), Vec::new());
     let on_outline = |cut: &EntityCut| sources.get(cut.source).is_some_and(|source| source.on_layer(layer));
     // The outline first: what repeats it belongs to the rest.
     let (first, then): (Vec<EntityCut>, Vec<EntityCut>) = cuts.into_iter().partition(on_outline);
+    let mut entity = 0;
     for (cuts, links) in [(first, &mut outline), (then, &mut others)] {
         for EntityCut { edges: all, source, .. } in cuts {
+            entity += 1;
             let mut edges: Vec<Edge> = Vec::with_capacity(all.len());
             for edge in all {
                 if (edge.end() - edge.start()).norm() <= reach.min(NO_LENGTH) {
                     points.push(edge.start());
-                } else if known.has(&edge, effort)? {
+                } else if let Some(apart) = known.repeats(&edge, entity, effort)? {
                     duplicates.push(edge.middle());
+                    duplicates_apart = duplicates_apart.max(apart);
                     // From here on nothing is joined to what came before.
                     links.extend(EdgeLink::of(std::mem::take(&mut edges), source));
                 } else {
-                    known.add(edge);
+                    known.add(edge, entity);
                     edges.push(edge);
                 }
             }
@@ -316,7 +345,7 @@ pub(super) fn join(
     let mut chains = |links| -> Result<Vec<Chain>, Refusal> {
         Ok(joined(links, reach, effort)?.into_iter().map(|link| chain(link, sources, reach)).collect())
     };
-    Ok(JoinedChains { outline: chains(outline)?, others: chains(others)?, duplicates, points })
+    Ok(JoinedChains { outline: chains(outline)?, others: chains(others)?, duplicates, duplicates_apart, points })
 }
 
 fn chain(link: EdgeLink, sources: &[EntitySource], reach: f64) -> Chain {
@@ -337,6 +366,15 @@ fn same(a: &Edge, b: &Edge, reach: f64) -> bool {
         || close(a.start(), b.end()) && close(a.end(), b.start());
     close(a.middle(), b.middle())
         && (ends && (a.segment().is_some() && b.segment().is_some() || between(a, b) || between(a, &b.reversed())))
+}
+
+/// Largest distance between two edges that coincide, mm, at their ends and at places between them.
+fn apart(a: &Edge, b: &Edge) -> f64 {
+    let between = |b: &Edge| {
+        let at = |share: f64| (a.point_and_tangent(share).0 - b.point_and_tangent(share).0).norm();
+        [0.0, 0.25, 0.5, 0.75, 1.0].into_iter().map(at).fold(0.0, f64::max)
+    };
+    between(b).min(between(&b.reversed()))
 }
 
 /// Joins links as long as an end of one meets a free end of another, the nearest first: among edges shorter

@@ -41,6 +41,10 @@ const CURVE_SHARE: f64 = 0.05;
 
 /// What [`FileUnit::Other`] calls inches.
 pub const INCHES: &str = "inches";
+/// What [`FileUnit::Other`] calls several units that contradict each other.
+pub(crate) const MANY_UNITS: &str = "more than one unit";
+/// What [`FileUnit::Other`] calls a unit whose millimetres are not known.
+pub(crate) const UNKNOWN_UNIT: &str = "an unknown unit";
 
 /// The unit a file states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,6 +117,23 @@ pub enum OutlinePlace {
     Layer(String),
     /// It is the only closed contour of the file, which has nothing on the layer of the outline.
     OnlyContour,
+    /// It is the outermost closed contour on the layer of this name, on which there is more.
+    OutermostOn(String),
+    /// It is the outermost of several closed contours of the file, which has nothing on the layer of the outline: the layers it is on.
+    Outermost(String),
+    /// On other layers than that of the outline, on which there is something else.
+    Elsewhere(String),
+    /// On layers that are off or frozen, so that it would not be cut.
+    Hidden(String),
+}
+
+/// Whether entities are read that are not visible.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Hidden {
+    /// They are not cut.
+    Skipped,
+    /// As if every layer were on.
+    Shown,
 }
 
 /// The result of reading a file.
@@ -128,6 +149,8 @@ pub struct Reading {
     pub others: Vec<Chain>,
     /// Middles of segments that lie on another one, mm.
     pub duplicates: Vec<Vector2<f64>>,
+    /// Largest distance of such a segment from the one on which it lies, mm; infinite where an entity runs over a part of itself again.
+    pub duplicates_apart: f64,
     /// Places of segments without length, mm.
     pub points: Vec<Vector2<f64>>,
     /// Entities that would or might be cut, and are not curves without width in the plane of the drawing.
@@ -142,6 +165,8 @@ pub struct Reading {
     pub hidden: Vec<String>,
     /// Number of curves that are read as arcs: ellipses, and splines that are rational or of a degree above 3.
     pub splines: usize,
+    /// Millimetres in the unit of the file.
+    pub unit_mm: f64,
 }
 
 impl Reading {
@@ -150,6 +175,35 @@ impl Reading {
     pub fn beside(&self, layers: &[&str]) -> Vec<Chain> {
         let on_one = |chain: &&Chain| layers.iter().any(|layer| chain.on_layer(layer));
         self.others.iter().filter(|chain| !on_one(chain)).cloned().collect()
+    }
+
+    /// Takes one of the other chains for the outline; the chains on its layer go to the others.
+    #[must_use]
+    pub fn with_outline(mut self, other: usize, found_at: OutlinePlace) -> Self {
+        let own = self.others.remove(other);
+        self.others.extend(std::mem::replace(&mut self.chains, vec![own]));
+        self.outline = found_at;
+        self
+    }
+
+    /// Keeps one of the chains on the layer of the outline; the rest goes to the others.
+    fn keep_chain(&mut self, index: usize) {
+        if let OutlinePlace::Layer(name) = &self.outline {
+            self.outline = OutlinePlace::OutermostOn(name.clone());
+        }
+        let own = self.chains.swap_remove(index);
+        self.others.extend(std::mem::replace(&mut self.chains, vec![own]));
+    }
+
+    /// Takes the outermost closed contour of a file without the layer of the outline.
+    fn take_outermost_of_others(&mut self) {
+        let closed = self.others.iter().filter(|chain| chain.closed).count();
+        let Some(index) = outermost(&self.others) else { return };
+        let Some(chain) = self.others.get(index).filter(|chain| !chain.touches_bore()) else { return };
+        let layers = chain.layers();
+        self.outline = if closed > 1 { OutlinePlace::Outermost(layers) } else { OutlinePlace::OnlyContour };
+        let own = self.others.remove(index);
+        self.chains = vec![own];
     }
 }
 
@@ -211,43 +265,78 @@ pub fn read(bytes: &[u8], join: f64) -> Result<Reading, Refusal> {
 /// # Errors
 /// As [`read`].
 pub fn read_with_outline(bytes: &[u8], join: f64, layer: Option<&str>) -> Result<Reading, Refusal> {
+    let mut reading = read_all(bytes, join, layer, Hidden::Skipped)?;
+    let mut closed = reading.others.iter().filter(|chain| chain.closed);
+    let only = closed.next().filter(|_| closed.next().is_none());
+    if layer.is_none() && reading.chains.is_empty() && only.is_some_and(|chain| !chain.touches_bore()) {
+        (reading.chains, reading.others) = reading.others.into_iter().partition(|chain| chain.closed);
+        reading.outline = OutlinePlace::OnlyContour;
+    }
+    reading.chains.iter().try_for_each(Chain::check_length)?;
+    if layer.is_some()
+        && let Some(outermost) = around_all(&reading.chains)
+    {
+        reading.keep_chain(outermost);
+    }
+    Ok(reading)
+}
+
+/// As [`read`], with the outermost closed contour as the outline: of the layer of a name; without a name of layer `CAM_PROFILE`, or,
+/// where nothing is cut on that layer, of the whole file. A contour on layer `BORE` is never the outline of a whole file. Other contours
+/// of the layer go to the others, wherever they lie. Where an open curve is larger than every closed one, nothing is chosen.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_outermost(bytes: &[u8], join: f64, layer: Option<&str>) -> Result<Reading, Refusal> {
+    let mut reading = read_all(bytes, join, layer, Hidden::Skipped)?;
+    if layer.is_none() && reading.chains.is_empty() {
+        reading.take_outermost_of_others();
+    } else if reading.chains.len() > 1
+        && let Some(outermost) = outermost(&reading.chains)
+    {
+        reading.keep_chain(outermost);
+    }
+    reading.chains.iter().try_for_each(Chain::check_length)?;
+    Ok(reading)
+}
+
+/// As [`read_outermost`], as if every layer of the file were on; `None` where nothing is hidden.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_hidden(bytes: &[u8], join: f64, layer: Option<&str>) -> Result<Option<Reading>, Refusal> {
+    let mut reading = read_all(bytes, join, layer, Hidden::Shown)?;
+    if reading.hidden.is_empty() {
+        return Ok(None);
+    }
+    if reading.chains.is_empty() {
+        reading.take_outermost_of_others();
+    } else if let Some(outermost) = outermost(&reading.chains).filter(|_| reading.chains.len() > 1) {
+        reading.keep_chain(outermost);
+    }
+    reading.chains.iter().try_for_each(Chain::check_length)?;
+    Ok(Some(reading))
+}
+
+/// Everything that is cut, with the chains on the layer of the outline apart from the others.
+fn read_all(bytes: &[u8], join: f64, layer: Option<&str>, hidden: Hidden) -> Result<Reading, Refusal> {
     let kept = groups::kept(bytes)?;
     let contents = DxfContents::of(&kept)?;
     let name = layer.unwrap_or(OUTLINE_LAYER);
-    let mut walk = EntityWalk::over(&contents, name, CURVE_SHARE * join)?;
+    let mut walk = EntityWalk::over(&contents, name, CURVE_SHARE * join, hidden)?;
     let height = walk.heights(join);
     if height.abs() > join {
         walk.remarks.push(format!("everything lies at a height of {height} mm"));
     }
-    let JoinedChains { mut outline, mut others, duplicates, points } =
+    let JoinedChains { outline, others, duplicates, duplicates_apart, points } =
         join::join(walk.cuts, (&walk.sources, name), join, &mut walk.effort)?;
-    let mut place = OutlinePlace::Layer(name.to_owned());
-    let mut closed = others.iter().filter(|chain| chain.closed);
-    let only = closed.next().filter(|_| closed.next().is_none());
-    if layer.is_none()
-        && outline.is_empty()
-        && only.is_some_and(|chain| !chain.sources.iter().any(EntitySource::on_bore))
-    {
-        (outline, others) = others.into_iter().partition(|chain| chain.closed);
-        place = OutlinePlace::OnlyContour;
-    }
-    outline.iter().try_for_each(Chain::check_length)?;
-    if layer.is_some()
-        && let Some(outermost) = around_all(&outline)
-    {
-        let (own, holes): (Vec<_>, Vec<_>) =
-            outline.into_iter().enumerate().partition(|(index, _)| *index == outermost);
-        walk.remarks
-            .push(format!("{} contours inside the outline lie on its layer and are taken for its holes", holes.len()));
-        outline = own.into_iter().map(|(_, chain)| chain).collect();
-        others.extend(holes.into_iter().map(|(_, chain)| chain));
-    }
     Ok(Reading {
         unit: contents.unit,
-        outline: place,
+        outline: OutlinePlace::Layer(name.to_owned()),
         chains: outline,
         others,
         duplicates,
+        duplicates_apart,
         points,
         unreadable: walk.unreadable,
         information: walk.information,
@@ -255,7 +344,18 @@ pub fn read_with_outline(bytes: &[u8], join: f64, layer: Option<&str>) -> Result
         layers: walk.layers.into_iter().collect(),
         hidden: walk.hidden.into_iter().collect(),
         splines: walk.curves,
+        unit_mm: contents.scale,
     })
+}
+
+/// The index of the closed chain that is larger than all others; `None` where there is none, or an open one is larger.
+fn outermost(chains: &[Chain]) -> Option<usize> {
+    let size = |chain: &Chain| chain.contour().extents().size().norm();
+    let area = |chain: &Chain| chain.contour().area_and_centroid().0.abs();
+    let closed = chains.iter().enumerate().filter(|(_, chain)| chain.closed);
+    let (index, largest) = closed.max_by(|a, b| area(a.1).total_cmp(&area(b.1)))?;
+    let most = size(largest);
+    chains.iter().filter(|chain| !chain.closed).all(|open| size(open) <= most).then_some(index)
 }
 
 /// The one of several closed chains that lies around all others, by its index.

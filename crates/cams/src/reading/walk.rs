@@ -7,7 +7,7 @@ use super::placement::BlockPlacement;
 use super::record::{EntityFault, EntityRecord, fault};
 use super::shape::{self, EntityShape, ShapePiece};
 use super::shown::shown;
-use super::{EntitySource, StrayEntity, few, not_finite};
+use super::{EntitySource, Hidden, StrayEntity, few, not_finite};
 use camgen_kernel::geometry::contour::{Edge, Segment};
 use camgen_kernel::refusal::Refusal;
 use nalgebra::{Vector2, Vector3};
@@ -36,6 +36,8 @@ pub(super) struct EntityWalk<'c> {
     within: f64,
     /// Name of the layer of the outline.
     outline: &'c str,
+    /// Whether entities are cut that are not visible.
+    hidden_ones: Hidden,
     pub(super) effort: WorkCount,
     /// The blocks that are being inserted, one within the other.
     open: Vec<Vec<u8>>,
@@ -65,11 +67,17 @@ impl<'c> EntityWalk<'c> {
     ///
     /// # Errors
     /// [`Refusal`] where a number of an entity is not a number.
-    pub(super) fn over(contents: &'c DxfContents<'c>, outline: &'c str, within: f64) -> Result<Self, Refusal> {
+    pub(super) fn over(
+        contents: &'c DxfContents<'c>,
+        outline: &'c str,
+        within: f64,
+        hidden_ones: Hidden,
+    ) -> Result<Self, Refusal> {
         let mut walk = Self {
             contents,
             within,
             outline,
+            hidden_ones,
             effort: WorkCount::default(),
             open: Vec::new(),
             known_sources: BTreeMap::new(),
@@ -162,7 +170,9 @@ impl<'c> EntityWalk<'c> {
         // On a layer that is off, entities of a block on layers of their own are still visible.
         if !record.visible()? || state.frozen || state.off && !inserts {
             self.hidden.insert(shown(layer));
-            return Ok(());
+            if self.hidden_ones == Hidden::Skipped {
+                return Ok(());
+            }
         }
         if inserts {
             return self.insert(record, layer, context);

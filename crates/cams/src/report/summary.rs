@@ -85,29 +85,57 @@ impl<'a> Summary<'a> {
 /// What a file is that was checked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileVerdict {
-    /// The cam.
+    /// The cam, also where only its form differs: another unit, start or direction, doubled entities, rounded vertices.
     ThisCam,
-    /// The outline of the cam, but more or less than the part would be cut, or in another unit.
+    /// The outline of the cam, but more or less than the part would be cut.
     ThisCamBut,
+    /// A solid of splines that cannot be judged exactly.
+    NotJudged,
     /// Another outline, or none.
     NotThisCam,
 }
 
 /// Checks of a file that fail although the outline is that of the cam.
-const BESIDE_THE_OUTLINE: [&str; 5] = ["units", "readable", "duplicates", "contours", "bore"];
+const BESIDE_THE_OUTLINE: [&str; 6] = ["layer", "units", "readable", "duplicates", "contours", "bore"];
+/// Checks of a solid that fail as well where its bore is not that of the cam.
+const OF_A_WRONG_BORE: [&str; 2] = ["holes", "volume"];
+
+/// The section of a report on a file that cannot be judged.
+pub const NOT_JUDGED: &str = "not_judged";
 
 impl FileVerdict {
     /// The verdict of the report on a file.
     #[must_use]
     pub fn of(report: &Report) -> Self {
-        let mut failed = report.checks.iter().filter(|finding| finding.verdict == Verdict::Fail).peekable();
-        if failed.peek().is_none() {
+        let failed: Vec<&str> = report
+            .checks
+            .iter()
+            .filter(|finding| finding.verdict == Verdict::Fail)
+            .map(|finding| &*finding.check)
+            .collect();
+        if failed.is_empty() {
             return Self::ThisCam;
         }
-        let mut checks = report.checks.iter();
-        let is_outline = checks.any(|finding| finding.check == "outline" && finding.verdict == Verdict::Pass);
-        let is_beside = failed.all(|finding| BESIDE_THE_OUTLINE.contains(&&*finding.check));
+        if report.section(NOT_JUDGED).is_some() {
+            return Self::NotJudged;
+        }
+        let is_outline =
+            report.checks.iter().any(|finding| finding.check == "outline" && finding.verdict == Verdict::Pass);
+        let of_bore = failed.contains(&"bore");
+        let is_beside =
+            failed.iter().all(|check| BESIDE_THE_OUTLINE.contains(check) || of_bore && OF_A_WRONG_BORE.contains(check));
         if is_outline && is_beside { Self::ThisCamBut } else { Self::NotThisCam }
+    }
+
+    /// Its key in reports for programs.
+    #[must_use]
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::ThisCam => "this cam",
+            Self::ThisCamBut => "this cam, but",
+            Self::NotJudged => "not judged",
+            Self::NotThisCam => "not this cam",
+        }
     }
 }
 

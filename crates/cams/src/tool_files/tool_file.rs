@@ -173,14 +173,17 @@ impl<'a> SolvedCam<'a> {
 /// What a file that is checked should hold, where a cam has more than one file, and how it is read.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ExpectedFile<'a> {
-    /// Layer of the outline in a DXF file; `None` for `CAM_PROFILE`, or the only closed contour of a file without that layer.
+    /// Layer of the outline in a DXF file; `None` for `CAM_PROFILE`, or the outermost closed contour of a file without that layer.
     pub layer: Option<&'a str>,
     /// Speed of the section of a conoid, rpm, one of those it was solved for.
     pub section: Option<f64>,
     /// Name of the outline, of a cam that has several at one place.
     pub cut: Option<&'a str>,
-    /// Radius of the cutter whose path the file holds, m.
+    /// Radius of the cutter whose path the file holds, m. A DXF file whose outline is not that of the cam is also read as the path of its
+    /// centre.
     pub cutter: Option<f64>,
+    /// Whether that radius is only of the run that wrote the file: it makes no path of an outline.
+    pub cutter_is_recorded: bool,
 }
 
 /// What was found of a file, or of the files that were planned together.

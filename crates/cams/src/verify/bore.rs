@@ -43,6 +43,15 @@ struct ExtraCuts {
     faults: Vec<Text>,
     /// Where the first fault is.
     place: Option<Vector2<f64>>,
+    /// How many contours would be cut that are not the part, and how many of the part would not.
+    more: usize,
+    missing: usize,
+}
+
+/// How many contours would be cut that are not the part, and how many of the part would not, of the worst outline.
+pub(crate) fn counted(evidence: &Evidence<'_>) -> Option<[usize; 2]> {
+    let judged = evidence.outlines.iter().enumerate().map(|(index, outline)| of_outline(evidence, index, outline));
+    judged.max_by_key(|found| found.faults.len()).map(|found| [found.more, found.missing])
 }
 
 impl ExtraCuts {
@@ -114,16 +123,17 @@ fn judge(expected: &[Entity], found: &[&Chain], tolerance: f64) -> ExtraCuts {
         // What is cut in its place, if anything.
         let near = free.iter().enumerate().filter(|(_, chain)| in_place_of(chain, &wanted));
         let near = near.map(|(place, chain)| (place, apart(chain, &wanted, tolerance)));
-        match near.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance)) {
-            Some((place, far)) => {
-                let chain = free.remove(place);
-                let words = text!("{}: {}", located(chain), difference(name, hole, chain, far.distance));
-                judged.fault(far.distance, words, far.place);
-            }
-            None => judged.fault(f64::INFINITY, text!("{} is missing: {}", name, what(hole)), start(&wanted)),
+        if let Some((place, far)) = near.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance)) {
+            let chain = free.remove(place);
+            let words = text!("{}: {}", located(chain), difference(name, hole, chain, far.distance));
+            judged.fault(far.distance, words, far.place);
+        } else {
+            judged.missing += 1;
+            judged.fault(f64::INFINITY, text!("{} is missing: {}", name, what(hole)), start(&wanted));
         }
     }
     for chain in free {
+        judged.more += 1;
         let words = text!("{} would be cut and does not belong to the cam", located(chain));
         judged.fault(f64::INFINITY, words, centre(chain));
     }
@@ -148,7 +158,8 @@ fn located(chain: &Chain) -> Text {
     let at = centre(chain);
     let kind = if chain.closed { "" } else { " (open)" };
     let [x, y] = [at.x, at.y].map(|at| Length::mm(at).decimals(3).bare());
-    text!("{} at ({}, {}) {}{}", chain.names(), x, y, &LengthKind::MM, kind)
+    let names = Some(chain.names()).filter(|names| !names.is_empty()).unwrap_or_else(|| "the contour".to_owned());
+    text!("{} at ({}, {}) {}{}", names, x, y, &LengthKind::MM, kind)
 }
 
 /// The centroid of a closed chain, or the middle of the first segment of an open one.

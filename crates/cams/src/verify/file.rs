@@ -2,7 +2,9 @@
 
 use super::check::{Evidence, FileCheck, place};
 use crate::check::{Check, CheckExplanation};
-use crate::reading::{Chain, FileUnit, INCHES, OUTLINE_LAYER, OutlinePlace, Reading, StrayEntity, few};
+use crate::reading::{
+    Chain, FileUnit, INCHES, MANY_UNITS, OUTLINE_LAYER, OutlinePlace, Reading, StrayEntity, UNKNOWN_UNIT, few,
+};
 use crate::report::{Bound, Finding, Verdict};
 use camgen_kernel::geometry::contour::Edge;
 use camgen_kernel::geometry::nearest_points::nearest_distances;
@@ -13,8 +15,9 @@ use nalgebra::Vector2;
 pub(super) const LAYER: FileCheck = FileCheck::on_file(
     "layer",
     "",
-    "Whether the layer CAM_PROFILE, or that of --layer, where the outline belongs, exists and is not empty. Without it the only closed contour \
-     of the file is taken for the outline, with a warning.",
+    "Whether the outline lies on layer CAM_PROFILE, or that of --layer, and would be cut. Without that layer the outermost closed contour of the \
+     file is taken for the outline, with a warning. The check fails where the outline of the cam lies on a layer that is off or frozen, or \
+     where something else is on CAM_PROFILE.",
     CheckExplanation {
         bound: Bound::Exactly,
         formula: "the number of layers CAM_PROFILE that are not empty",
@@ -27,7 +30,8 @@ pub(super) const LAYER: FileCheck = FileCheck::on_file(
 pub(super) const UNITS: FileCheck = FileCheck::on_file(
     "units",
     "mm",
-    "Whether the file is in the unit of the design: millimetres, or inches with --units inch or output.units.",
+    "Whether the file is in the unit of the design: millimetres, or inches with --units inch or output.units. A file in another known unit \
+     passes with a warning, because its lengths are converted; one in several units, or in an unknown one, fails.",
     CheckExplanation {
         bound: Bound::Exactly,
         formula: "$INSUNITS, or $MEASUREMENT, of a DXF file; the length unit of a STEP file",
@@ -59,7 +63,8 @@ pub(super) const READABLE: FileCheck = FileCheck::on_file(
 pub(super) const DUPLICATES: FileCheck = FileCheck::on_file(
     "duplicates",
     "",
-    "How many segments lie on another one or have no length.",
+    "How many segments lie on another one or have no length. Segments that repeat another one to within 2e-6 mm at both ends and between \
+     them are a warning, because the part is the same.",
     CheckExplanation {
         bound: Bound::AtMost,
         formula: "the number of such segments",
@@ -104,6 +109,9 @@ const LOOSE: f64 = 20.0;
 /// Ends nearer than this share of the tolerance count as one: programs round coordinates to four to six decimals.
 const JOIN_SHARE: f64 = 0.1;
 
+/// Segments nearer than this to one that they repeat are the same, mm: two roundings to six decimals.
+const SAME_SEGMENT: f64 = 2e-6;
+
 /// Within this distance (mm) the ends of a file are joined, for a tolerance in mm.
 #[must_use]
 pub fn join_reach(tolerance_mm: f64) -> f64 {
@@ -127,18 +135,42 @@ fn count(check: &Check, found: usize, limit: usize, kept: bool, note: Option<Str
 
 fn layer(reading: &Reading) -> Finding {
     let layers = few(&reading.layers);
-    let OutlinePlace::Layer(name) = &reading.outline else {
-        let note = format!(
+    let warned = |note: String| Finding { verdict: Verdict::Warn, ..count(&LAYER, 0, 1, false, Some(note)) };
+    let failed = |note: String| count(&LAYER, 0, 1, false, Some(note));
+    match &reading.outline {
+        OutlinePlace::OnlyContour => warned(format!(
             "layer {OUTLINE_LAYER} is empty or missing: the only closed contour is taken for the outline; the file's layers are: {layers}"
-        );
-        return Finding { verdict: Verdict::Warn, ..count(&LAYER, 0, 1, false, Some(note)) };
-    };
-    let there = reading.layers.iter().any(|layer| layer.eq_ignore_ascii_case(name));
-    let note = (!there).then(|| {
-        let other = if reading.layers.is_empty() { "" } else { "; --layer NAME checks the outline on another layer" };
-        format!("layer {name} is empty or missing; the file's layers are: {layers}{other}")
-    });
-    count(&LAYER, usize::from(there), 1, there, note)
+        )),
+        OutlinePlace::Outermost(own) => warned(format!(
+            "layer {OUTLINE_LAYER} is empty or missing: the outermost closed contour, on layer {own}, is taken for the outline; the file's \
+             layers are: {layers}"
+        )),
+        OutlinePlace::Hidden(own) => failed(format!(
+            "the outline lies on a layer that is off or frozen, so it would not be cut: {own}; switch the layer on"
+        )),
+        OutlinePlace::Elsewhere(own) => failed(format!(
+            "the outline lies on layer {own}, and layer {OUTLINE_LAYER} has something else; put the outline on {OUTLINE_LAYER}, or give \
+             its layer with --layer"
+        )),
+        OutlinePlace::OutermostOn(name) => count(
+            &LAYER,
+            1,
+            1,
+            true,
+            Some(format!(
+                "the outermost closed contour on layer {name} is taken for the outline, the others for holes"
+            )),
+        ),
+        OutlinePlace::Layer(name) => {
+            let there = reading.layers.iter().any(|layer| layer.eq_ignore_ascii_case(name));
+            let note = (!there).then(|| {
+                let other =
+                    if reading.layers.is_empty() { "" } else { "; --layer NAME checks the outline on another layer" };
+                format!("layer {name} is empty or missing; the file's layers are: {layers}{other}")
+            });
+            count(&LAYER, usize::from(there), 1, there, note)
+        }
+    }
 }
 
 fn unit(stated: FileUnit, files: LengthUnit) -> Finding {
@@ -156,13 +188,15 @@ fn unit(stated: FileUnit, files: LengthUnit) -> Finding {
             let why = "the file states no unit, and its $MEASUREMENT = 0 stands for inches; read as millimetres";
             (Verdict::Warn, Some(why.to_owned()))
         }
-        FileUnit::Other(INCHES) => {
-            let why = "the file is in inches, not in millimetres; the other checks are of its true size; where it is to be in inches, give --units inch";
-            (Verdict::Fail, Some(why.to_owned()))
+        FileUnit::Other(name @ (MANY_UNITS | UNKNOWN_UNIT)) => {
+            (Verdict::Fail, Some(format!("the file is in {name}: its size is not known; save it in millimetres")))
         }
         FileUnit::Other(name) => (
-            Verdict::Fail,
-            Some(format!("the file is in {name}, not in millimetres; the other checks are of its true size")),
+            Verdict::Warn,
+            Some(format!(
+                "the file is in {name}, not in millimetres; its lengths are converted, and the other checks are of its true size; a program \
+                 that does not read the unit cuts it in the wrong size"
+            )),
         ),
     };
     let found = UNITS.found(1.0, None, verdict);
@@ -198,13 +232,25 @@ fn listed(strays: &[StrayEntity]) -> Vec<String> {
 }
 
 fn duplicates(evidence: &Evidence<'_>, reading: &Reading) -> Finding {
-    let found = reading.duplicates.len() + reading.points.len();
+    let (repeated, points) = (reading.duplicates.len(), reading.points.len());
+    let found = repeated + points;
     let first = reading.duplicates.first().or(reading.points.first());
+    let harmless = found > 0 && points == 0 && reading.duplicates_apart <= SAME_SEGMENT;
     let note = first.map(|_| {
-        format!("{} segments lie on another one, {} have no length", reading.duplicates.len(), reading.points.len())
+        if harmless {
+            format!(
+                "{repeated} segments repeat another one exactly: the part is the same, but some programs cut them twice"
+            )
+        } else if reading.duplicates_apart.is_finite() && reading.duplicates_apart > SAME_SEGMENT {
+            let apart = reading.duplicates_apart;
+            format!("{repeated} segments lie on another one, up to {apart:.6} mm away from it, {points} have no length")
+        } else {
+            format!("{repeated} segments lie on another one, {points} have no length")
+        }
     });
     let finding = count(&DUPLICATES, found, 0, found == 0, note);
-    Finding { place: first.map(|point| place(evidence.body, *point)).unwrap_or_default(), ..finding }
+    let verdict = if harmless { Verdict::Warn } else { finding.verdict };
+    Finding { verdict, place: first.map(|point| place(evidence.body, *point)).unwrap_or_default(), ..finding }
 }
 
 fn contours(reading: &Reading) -> Finding {

@@ -25,6 +25,7 @@ mod swept_files;
 mod tangency;
 mod walls;
 
+pub(crate) use bore::counted as counted_beside;
 pub(crate) use check::place;
 pub use check::{CheckEntry, Evidence, FileCheck, WrittenOutline, WrittenPath, WrittenSolid};
 pub(crate) use cutter_path::{left_behind, moved_inwards};

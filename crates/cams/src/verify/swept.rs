@@ -163,13 +163,13 @@ fn solid_shell(evidence: &Evidence<'_>, solid: &SweptSolid) -> Finding {
     if solid.file.bodies.len() != 1 {
         sentences.push(text!("the file holds {} bodies, not one solid", solid.file.bodies.len()));
     }
-    if let FileUnit::Other(name) = solid.file.unit {
-        sentences.push(text!("the file is in {}, not in millimetres", name));
-    }
     sentences.extend(faults_of_faces(evidence, solid));
     #[expect(clippy::cast_precision_loss, reason = "a count")]
     let count = sentences.len() as f64;
     sentences.truncate(3);
+    if let FileUnit::Other(name) = solid.file.unit {
+        sentences.push(text!("the file is in {}, not in millimetres; its lengths are converted", name));
+    }
     let note = (!sentences.is_empty()).then(|| Text::joined(sentences, "; "));
     Finding { note, ..SOLID_SHELL.found(count, Some(0.0), Verdict::of(count == 0.0)) }
 }

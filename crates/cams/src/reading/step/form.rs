@@ -2,6 +2,7 @@
 //! conoid, a flank of spline patches.
 
 use super::runs::{FaceLoop, arcs, cubic_vertices, end_difference, sweep};
+use super::splines::with_plain_shapes;
 use super::upright::{LevelEdge, SweptSurface, WORK, with_lines_for_splines};
 use super::{StepBoundary, StepCurve, StepEdge, StepFace, StepSurface};
 use camgen_kernel::geometry::contour::{Contour, Vertex};
@@ -61,6 +62,8 @@ pub struct SolidForm {
     pub patches: Vec<(nurbs::NurbsSurface, bool)>,
     /// Largest distance between the walls' contours above and below, mm.
     pub end_difference: f64,
+    /// How many faces and edges are splines of which camgen does not know the exact shape.
+    pub unread_splines: usize,
     /// Volume by the walls and the end faces, mm³, of a solid without patches; `None` where a face or an edge was not read.
     pub volume: Option<f64>,
 }
@@ -94,7 +97,8 @@ struct FormRecognizer<'a> {
 /// Recognises a boundary; places within `reach` (mm) count as one.
 #[must_use]
 pub fn form(boundary: &StepBoundary, flank: FlankShape, reach: f64) -> SolidForm {
-    let straight = (flank == FlankShape::Upright).then(|| with_lines_for_splines(boundary, reach));
+    let straight =
+        (flank == FlankShape::Upright).then(|| with_lines_for_splines(&with_plain_shapes(boundary, reach), reach));
     let boundary = straight.as_ref().unwrap_or(boundary);
     let size = boundary.vertices.iter().map(Vector3::norm).fold(0.0, f64::max);
     let uses = vec![Vec::new(); boundary.edges.len()];
@@ -120,6 +124,13 @@ pub fn form(boundary: &StepBoundary, flank: FlankShape, reach: f64) -> SolidForm
     former.form.end_difference = end_difference(&below, &former.form.above);
     let strange = former.roles.contains(&FaceRole::Strange);
     let unread = (0..boundary.edges.len()).any(|edge| former.is_unread(edge));
+    let is_spline = |(role, face): (&FaceRole, &StepFace)| {
+        let is_curved =
+            matches!(face.surface, StepSurface::Spline(_) | StepSurface::Swept { .. } | StepSurface::Other(_));
+        *role == FaceRole::Strange && is_curved
+    };
+    former.form.unread_splines = former.roles.iter().zip(&boundary.faces).filter(|of| is_spline(*of)).count()
+        + (0..boundary.edges.len()).filter(|edge| former.is_unread(*edge)).count();
     former.form.volume = (!strange && !unread).then(|| former.volume());
     former.form.open.truncate(MOST_REPORTED);
     former.form.strange.truncate(MOST_REPORTED);

@@ -11,6 +11,7 @@ mod parameters;
 mod placement;
 mod runs;
 mod shape;
+mod splines;
 mod upright;
 
 pub use form::{FlankShape, SolidForm, form};

@@ -114,6 +114,12 @@ impl StepPlacement {
         (Self { origin, axes, unplaced }, placed)
     }
 
+    /// A boundary as it lies after it is turned and moved.
+    #[must_use]
+    pub fn moved(boundary: &StepBoundary, origin: Vector3<f64>, axes: Matrix3<f64>) -> StepBoundary {
+        Self::apply((origin, axes), boundary.clone()).1
+    }
+
     /// What it does to the solid, in words: `turned over, and moved by (0.000, 0.000, 30.000) mm`.
     #[must_use]
     pub fn words(&self) -> String {

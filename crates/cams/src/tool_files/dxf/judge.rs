@@ -3,7 +3,7 @@
 use crate::body::Layer;
 use crate::check::CheckScope;
 use crate::reading::step::is_step;
-use crate::reading::{Chain, read_with_outline};
+use crate::reading::{Chain, Reading, read_with_outline};
 use crate::report::Finding;
 use crate::tool_files::tool_file::{ExpectedFile, FileError, JudgedFile, SolvedCam, best_of_cuts};
 use crate::verify::{self, CHECKS, Evidence, WrittenPath, WrittenSwept, join_reach};
@@ -15,12 +15,24 @@ use camgen_kernel::refusal::Refusal;
 /// # Errors
 /// [`FileError`] when it is not a DXF file, or the radius of the cutter is not known.
 pub fn judge_path(cam: &SolvedCam<'_>, file: &ExpectedFile<'_>, bytes: &[u8]) -> Result<JudgedFile, FileError> {
+    let layer = Layer::CutterPath.name();
+    let reading = read_with_outline(bytes, join_reach(cam.tolerance_mm()), Some(layer)).map_err(FileError::Read)?;
+    judge_path_as_read(cam, file, reading)
+}
+
+/// Judges the path of a cutter that was found in a file.
+///
+/// # Errors
+/// [`FileError`] when the radius of the cutter is not known.
+pub fn judge_path_as_read(
+    cam: &SolvedCam<'_>,
+    file: &ExpectedFile<'_>,
+    reading: Reading,
+) -> Result<JudgedFile, FileError> {
     let radius = file.cutter.or(cam.request.cutter_radius).ok_or_else(|| {
         let refusal = Refusal::new("the file holds the path of a cutter and does not give its radius");
         FileError::Cutter(refusal.remedy("give the radius of the cutter"))
     })?;
-    let layer = Layer::CutterPath.name();
-    let reading = read_with_outline(bytes, join_reach(cam.tolerance_mm()), Some(layer)).map_err(FileError::Read)?;
     let (lead_ins, others): (Vec<Chain>, Vec<Chain>) = reading.others.iter().cloned().partition(verify::is_lead_in);
     let contour = match (reading.chains.as_slice(), others.as_slice()) {
         (_, [other, ..]) => Err(format!("{} would be cut and is no part of the path", other.names())),

@@ -11,7 +11,7 @@ mod second_reader;
 mod write;
 
 pub use cuts::ProvedCuts;
-pub use judge::{judge_path, judge_swept};
+pub use judge::{judge_path, judge_path_as_read, judge_swept};
 pub use write::{DxfForm, Version, cutter_path, marked, write};
 
 use super::tool_file::ProvedFile;
