@@ -9,6 +9,8 @@ pub enum SheetKind {
     Review,
     /// The places at which the part is measured.
     Inspection,
+    /// How the part is set up on a machine for its program.
+    Setup,
 }
 
 impl SheetKind {
@@ -19,6 +21,7 @@ impl SheetKind {
             Self::Drawing => "part drawing",
             Self::Review => "review sheet",
             Self::Inspection => "inspection sheet",
+            Self::Setup => "setup sheet",
         }
     }
 }

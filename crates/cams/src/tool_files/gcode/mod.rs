@@ -18,7 +18,7 @@ use crate::body::{Body, Cut, Request};
 use crate::machine::Controller;
 use crate::report::ProgramMeasures;
 use crate::verify::Evidence;
-use crate::write::endings_of_parts;
+use crate::write::{Rendering, endings_of_parts};
 use camgen_kernel::document::NamedChoice;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::refusal::Refusal;
@@ -165,6 +165,19 @@ impl Plan for PlannedPrograms {
 
     fn warns(&self) -> bool {
         true
+    }
+
+    /// A setup sheet for each program but those that turn the cam under its tool.
+    fn sheet_endings(&self, cam: &DrawnCam<'_>) -> Vec<String> {
+        let are_milled = self.0.as_ref().is_ok_and(|programs| programs.iter().all(|program| program.turned.is_none()));
+        let drawn = cam.drawn.filter(|drawn| are_milled && drawn.swept.is_none());
+        drawn.map_or_else(Vec::new, |drawn| endings_of_parts(drawn, write::setup::SHEET))
+    }
+
+    fn sheets(&self, cam: &Rendering<'_>) -> Result<Vec<Vec<u8>>, Refusal> {
+        let Ok(programs) = &self.0 else { return Ok(Vec::new()) };
+        let milled = programs.iter().filter(|program| program.turned.is_none() && cam.drawn.swept.is_none());
+        milled.map(|program| write::setup::sheet(cam, program)).collect()
     }
 }
 

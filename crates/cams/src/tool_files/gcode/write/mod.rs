@@ -5,6 +5,7 @@
 
 mod iso;
 mod klartext;
+pub(super) mod setup;
 mod turned;
 
 use super::blank::Blank;
