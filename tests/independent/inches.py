@@ -26,7 +26,8 @@ INCH = 25.4
 TOLERANCE = 20e-3
 EXACT = 1e-9
 FORMATS = "dxf,csv,points,inspect,servo-csv,servo-xyva,servo-twincat,servo-isg,gcode,svg,pdf,step,json"
-CONTROLS = gcode.CONTROLS
+# grbl needs a cutter for every program.
+CONTROLS = {control: ending for control, ending in gcode.CONTROLS.items() if control != "grbl"}
 
 
 def design(random):
