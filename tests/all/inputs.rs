@@ -249,7 +249,9 @@ fn another(key: &Key, share: f64, index: u32) -> String {
             format!("[{0}, {0}, {0}, {1}]", 0.1 * share, 1.0 - 0.3 * share)
         }
         KeyForm::Numbers(_) if key.name == "amplitudes" => format!("[7, {share}, -2]"),
-        KeyForm::Number(_) if ["tool", "program", "decimals", "samples", "seed", "count"].contains(&key.name) => {
+        KeyForm::Number(_)
+            if ["tool", "program", "decimals", "finish_passes", "samples", "seed", "count"].contains(&key.name) =>
+        {
             (3 + index % 4).to_string()
         }
         KeyForm::Number(_) if key.name.starts_with("waves_") => (20 + index).to_string(),

@@ -46,6 +46,7 @@ mod laws;
 mod linkage_cams;
 mod live;
 mod lobes;
+mod milling;
 mod mistakes;
 mod mutations;
 mod oracle;

@@ -398,7 +398,12 @@ fn the_sheet_has_fits_datums_and_tolerances() {
     let of_lift = solved("make", "feeder", &["title.lift_tolerance=0.015mm"], &[]);
     assert!(has(&of_lift, "0.026"), "2 · 0.015 · cos 29.55°, rounded down");
     let bare = solved("make", "feeder", &[], &[]);
-    assert!(has(&bare, "Ø24 H7 *") && has(&bare, "hardened, 58+4 HRC *") && has(&bare, "0.04"));
+    assert!(
+        has(&bare, "Ø24 H7 +0.021/0 *")
+            && has(&bare, "hardened, 58+4 HRC *")
+            && has(&bare, "steel for hardening *")
+            && has(&bare, "0.04")
+    );
     assert!(has(&bare, "* and the frames of tolerances: proposed by camgen, to be confirmed at release"));
 }
 

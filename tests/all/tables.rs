@@ -472,7 +472,7 @@ fn every_check_is_run_for_some_cam() {
         "follower.roller.bearing.inertia=0.00002kg*m2",
     ];
     let hub =
-        lifter(LIFTER, &["cam.hub.diameter=30mm", "cam.hub.length=10mm", "cam.thickness=12mm"]).solve().expect("a cam");
+        lifter(LIFTER, &["cam.hub.diameter=20mm", "cam.hub.length=10mm", "cam.thickness=12mm"]).solve().expect("a cam");
     reports.extend(reports_on_files(&hub));
     let moving = lifter(LIFTER, &dynamics).solve().expect("a cam");
     reports.push(("lifter with spring, guide and train".into(), report_of(&moving)));

@@ -46,7 +46,7 @@ class Cold:
         self.by_hand = True
         self.known.setdefault("tool", "by hand")
         # An operator can set a length only if the program sets none.
-        if self.control in ("fanuc", "heidenhain"):
+        if self.control in ("fanuc", "heidenhain", "mach3"):
             self.known.setdefault("length", "by hand")
 
     def goes_home(self, line, axes):
@@ -61,8 +61,10 @@ class Cold:
         assert self.known["distance"] == "90", f"line {line}: incremental"
         across = {axis for axis in to if axis != "Z"}
         if not rapid:
-            self.needs(line, "feed mode", "path", "feed", *(["centres"] if arc and self.control == "linuxcnc" else []))
+            self.needs(line, "feed mode", "path", "feed", *(["centres"] if arc and self.control in ("linuxcnc", "mach3") else []))
             assert self.spindle or self.by_hand, f"line {line}: the spindle stands"
+            deep = min(self.at.get("Z", 0), to.get("Z", 0)) < 0
+            assert not (deep and across and "Z" in to) or to["Z"] < self.at["Z"], f"line {line}: rises across the part"
             assert {"X", "Y", "Z"} <= set(self.at), f"line {line}: from an unknown place"
         if across:
             assert self.home or "Z" in self.at, f"line {line}: across at an unknown height"
@@ -84,7 +86,11 @@ def iso(text, control):
     state, count = Cold(control), 0
     groups = {"unit": {"20", "21", "700", "710"}, "plane": {"17"}, "distance": {"90", "91"}, "radius": {"40", "41", "42"}, "feed mode": {"93", "94"},
               "centres": {"91.1"}, "path": {"61", "64", "642"}, "datum": {"54", "55"}, "motion": {"0", "1", "2", "3"}, "cycle": {"0", "1", "2", "3", "80"}}
-    others = {"43", "49", "53", "28", "92.2", "4"}
+    others = {"43", "49", "53", "28", "92.1", "92.2", "4"}
+    if control == "grbl":
+        # It has no tools: the operator loads one before the start and sets Z0 with it. It keeps its path, and its centres are relative.
+        assert not re.search(r"(?m)^[^(]*(M6|G4[1-3]\b|%|T\d)", text), "a word that grbl does not have"
+        state.known |= {"tool": "loaded", "length": "loaded"}
     for line, block in enumerate(text.splitlines(), 1):
         block = re.sub(r"\(.*?\)|;.*", "", block).strip().upper()
         if control == "sinumerik":
@@ -112,7 +118,7 @@ def iso(text, control):
         state.spindle = (state.spindle or (3 in functions and "S" in values)) and 5 not in functions
         assert 3 not in functions or "S" in values or "S" in state.known
         state.coolant = (state.coolant or bool(functions & {7, 8})) and 9 not in functions
-        if "49" in codes:
+        if "49" in codes and control != "grbl":
             state.known.pop("length", None)
         if "43" in codes:
             # Without a number, on LinuxCNC only, it is the length of the tool in the spindle.
@@ -171,6 +177,8 @@ def dialogue(text, control="heidenhain"):
                 state.known["path"] = tolerance
             case ["CYCL", "DEF", *_]:
                 assert not re.search(r"[XYZ][+-][1-9]|ROT[+-][1-9]", block), block
+            case ["M1"]:
+                continue
             case ["M8"]:
                 state.coolant = True
             case ["M9"]:
@@ -189,8 +197,8 @@ def dialogue(text, control="heidenhain"):
                         state.known["feed"] = word
                     if word in ("M3", "M5"):
                         state.spindle = word == "M3"
-                    if word in ("M8", "M9"):
-                        state.coolant = word == "M8"
+                    if word in ("M7", "M8", "M9"):
+                        state.coolant = word != "M9"
                 to = {word[0]: float(word[1:]) for word in rest if re.fullmatch(r"[XYZ][+-][\d.]+", word)}
                 if "M91" in rest:
                     state.needs(line, "radius")
@@ -225,7 +233,7 @@ def design(random):
     controls = list(CONTROLS)
     if kind == "barrel":
         found = barrel.design(random)
-        return kind, barrel.toml(found), [], controls[:3]
+        return kind, barrel.toml(found), [], [*controls[:3], "mach3"]
     if kind == "pair":
         return kind, conjugate.toml(conjugate.design(random)), [], controls
     if kind == "plate":
@@ -234,7 +242,7 @@ def design(random):
     if kind == "ground":
         while found["kind"] != "disc":
             found, text, _ = gcode.design(random)
-        return kind, text, ["--set", "cut.form=polar", "--cutter-diameter", "120mm"], controls[:3]
+        return kind, text, ["--set", "cut.form=polar", "--cutter-diameter", "120mm"], [*controls[:3], "mach3"]
     return found["kind"], text, gcode.diameter(gcode.cutter_radius(found, random)), controls
 
 
@@ -244,6 +252,8 @@ NEEDED = {
     "fanuc": ["G21\n", "G17 ", "G94 ", "G40 ", "G91 G28 Z0.\n", "G54\n", "G43 H01 ", "S2400 M3\n"],
     "sinumerik": ["G710\n", "G17 ", "G90 ", "G94 ", " G40", "G642 CTOL=0.001\n", " CTOL=0.001", "G0 SUPA Z0.0 D0\n", " D0", "G54\n", "D1 ", "S2400 M3\n"],
     "heidenhain": [" R0", "TOOL CALL 1 Z S2400", " M3", "L Z-1.0 R0 FMAX M91\n"],
+    "grbl": ["G21\n", "G17 ", "G90 ", " G94", "G40 ", "G53 G0 Z-1.0\n", "G54\n", "S2400 M3\n"],
+    "mach3": ["G21\n", "G17 ", "G90 ", " G94", "G91.1 ", "G40 ", "G61\n", "G53 G0 Z0.0\n", "G54\n", " G43 H1", "S2400 M3\n"],
 }
 # Dangerous lines before the first move of a pass.
 DANGEROUS = {
@@ -251,6 +261,8 @@ DANGEROUS = {
     "fanuc": ["G28", "G28 Z0.", "G91 G28 Z-30.", "G0 X0. Y0. Z5.", "G0 G43 H01 Z5.", "G91 G53 G0 Z0."],
     "sinumerik": ["CYCLE832()", "CYCLE832()\nCOMPCAD", "G64 CTOL=0.004", "CTOL=0.5", "G0 X0 Y0 Z5", "G0 D1 Z5"],
     "heidenhain": ["L Z+5 R0 FMAX", "L X+0 Y+0 Z+5 R0 FMAX"],
+    "grbl": ["G28", "G28 Z0", "G0 X0 Y0 Z5", "G0 Z5", "G64", "T1 M6", "G43 H1", "G41 D1"],
+    "mach3": ["G28", "G28 Z0", "G0 X0 Y0 Z5", "G0 Z5", "G64", "G1 X5 F100", "G90.1"],
 }
 # Harmless lines of a shop in the same position.
 HARMLESS = {
@@ -258,6 +270,8 @@ HARMLESS = {
     "fanuc": ["G61", "G91 G28 Z0.\nG90", "M8", "G80 G15 G50 G69"],
     "sinumerik": ["G60", "G64 COMPCAD CTOL=0.004\nG642 COMPOF", "G641 ADIS=0.004", "CYCLE832(0.004,1,1)", "TRANS\nROT", "G0 SUPA Z0 D0", "M8", 'MSG("CAM")', "COMPCAD\nCOMPOF"],
     "heidenhain": ["CYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1 T0.004", "L Z-1 R0 FMAX M91", "L M140 MB MAX", "M8"],
+    "grbl": ["G92.1", "M8", "G55", "G61", "G4 P1"],
+    "mach3": ["G92.1", "M8", "G55", "G91 G28 Z0\nG90", "G61"],
 }
 
 
@@ -320,15 +334,23 @@ def main():
         cut = ["tool = 1"] if tool else []
         cut += ["spindle = 2400"] if spindle else []
         cut += ["depth_per_pass = \"5 mm\""] if random.random() < 0.4 else []
+        flat = kind not in ("barrel", "ground")
+        cut += [f'coolant = "{random.choice(["flood", "mist"])}"'] if random.random() < 0.4 else []
+        cut += ["finish_passes = 2"] if flat and random.random() < 0.3 else []
+        own = {key: f'{key} = ["M1"]' for key in ("header", "after_tool", "footer") if random.random() < 0.3}
         text = gcode.with_cut(text, cut)
         for control in controls:
-            shop = {"heidenhain": ["M8"], "fanuc": ["M8", "G55"]}.get(control, ["M8", "G91 G28 Z0" if control == "linuxcnc" else "G0 SUPA Z0 D0"])
+            shop = {"heidenhain": ["M8"], "grbl": ["M8"], "fanuc": ["M8", "G55"]}.get(control, ["M8", "G0 SUPA Z0 D0" if control == "sinumerik" else "G91 G28 Z0"])
             more = ["--set", f"cut.preamble=[{', '.join(repr(line) for line in shop)}]".replace("'", '"')] if lines else []
+            # A stop by M1 is not one of grbl's words.
+            for key, line in own.items():
+                line = line.replace("M1", "G4 P1") if control == "grbl" else line
+                more += ["--set", "cut." + line.replace(" = ", "=")]
             for old in folder.glob(f"cam*{CONTROLS[control]}"):
                 old.unlink()
             done = make(asked.binary, folder, text, "gcode", "--controller", control, "--force", *words, *more)
             if done.returncode == 2:
-                assert any(why in done.stderr for why in ("free for the cutter", "concave", "does not fit", "decimals", "cutter")), (index, kind, control, done.stderr, text)
+                assert any(why in done.stderr for why in ("free for the cutter", "concave", "does not fit", "decimals", "cutter", "G41")), (index, kind, control, done.stderr, text)
                 continue
             for path in sorted(folder.glob(f"cam*{CONTROLS[control]}")):
                 program = path.read_text()
@@ -349,9 +371,12 @@ def main():
                     raise AssertionError((index, kind, control, "runs without its stop"))
     # One program for each control, altered.
     text = passing_disc(asked.binary, folder, random)
-    text = gcode.with_cut(text, ["tool = 1", "spindle = 2400", 'depth = "4 mm"'])
+    # With the clearance as the safe height: "Z first" must not be high above all clamps.
+    text = gcode.with_cut(text, ["tool = 1", "spindle = 2400", 'depth = "4 mm"', 'safe_height = "5 mm"'])
     for control, ending in CONTROLS.items():
         for size in ([], ["--cutter-diameter", "2mm"]):
+            if control == "grbl" and not size:
+                continue
             done = make(asked.binary, folder, text, "gcode", "--controller", control, *size)
             assert done.returncode == 0, (control, done.stdout, done.stderr)
             program = (folder / f"cam{ending}").read_text()

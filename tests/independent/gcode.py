@@ -1,10 +1,11 @@
 """Runs the programs of `--format gcode` as their controls would, sweeps the cutter, and compares what is left with the cam computed here.
 
 Shares nothing with camgen but the designs below: the roller's centre comes from the laws of laws.py and the geometry of its mechanism (groove.py,
-rib.py), the profile is its parallel by numerical differentiation, and the programs are interpreted here, word by word, in each of the four
+rib.py), the profile is its parallel by numerical differentiation, and the programs are interpreted here, word by word, in each of the six
 dialects; those for LinuxCNC also by its own interpreter `rs274`, with its own compensation of the cutter's radius, where it can be had.
 Of every move below the upper face many places are taken: the cutter there must reach into the exact cam by no more than the tolerance (a gouge),
-and every place of the exact profile must be reached by the cutter to within the tolerance (metal left over). Faults are planted in the
+and every place of the exact profile must be reached by the cutter to within the tolerance (metal left over). The cutter may go straight down only outside
+a blank that is computed here, or where it has cut before; ramps are at most 5 degrees; rapid moves across are at the safe height. Faults are planted in the
 programs, and `camgen check` must refuse each.
 
 usage: gcode.py CAMGEN_BINARY DIRECTORY [--count N] [--seed S]
@@ -27,7 +28,7 @@ from shapely import STRtree, linestrings, points
 TOLERANCE = 5e-3
 # Four decimals of rs274, polygons in the place of curves, and of the integration of the laws.
 ROUNDING = 2e-4
-CONTROLS = {"linuxcnc": ".ngc", "fanuc": ".nc", "sinumerik": ".mpf", "heidenhain": ".h"}
+CONTROLS = {"linuxcnc": ".ngc", "fanuc": ".nc", "sinumerik": ".mpf", "heidenhain": ".h", "grbl": ".gcode", "mach3": ".tap"}
 UNPACKED = Path("target/linuxcnc")
 THETA = (np.arange(10000) + 0.5) * (2 * np.pi / 10000)
 
@@ -69,7 +70,7 @@ def plain(block):
 
 
 # Words of the set-up, tested by cold_start.py.
-SETTING = {"43", "49", "54", "61", "64", "642", "80", "92.2"}
+SETTING = {"43", "49", "54", "61", "64", "642", "80", "92.1", "92.2"}
 
 
 def iso(text):
@@ -104,6 +105,138 @@ def iso(text):
         if values.get("M") == 30:
             return machine.moves
     raise AssertionError("no end")
+
+
+# The codes and functions of grbl 1.1, and the modal groups of which a block may have one word each.
+GRBL = {"0": 1, "1": 1, "2": 1, "3": 1, "17": 2, "90": 3, "91": 3, "91.1": 4, "93": 5, "94": 5, "20": 6, "21": 6, "40": 7, "49": 8, "54": 12, "55": 12,
+        "61": 13, "80": 1, "4": 0, "28": 0, "53": 0, "92.1": 0}
+
+
+def grbl(text):
+    """grbl 1.1: it stops at a word or a code that it does not have, at an unused word, and at an arc without an end or off its circle."""
+    machine, modal, spindle, coolant = Machine(), {1: "0", 2: "17", 3: "90", 5: "94", 6: "21", 7: "40", 8: "49", 12: "54"}, False, False
+    feed, speed = None, 0.0
+    for line, whole in enumerate(text.splitlines(), 1):
+        assert len(whole) < 80, f"line {line}: longer than the buffer of grbl"
+        block = re.sub(r"\(.*?\)|;.*|\s", "", whole).upper()
+        assert "%" not in block and "(" not in block, f"line {line}: {block}"
+        words = re.findall(r"([A-Z])([-+]?[0-9]*\.?[0-9]*)", block)
+        assert "".join(a + b for a, b in words) == block, f"line {line}: {block}"
+        values, groups, functions = {}, {}, []
+        for letter, number in words:
+            match letter:
+                case "G":
+                    assert number in GRBL, f"line {line}: error 20, G{number}"
+                    assert GRBL[number] not in groups, f"line {line}: error 21"
+                    groups[GRBL[number]] = number
+                case "M":
+                    assert number in ("0", "2", "30", "3", "5", "7", "8", "9"), f"line {line}: error 20, M{number}"
+                    functions.append(number)
+                case _:
+                    assert letter in "FIJKNPRSTXYZ", f"line {line}: error 20, {letter}"
+                    assert letter not in values, f"line {line}: error 25"
+                    values[letter] = float(number)
+        modal |= {group: code for group, code in groups.items() if group}
+        feed, speed = values.get("F", feed), values.get("S", speed)
+        spindle = (spindle or "3" in functions) and "5" not in functions
+        coolant = (coolant or bool({"7", "8"} & set(functions))) and "9" not in functions
+        to = [values.get(axis) for axis in "XYZ"]
+        moves = to != [None] * 3
+        if groups.get(0) == "53":
+            assert modal[1] == "0" and to[:2] == [None, None], f"line {line}: error 30, {block}"
+            machine.goes_home()
+        elif moves:
+            assert modal[1] != "80" and modal[3] == "90", f"line {line}: {block}"
+            assert modal[1] == "0" or feed, f"line {line}: error 22, no feed"
+            centre = None
+            if modal[1] in "23":
+                assert to[:2] != [None, None], f"line {line}: error 26, an arc without an end"
+                assert ("I" in values or "J" in values) and to[2] is None, f"line {line}: error 35"
+                centre = complex(machine.at[0] + values.get("I", 0), machine.at[1] + values.get("J", 0))
+                end = [new if new is not None else old for new, old in zip(to, machine.at)]
+                radii = [abs(complex(*at[:2]) - centre) for at in (machine.at, end)]
+                off = abs(radii[0] - radii[1])
+                assert off <= 0.005 or (off <= 0.5 and off <= 1e-3 * radii[0]), f"line {line}: error 33, {radii}"
+            else:
+                assert not {"I", "J", "R"} & set(values), f"line {line}: error 36"
+            machine.go(line, modal[1] == "0", to, centre, modal[1] == "3")
+        else:
+            assert not {"I", "J", "R"} & set(values), f"line {line}: error 31"
+        if "30" in functions:
+            assert not spindle and not coolant and machine.at[2] is None, f"line {line}: ends {spindle} {coolant} {machine.at}"
+            return machine.moves
+    raise AssertionError("no end")
+
+
+def mach3(text):
+    """Mach3: centres of arcs are absolute or relative by its set-up until G91.1, and G64 lets it leave its path."""
+    stated, machine, motion, feed = set(), Machine(), None, 0.0
+    for line, whole in enumerate(text.splitlines(), 1):
+        block = re.sub(r"\([^)]*\)", "", whole).upper().replace(" ", "")
+        words = re.findall(r"([GMTSHDFXYZIJP])([-+]?[0-9]*\.?[0-9]*)", block)
+        assert "".join(a + b for a, b in words) == block, f"line {line}: {block}"
+        codes = [number for letter, number in words if letter == "G"]
+        values = {letter: float(number) for letter, number in words if letter not in "GM"}
+        assert len(values) + len(codes) + sum(letter == "M" for letter, _ in words) == len(words), f"line {line}: a word twice"
+        assert set(codes) <= {"0", "1", "2", "3", "4", "17", "20", "21", "40", "41", "42", "43", "49", "53", "54", "55", "61", "80", "90", "91.1", "92.1", "94"}, f"line {line}: {codes}"
+        stated |= set(codes)
+        for code in codes:
+            motion = code if code in "0123" else motion
+            machine.side = {"40": 0, "41": 1, "42": -1}.get(code, machine.side)
+        assert "41" not in codes and "42" not in codes or "D" in values, f"line {line}: the radius is not known"
+        assert "43" not in codes or "H" in values, f"line {line}: the length is not known"
+        feed = values.get("F", feed)
+        to = [values.get(axis) for axis in "XYZ"]
+        if "53" in codes:
+            assert to[:2] == [None, None] and motion == "0"
+            machine.goes_home()
+        elif to != [None] * 3:
+            assert {"17", "90", "40", "49", "80", "94", "61", "54"} <= stated and stated & {"20", "21"}, f"line {line}: {stated}"
+            assert motion == "0" or feed > 0, f"line {line}: no feed"
+            centre = None
+            if motion in "23":
+                assert "91.1" in stated and {"I", "J"} <= set(values), f"line {line}: a centre that is not known"
+                centre = complex(machine.at[0] + values["I"], machine.at[1] + values["J"])
+                end = complex(to[0], to[1])
+                assert end != complex(*machine.at[:2]), f"line {line}: a full circle in one block"
+                assert abs(abs(complex(*machine.at[:2]) - centre) - abs(end - centre)) < 0.002, f"line {line}: radii differ"
+            machine.go(line, motion == "0", to, centre, motion == "3")
+        if ("M", "30") in words:
+            return machine.moves
+    raise AssertionError("no end")
+
+
+def run_by(control, text):
+    """The moves of a program on its control."""
+    return {"heidenhain": dialogue, "grbl": grbl, "mach3": mach3}.get(control, iso)(text)
+
+
+def entered(found, moves, radius, margin, safe):
+    """Checks how the cutter reaches its depth. The blank is the circle about the shaft that holds the outer profile, with a margin; of a groove and of a
+    hollow outline all is metal."""
+    outer = {"disc": 0, "rib": 0}.get(found["kind"])
+    edge = None if outer is None else max(abs(flanks(found)[outer][1])) + margin + (radius or 0.0)
+    # Places of level cuts, by their depth, in the order in which they were cut.
+    levels, slopes = [], 0
+    for line, rapid, path, _ in moves:
+        across, down = np.ptp(path[:, 0]) + np.ptp(path[:, 1]) > 1e-9, path[0, 2] - path[-1, 2]
+        if rapid:
+            assert not across or (abs(path[0, 2] - safe) < 1e-3 and abs(down) < 1e-9), f"line {line}: a rapid move across at {path[0, 2]}"
+            assert down <= 0 or path[-1, 2] > 0, f"line {line}: fast down to {path[-1, 2]}"
+        elif across and abs(down) < 1e-9 and path[0, 2] < 0:
+            levels.append((path[0, 2], path[:, :2]))
+        elif across and path[:, 2].min() < 0:
+            slope = np.degrees(np.arctan2(down, np.hypot(*(path[-1, :2] - path[0, :2]))))
+            assert 0 < slope < 5, f"line {line}: a ramp of {slope} degrees"
+            slopes += 1
+        elif down > 0 and path[-1, 2] < 0:
+            at = path[-1, :2]
+            if edge is not None and np.hypot(*at) >= edge:
+                continue
+            before = [places for z, places in levels if z <= path[-1, 2] + 2e-3]
+            away = min((np.hypot(*(places - at).T).min() for places in before), default=np.inf)
+            assert away < 0.06, f"line {line}: straight down into metal at {at}, {away} from what was cut"
+    return slopes
 
 
 def dialogue(text):
@@ -263,7 +396,6 @@ def judged(found, moves, cutter, depth, slot):
         upright = np.ptp(path[:, 0]) < 1e-9 and np.ptp(path[:, 1]) < 1e-9
         assert not (rapid and deep) or (upright and path[-1, 2] > path[0, 2]), f"line {line}: rapid below the face"
         if deep and not rapid:
-            assert upright or np.ptp(path[:, 2]) < 1e-9, f"line {line}: slanted"
             below.append(path)
     lowest = -min(path[:, 2].min() for path in below)
     assert abs(lowest - depth) < 2e-3, (lowest, depth)
@@ -358,6 +490,8 @@ def fault_texts(text, control, random):
         return re.sub(r"\bX([-+]?[\d.]+)", lambda m: f"X{'+' if control == 'heidenhain' and float(m[1]) + shift >= 0 else ''}{float(m[1]) + shift:.4f}", line)
     yield "moved by 1.3 tolerances", "\n".join(moved(line) for line in lines) + "\n"
     plunges = [i for i, line in enumerate(lines) if re.search(r"Z-.*F\d", line)]
+    if not plunges or re.search(r"(?m)^(G1|\d+ L) X.* Z", text):
+        return
     plunge = plunges[0]
     yield changed("not deep enough", plunge, lambda line: re.sub(r"Z-([\d.]+)", "Z-1.0", line)) if len(plunges) == 1 else changed(
         "a rapid plunge", plunge, lambda line: line.replace("G1", "G0").replace(re.search(r"F[\d.]+", line)[0], "FMAX" if control == "heidenhain" else ""))
@@ -367,14 +501,23 @@ def main():
     asked = cases.given("gcode", 15)
     random, folder = Random(int(asked.seed)), asked.directory
     rs274 = interpreter()
-    worst, made, run, planted, ground = [0.0, 0.0], 0, 0, 0, 0
+    worst, made, run, planted, ground, sloping = [0.0, 0.0], 0, 0, 0, 0, 0
     for index in range(asked.count):
         found, text, depth = design(random)
-        control = list(CONTROLS)[index % 4]
+        control = list(CONTROLS)[index % len(CONTROLS)]
         cutter = cutter_radius(found, random)
         cut = [f'direction = "{random.choice(["climb", "conventional"])}"']
         cut += random.choice([[], [f'depth_per_pass = "{random.uniform(3, 9)!r} mm"']])
         cut += random.choice([[], ["spindle = 2400", "tool = 1", 'preamble = ["M8"]', 'postamble = ["M9"]']])
+        safe, margin = random.choice([(None, None), (random.uniform(10, 80), random.uniform(0, 9))])
+        cut += [f'safe_height = "{safe!r} mm"', f'blank_margin = "{margin!r} mm"'] if safe else []
+        allowance = random.choice([0.0, 0.0, random.uniform(0.05, 0.4)])
+        passes = random.choice([1, 1, 2, 3])
+        cut += [f'allowance = "{allowance!r} mm"'] if allowance else []
+        cut += [f"finish_passes = {passes}"] if passes > 1 else []
+        cut += random.choice([[], [f'coolant = "{random.choice(["flood", "mist", "off"])}"']])
+        chords = random.random() < 0.25
+        cut += ["arcs = false"] if chords else []
         text = with_cut(text, cut)
         words = ["--controller", control, *diameter(cutter)]
         done = make(asked.binary, folder, text, "gcode", *words)
@@ -386,15 +529,21 @@ def main():
             done = make(asked.binary, folder, text, "gcode", *words, "--force")
             assert done.returncode == 1, done.stderr
         elif done.returncode == 2:
-            assert "free for the cutter" in done.stderr, (index, done.stderr, text, words)
+            known = ["free for the cutter"]
+            known += ["G41"] * ((control == "grbl" or chords) and not cutter) + ["no room for it", "has no path there"] * (allowance > 0)
+            assert any(why in done.stderr for why in known), (index, done.stderr, text, words)
             continue
         made += 1
         path = folder / f"cam{CONTROLS[control]}"
         program = path.read_text()
         slot = found["kind"] == "groove" and cutter is None
         radius = cutter if cutter else (found["radius"] + 0.5 * found["clearance"] if slot else None)
-        moves = dialogue(program) if control == "heidenhain" else iso(program)
+        moves = run_by(control, program)
         results = [judged(found, moves, radius, depth, slot)]
+        sloping += entered(found, moves, radius, 3.0 if margin is None else margin, round(safe, 4) if safe else 50.0)
+        assert not chords or not re.search(r"\bG[23] |^\d+ C ", program, re.M), (index, "an arc")
+        roughs = program.lower().count("roughing)") + len(re.findall(r"^\d+ ; .*roughing$", program, re.M)) + len(re.findall(r"^; .*roughing$", program, re.M))
+        assert (roughs > 0) == (allowance > 0), (index, roughs, allowance)
         if control == "linuxcnc" and rs274:
             # Where LinuxCNC keeps the cutter on the profile it is one of its own.
             own = radius or min(1.0, 0.2 * found["radius"])
@@ -403,9 +552,11 @@ def main():
         for result in results:
             assert max(result) < TOLERANCE + ROUNDING, (index, result, words, text)
             worst = [max(a, b) for a, b in zip(worst, result)]
-        if found["kind"] == "disc" and cutter and control != "heidenhain":
+        if found["kind"] == "disc" and cutter and control not in ("heidenhain", "grbl"):
             (folder / "design.toml").unlink()
-            done = make(asked.binary, folder, text.replace("[cut]", '[cut]\nform = "polar"'), "gcode", *words, "--force")
+            # A disc that is ground has no stock of its own.
+            ground_text = re.sub(r"(?m)^(safe_height|blank_margin|allowance|finish_passes|entry|arcs) = .*\n", "", text)
+            done = make(asked.binary, folder, ground_text.replace("[cut]", '[cut]\nform = "polar"'), "gcode", *words, "--force")
             assert done.returncode < 2 and "program" not in failed(done), (index, done.stdout, done.stderr, text)
             program_in_c = path.read_text()
             moves, fastest = polar(program_in_c)
@@ -435,7 +586,7 @@ def main():
                 planted += 1
     assert made > asked.count // 2, made
     by = f"{run} of them by rs274" if rs274 else "rs274 is not to be had"
-    print(f"{made} of {asked.count} programs ({by}): gouges up to {1e3 * worst[0]:.3f} um, {1e3 * worst[1]:.3f} um left over; {ground} discs ground in polar coordinates; {planted} planted faults refused")
+    print(f"{made} of {asked.count} programs ({by}): gouges up to {1e3 * worst[0]:.3f} um, {1e3 * worst[1]:.3f} um left over; {sloping} lines of ramps; {ground} discs ground in polar coordinates; {planted} planted faults refused")
 
 
 if __name__ == "__main__":

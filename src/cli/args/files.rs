@@ -105,7 +105,7 @@ pub(in crate::cli) struct FileArgs {
     #[command(flatten)]
     pub(in crate::cli) points: PointsArgs,
 
-    /// Control of the program of --format gcode: linuxcnc, fanuc, sinumerik or heidenhain [default: cut.controller, linuxcnc]
+    /// Control of the program of --format gcode: linuxcnc, fanuc, sinumerik, heidenhain, grbl or mach3 [default: cut.controller, linuxcnc]
     #[arg(long, value_name = "CONTROL", ignore_case = true, value_parser = word::<Controller>())]
     pub(in crate::cli) controller: Option<Controller>,
 

@@ -2,8 +2,9 @@
 
 use super::{Page, painted_word, wrapped};
 use camgen::document::plain;
-use camgen::pipeline::CUT_BESIDE;
-use camgen::report::{Bound, Fact, FileVerdict, Finding, NOT_JUDGED, Report, Summary, SummaryTable, Topic, Verdict};
+use camgen::report::{
+    Bound, CUT_BESIDE, Fact, FileVerdict, Finding, NOT_JUDGED, Report, Summary, SummaryTable, Topic, Verdict,
+};
 use camgen::text::{KeyChange, Length, Text, significant};
 use camgen::units::LengthUnit;
 

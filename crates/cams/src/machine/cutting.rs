@@ -4,6 +4,8 @@ use camgen_kernel::document::Presence::{Default, Optional};
 use camgen_kernel::document::cams::FLAT;
 use camgen_kernel::document::range::{LARGEST_NUMBER, LONGEST};
 use camgen_kernel::document::{Field, KeySection, NamedChoice, Occurrence, Reader, above, within};
+use camgen_kernel::geometry::MILLIMETRES;
+use camgen_kernel::text::shown;
 use camgen_kernel::units::Dimension::{Length, Speed};
 use camgen_kernel::units::LengthUnit;
 
@@ -19,13 +21,23 @@ pub enum Controller {
     Sinumerik,
     /// HEIDENHAIN TNC, in its dialogue (Klartext).
     Heidenhain,
+    /// grbl and grblHAL: a subset of RS-274 without tool change, tool length and radius compensation.
+    Grbl,
+    /// Mach3: RS-274, with G91.1 stated because arc centres are absolute or relative by its set-up.
+    Mach3,
 }
 
 /// The words of the controls.
-const CONTROLLERS: &[&str] = &["linuxcnc", "fanuc", "sinumerik", "heidenhain"];
+const CONTROLLERS: &[&str] = &["linuxcnc", "fanuc", "sinumerik", "heidenhain", "grbl", "mach3"];
 /// The controls, in the same order.
-const ALL_CONTROLLERS: &[Controller] =
-    &[Controller::LinuxCnc, Controller::Fanuc, Controller::Sinumerik, Controller::Heidenhain];
+const ALL_CONTROLLERS: &[Controller] = &[
+    Controller::LinuxCnc,
+    Controller::Fanuc,
+    Controller::Sinumerik,
+    Controller::Heidenhain,
+    Controller::Grbl,
+    Controller::Mach3,
+];
 
 impl NamedChoice for Controller {
     const ALL: &'static [(&'static str, Self)] = &[
@@ -33,6 +45,8 @@ impl NamedChoice for Controller {
         ("fanuc", Self::Fanuc),
         ("sinumerik", Self::Sinumerik),
         ("heidenhain", Self::Heidenhain),
+        ("grbl", Self::Grbl),
+        ("mach3", Self::Mach3),
     ];
 }
 
@@ -43,18 +57,18 @@ impl Controller {
     pub fn decimals(self, units: LengthUnit) -> u32 {
         let of_millimetre = match self {
             Self::Fanuc => 3,
-            Self::LinuxCnc | Self::Sinumerik | Self::Heidenhain => 4,
+            Self::LinuxCnc | Self::Sinumerik | Self::Heidenhain | Self::Grbl | Self::Mach3 => 4,
         };
         of_millimetre + u32::from(units == LengthUnit::Inch)
     }
 
     /// Share of the tolerance for path smoothing by the control, if its path mode takes a tolerance: CTOL of SINUMERIK, cycle 32 of HEIDENHAIN. LinuxCNC
-    /// keeps its path (G61); FANUC has no such number.
+    /// and Mach3 keep their path (G61), grbl always does; FANUC has no such number.
     #[must_use]
     pub fn smoothing_share(self) -> f64 {
         match self {
             Self::Sinumerik | Self::Heidenhain => 0.2,
-            Self::LinuxCnc | Self::Fanuc => 0.0,
+            Self::LinuxCnc | Self::Fanuc | Self::Grbl | Self::Mach3 => 0.0,
         }
     }
 
@@ -66,6 +80,8 @@ impl Controller {
             Self::Fanuc => ".nc",
             Self::Sinumerik => ".mpf",
             Self::Heidenhain => ".h",
+            Self::Grbl => ".gcode",
+            Self::Mach3 => ".tap",
         }
     }
 }
@@ -98,6 +114,40 @@ pub enum CuttingForm {
     Polar,
 }
 
+/// The coolant during the cuts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Coolant {
+    /// Off: M9 at the end.
+    #[default]
+    Off,
+    /// M7.
+    Mist,
+    /// M8.
+    Flood,
+}
+
+impl Coolant {
+    /// The word that switches it on.
+    #[must_use]
+    pub fn word(self) -> Option<&'static str> {
+        match self {
+            Self::Off => None,
+            Self::Mist => Some("M7"),
+            Self::Flood => Some("M8"),
+        }
+    }
+}
+
+/// How the cutter reaches its depth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CutterEntry {
+    /// Down outside the blank of an outer profile, down a ramp in a groove and in a hollow outline.
+    #[default]
+    Auto,
+    /// Straight down at the start of the pass.
+    Plunge,
+}
+
 /// `[cut]`, SI, or what holds without it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CuttingData {
@@ -107,6 +157,12 @@ pub struct CuttingData {
     pub form: CuttingForm,
     /// Decimals of lengths; `None`: those of the control.
     pub decimals: Option<u32>,
+    /// Lines before the first block after the modal words.
+    pub header: Vec<String>,
+    /// Lines after each tool change.
+    pub after_tool: Vec<String>,
+    /// Lines before the end, before coolant and spindle are switched off.
+    pub footer: Vec<String>,
     /// Lines between the program's own settings and its first move to the part.
     pub preamble: Vec<String>,
     /// Lines after the last move.
@@ -127,8 +183,22 @@ pub struct CuttingData {
     pub depth_per_pass: Option<f64>,
     /// How far below its lower face a disc is cut, m.
     pub overrun: f64,
-    /// Height above the upper face at which the cutter moves freely, m.
+    /// Height above the upper face from which the cutter moves at its feed, m.
     pub clearance: f64,
+    /// Height above part and clamps at which the cutter moves in X and Y, m.
+    pub safe_height: f64,
+    /// Coolant.
+    pub coolant: Coolant,
+    /// Whether arcs are written as arcs, rather than as chords.
+    pub arcs: bool,
+    /// How the cutter reaches its depth.
+    pub entry: CutterEntry,
+    /// Stock of the blank beyond the bounding circle or rectangle of the outline, m; `None`: the usual 3 mm.
+    pub blank_margin: Option<f64>,
+    /// Stock that the roughing passes keep on the flanks, m; 0: no roughing passes.
+    pub allowance: f64,
+    /// Passes at size and full depth behind the roughing passes, or behind the passes of each depth.
+    pub finish_passes: u32,
     /// Z in machine coordinates to which the tool rises before the tool change and at the end, m; `None`: the control's usual height.
     pub home: Option<f64>,
     /// The sense of milling.
@@ -174,13 +244,28 @@ const PREAMBLE: Field<Vec<String>> = Field::texts(
     "lines between the tool change and the first move to the part, e.g. the coolant, or another datum than G54",
     Optional("[\"G55\", \"M8\"]"),
 )
-.also(&["header", "start"]);
+.also(&["start"]);
 const POSTAMBLE: Field<Vec<String>> = Field::texts(
     "postamble",
     "lines before the end of a program, after M9, M5 and the move to cut.home",
     Optional("[\"G0 X0 Y0\"]"),
 )
-.also(&["footer", "end"]);
+.also(&["end"]);
+const HEADER: Field<Vec<String>> = Field::texts(
+    "header",
+    "lines before the first block of a program, after its comments and its modal words",
+    Optional("[\"G55\"]"),
+);
+const AFTER_TOOL: Field<Vec<String>> = Field::texts(
+    "after_tool",
+    "lines directly after each tool change, or after the stop at which the operator loads the tool",
+    Optional("[\"M1\"]"),
+);
+const FOOTER: Field<Vec<String>> = Field::texts(
+    "footer",
+    "lines after the last pass, before coolant and spindle are switched off",
+    Optional("[\"M1\"]"),
+);
 const FEED: Field<f64> = Field::quantity(
     "feed",
     "feed of the cutter along its path",
@@ -236,12 +321,65 @@ const OVERRUN: Field<f64> = Field::quantity(
 );
 const CLEARANCE: Field<f64> = Field::quantity(
     "clearance",
-    "height above the upper face at which the cutter moves freely, and to which it returns",
+    "height above the upper face to which the cutter comes down fast, and from which it moves at its feed",
     Default("5 mm"),
     Length,
     above(0.0, LONGEST),
 )
-.also(&["safe_height", "retract"]);
+.also(&["retract"]);
+const SAFE_HEIGHT: Field<f64> = Field::quantity(
+    "safe_height",
+    "height above the upper face, clear of part and clamps, at which the cutter moves in X and Y before it comes down to cut.clearance; the larger of 50 mm \
+     and cut.clearance when absent",
+    Optional("60 mm"),
+    Length,
+    above(0.0, LONGEST),
+)
+.also(&["rapid_height", "safe_z"]);
+const COOLANT: Field<Coolant> = Field::words(
+    "coolant",
+    "\"flood\" (M8) or \"mist\" (M7) from the start of the spindle to the end, or \"off\"",
+    Default("off"),
+    &["off", "mist", "flood"],
+    &[Coolant::Off, Coolant::Mist, Coolant::Flood],
+);
+const ARCS: Field<bool> = Field::boolean(
+    "arcs",
+    "whether arcs are written as arcs (G2, G3); with false as chords within the tolerance, for a control or a cam that needs lines",
+    Default("true"),
+);
+const ENTRY: Field<CutterEntry> = Field::words(
+    "entry",
+    "how the cutter reaches its depth: \"auto\", down outside the blank of an outer profile, and down a ramp of 3 deg along the path in grooves and hollow \
+     outlines; or \"plunge\", straight down at the start of the pass, into metal unless it was drilled before",
+    Default("auto"),
+    &["auto", "plunge"],
+    &[CutterEntry::Auto, CutterEntry::Plunge],
+);
+const BLANK_MARGIN: Field<f64> = Field::quantity(
+    "blank_margin",
+    "stock of the blank beyond the circle about the shaft, or the rectangle of a plate, that holds the outline: the cutter goes down outside it; 3 mm when \
+     absent",
+    Optional("5 mm"),
+    Length,
+    within(0.0, LONGEST),
+)
+.also(&["stock", "blank"]);
+const ALLOWANCE: Field<f64> = Field::quantity(
+    "allowance",
+    "stock that roughing passes at every depth keep on the flanks for the finishing passes at full depth; without it no pass is a roughing pass",
+    Default("0 mm"),
+    Length,
+    within(0.0, LONGEST),
+)
+.also(&["stock_to_leave", "finish_allowance"]);
+const FINISH_PASSES: Field<f64> = Field::number(
+    "finish_passes",
+    "passes at size and full depth, 1 to 10: those after the first are spring passes, without infeed",
+    Default("1"),
+    within(1.0, 10.0),
+)
+.also(&["spring_passes"]);
 const HOME: Field<f64> = Field::quantity(
     "home",
     "Z in machine coordinates to which the tool rises before the tool change and at the end; when absent 0 mm for linuxcnc and sinumerik, -1 mm for \
@@ -276,6 +414,9 @@ pub(super) const SECTION: KeySection = KeySection {
         CONTROLLER.key,
         FORM.key,
         DECIMALS.key,
+        HEADER.key,
+        AFTER_TOOL.key,
+        FOOTER.key,
         PREAMBLE.key,
         POSTAMBLE.key,
         FEED.key,
@@ -287,9 +428,16 @@ pub(super) const SECTION: KeySection = KeySection {
         DEPTH_PER_PASS.key,
         OVERRUN.key,
         CLEARANCE.key,
+        SAFE_HEIGHT.key,
         HOME.key,
+        COOLANT.key,
         DIRECTION.key,
         COMPENSATION.key,
+        ARCS.key,
+        ENTRY.key,
+        BLANK_MARGIN.key,
+        ALLOWANCE.key,
+        FINISH_PASSES.key,
     ],
 };
 
@@ -297,6 +445,18 @@ pub(super) const SECTION: KeySection = KeySection {
 const USUAL_FEED: f64 = 300.0 / 60e3;
 const USUAL_PLUNGE_FEED: f64 = 100.0 / 60e3;
 const USUAL_CLEARANCE: f64 = 5e-3;
+/// Height that clears the clamps of a vice or a strap, m.
+const USUAL_SAFE_HEIGHT: f64 = 50e-3;
+/// Stock of a blank beyond its outline, m: what a saw or a torch needs.
+const USUAL_BLANK_MARGIN: f64 = 3e-3;
+
+impl CuttingData {
+    /// Stock of the blank beyond the bounding circle or rectangle of the outline, m.
+    #[must_use]
+    pub fn blank_margin(&self) -> f64 {
+        self.blank_margin.unwrap_or(USUAL_BLANK_MARGIN)
+    }
+}
 
 impl std::default::Default for CuttingData {
     fn default() -> Self {
@@ -304,6 +464,9 @@ impl std::default::Default for CuttingData {
             controller: Controller::default(),
             form: CuttingForm::default(),
             decimals: None,
+            header: Vec::new(),
+            after_tool: Vec::new(),
+            footer: Vec::new(),
             preamble: Vec::new(),
             postamble: Vec::new(),
             feed: USUAL_FEED,
@@ -315,6 +478,13 @@ impl std::default::Default for CuttingData {
             depth_per_pass: None,
             overrun: 0.0,
             clearance: USUAL_CLEARANCE,
+            safe_height: USUAL_SAFE_HEIGHT,
+            coolant: Coolant::Off,
+            arcs: true,
+            entry: CutterEntry::Auto,
+            blank_margin: None,
+            allowance: 0.0,
+            finish_passes: 1,
             home: None,
             direction: MillingDirection::Climb,
             compensation: RadiusCompensation::Program,
@@ -346,10 +516,29 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<CuttingData> {
         }
         lines
     };
+    let clearance = table.get(&CLEARANCE)?;
+    let safe_height = table.get(&SAFE_HEIGHT).unwrap_or(USUAL_SAFE_HEIGHT.max(clearance));
+    if safe_height < clearance {
+        let [safe, clear] = [safe_height, clearance].map(|height| shown(MILLIMETRES * height));
+        let what = format!("cut.safe_height of {safe} mm is below cut.clearance of {clear} mm");
+        table.fail(&SAFE_HEIGHT, what, Some(format!("give a cut.safe_height of at least {clear} mm")));
+    }
+    let (controller, compensation) = (table.get(&CONTROLLER)?, table.get(&COMPENSATION)?);
+    if controller == Controller::Grbl && compensation == RadiusCompensation::Control {
+        let what = "cut.compensation = \"control\": grbl has no compensation of the cutter's radius (G41, G42)";
+        table.fail(
+            &COMPENSATION,
+            what.to_owned(),
+            Some("give cut.compensation = \"program\" and --cutter-diameter".into()),
+        );
+    }
     Some(CuttingData {
-        controller: table.get(&CONTROLLER)?,
+        controller,
         form: table.get(&FORM)?,
         decimals: whole(&DECIMALS),
+        header: lines(&HEADER),
+        after_tool: lines(&AFTER_TOOL),
+        footer: lines(&FOOTER),
         preamble: lines(&PREAMBLE),
         postamble: lines(&POSTAMBLE),
         feed: table.get(&FEED)?,
@@ -360,9 +549,16 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<CuttingData> {
         depth: table.get(&DEPTH),
         depth_per_pass: table.get(&DEPTH_PER_PASS),
         overrun: table.get(&OVERRUN)?,
-        clearance: table.get(&CLEARANCE)?,
+        clearance,
+        safe_height,
         home: table.get(&HOME),
+        coolant: table.get(&COOLANT)?,
         direction: table.get(&DIRECTION)?,
-        compensation: table.get(&COMPENSATION)?,
+        compensation,
+        arcs: table.get(&ARCS)?,
+        entry: table.get(&ENTRY)?,
+        blank_margin: table.get(&BLANK_MARGIN),
+        allowance: table.get(&ALLOWANCE)?,
+        finish_passes: whole(&FINISH_PASSES)?,
     })
 }

@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 /// Equal holes through a disc, evenly spaced on a circle about its shaft: an element of `[[cam.holes]]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HolePattern {
-    /// The key of its table: "cam.holes[0]".
+    /// The key of its table: `cam.holes[0]`.
     pub key: String,
     /// How many.
     pub count: u32,

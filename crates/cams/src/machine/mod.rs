@@ -36,7 +36,7 @@ pub use barrel::BarrelData;
 pub use bearing::BearingData;
 pub use camgen_kernel::document::{Excerpt, FileFault};
 pub use camgen_kernel::follower::{Crown, FollowerData, RollerData};
-pub use cutting::{Controller, CuttingData, CuttingForm, MillingDirection, RadiusCompensation};
+pub use cutting::{Controller, Coolant, CutterEntry, CuttingData, CuttingForm, MillingDirection, RadiusCompensation};
 pub use disc::{CamData, Keyway, Rotation};
 pub use dynamics::{DampingAgainst, Dynamics, GuideData, SpringData, VibrationData};
 pub use embedded::{EMBEDDED, Embedded};

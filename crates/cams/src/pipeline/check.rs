@@ -5,7 +5,10 @@ use crate::body::conjugate::COUNTER;
 use crate::body::{Body, Cut, Layer, Request};
 use crate::reading::step::{FaceLoop, FlankShape, HubShape, SolidForm, StepBoundary, StepFile, StepPlacement};
 use crate::reading::{self, Chain, OutlinePlace, Reading, step};
-use crate::report::{FileVerdict, Finding, Inputs, NOT_JUDGED, Report, ReportLine, Rolled, Section, Verdict, shown};
+use crate::report::{
+    CUT_BESIDE, CUTTER_PATH_NOUN, FileVerdict, Finding, Inputs, NOT_JUDGED, Report, ReportLine, Rolled, Section,
+    Verdict, shown,
+};
 use crate::tool_files::dxf::{judge_path, judge_path_as_read, judge_swept};
 use crate::tool_files::section::{CutSection, section};
 use crate::tool_files::{ExpectedFile, JudgedFile, SolvedCam};
@@ -18,10 +21,6 @@ use camgen_kernel::text::Text;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
-/// The section of a report on a drawing with how what would be cut differs from the part.
-pub const CUT_BESIDE: &str = "cut_beside";
-/// How the noun of a report begins on a file with the path of a cutter's centre.
-pub const CUTTER_PATH_NOUN: &str = "path of a cutter";
 /// A contour whose extents are nearer to those of the cam than this many tolerances is compared with it, wherever it lies in its file.
 const NEAR_EXTENTS: f64 = 4.0;
 

@@ -28,7 +28,6 @@ pub use builder::{
     ArmSide, Builder, FlatFaceFollower, KnifeEdgeFollower, PlaceChoice, RollerFollower, SwingingFaceFollower,
     SwingingRollerFollower,
 };
-pub use check::{CUT_BESIDE, CUTTER_PATH_NOUN};
 pub use diagnosis::Alternative;
 pub use error::Error;
 pub use file_kind::FileKind;

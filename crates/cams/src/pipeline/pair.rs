@@ -107,7 +107,7 @@ fn sheet(discs: &[(&str, &Proven)], mark: &str, writing: &Writing) -> Result<Vec
     let drawn = first.drawn().ok_or_else(|| Error::NoOutline("a disc has no outline".into()))?;
     let review = first.body().view(drawn).map_err(|error| Error::Format(Refusal::of(error)))?;
     let rollers = review.groups.into_iter().filter(|group| group.class == "roller").collect();
-    let view = of_pair(first.body().machine(), paired, rollers);
+    let view = of_pair(first.body().machine(), &paired, rollers);
     let report = first.report();
     let extras = SheetExtras {
         kind: SheetKind::Pair,

@@ -33,7 +33,10 @@ pub use inputs::{Inputs, hexadecimal, sha256};
 pub use point_measures::PointMeasures;
 pub use program_measures::ProgramMeasures;
 pub use rolled::Rolled;
-pub use summary::{FileVerdict, NOT_JUDGED, Summary, SummaryColumn, SummaryTable, length_cell, number_cell};
+pub use summary::{
+    CUT_BESIDE, CUTTER_PATH_NOUN, FileVerdict, NOT_JUDGED, Summary, SummaryColumn, SummaryTable, length_cell,
+    number_cell,
+};
 pub use values::{CamMeasures, OutlineMeasures, Weight, lobes_words};
 
 use camgen_kernel::text::Text;

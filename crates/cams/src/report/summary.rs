@@ -102,6 +102,10 @@ const OF_A_WRONG_BORE: [&str; 2] = ["holes", "volume"];
 
 /// The section of a report on a file that cannot be judged.
 pub const NOT_JUDGED: &str = "not_judged";
+/// The section of a report on a drawing with how what would be cut differs from the part.
+pub const CUT_BESIDE: &str = "cut_beside";
+/// How the noun of a report begins on a file with the path of a cutter's centre.
+pub const CUTTER_PATH_NOUN: &str = "path of a cutter";
 
 impl FileVerdict {
     /// The verdict of the report on a file.

@@ -85,7 +85,7 @@ impl Contour {
     /// The contour at another place, mm.
     #[must_use]
     pub fn moved(&self, by: Vector2<f64>) -> Self {
-        let vertices = self.vertices.iter().map(|vertex| Vertex { point: vertex.point + by, ..vertex.clone() });
+        let vertices = self.vertices.iter().map(|vertex| Vertex { point: vertex.point + by, ..*vertex });
         Self { vertices: vertices.collect() }
     }
 

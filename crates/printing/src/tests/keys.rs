@@ -330,6 +330,16 @@ const OTHERS: &[(&str, &str)] = &[
     ("cut.controller", "heidenhain"),
     ("cut.form", "polar"),
     ("cut.decimals", "5"),
+    ("cut.header", "[\"G55\"]"),
+    ("cut.after_tool", "[\"M1\"]"),
+    ("cut.footer", "[\"M1\"]"),
+    ("cut.safe_height", "60 mm"),
+    ("cut.coolant", "flood"),
+    ("cut.arcs", "false"),
+    ("cut.entry", "plunge"),
+    ("cut.blank_margin", "5 mm"),
+    ("cut.allowance", "0.2 mm"),
+    ("cut.finish_passes", "2"),
     ("cut.preamble", "[\"G55\"]"),
     ("cut.postamble", "[\"M2\"]"),
     ("cut.feed", "500 mm/min"),
@@ -433,7 +443,9 @@ fn file_for(path: &str) -> String {
     let dynamics = if path.starts_with("follower.") || of_arc || of_arms || of_plate { "" } else { DYNAMICS };
     let press = match path {
         _ if of_plate => press.replace("\n[cam]\n", "\n[cam]\nbody = \"wedge\"\n"),
-        "cam.timing_mark.depth" => press.replace("\n[cam]\n", "\n[cam]\nbody = \"groove\"\ngroove_depth = \"6 mm\"\n"),
+        "cam.timing_mark.depth" | "cam.timing_mark.form" => {
+            press.replace("\n[cam]\n", "\n[cam]\nbody = \"groove\"\ngroove_depth = \"6 mm\"\n")
+        }
         _ => press,
     };
     let motion = match FOLLOWERS.iter().find(|kind| kind.section.path == section.path) {

@@ -161,7 +161,7 @@ pub(super) fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
         }
         i += 1.0;
     }
-    let rows = without_rests(rows);
+    let rows = without_rests(&rows);
     let rows = PlaceTable::regular_rows(rows);
     let group = ["ψ upper", "r upper", "z upper", "ψ lower", "r lower", "z lower"];
     let heads: Vec<String> = ["θ °"].into_iter().chain(group).map(str::to_owned).collect();
@@ -180,7 +180,7 @@ pub(super) fn tables(globoid: &Globoid) -> Vec<PlaceTable> {
 }
 
 /// The rows without those between the first and the last of a rest, in which radius and height stay.
-fn without_rests(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
+fn without_rests(rows: &[Vec<String>]) -> Vec<Vec<String>> {
     let place = |row: &Vec<String>| [2, 3, 5, 6].map(|cell| row.get(cell).cloned());
     let rests = |index: usize| {
         let same = |other: Option<usize>| {

@@ -171,7 +171,7 @@ fn start_of_cut(machine: &Machine, part: &Part) -> Option<Mark> {
     let is_hollow = part.track.as_ref().is_some_and(|track| track.first.1);
     // A cutter that turns clockwise climbs with the metal on its right.
     let is_climb = machine.cutting().direction == MillingDirection::Climb;
-    let along = if is_climb != is_hollow { -along } else { along };
+    let along = if is_climb == is_hollow { along } else { -along };
     let way = if is_climb { "climb" } else { "conventional" };
     Some(Mark::Start { at: first.start(), along, outward, text: format!("start of cut ({way})") })
 }

@@ -26,13 +26,13 @@ pub(crate) struct PairedDisc<'a> {
 }
 
 /// The view of a pair: the disc in front with the other one dashed, the section through both, and the list of parts; `rollers` are those of the review sheet.
-pub(crate) fn of_pair(machine: &Machine, discs: [PairedDisc<'_>; 2], rollers: Vec<ShapeGroup>) -> SheetView {
+pub(crate) fn of_pair(machine: &Machine, discs: &[PairedDisc<'_>; 2], rollers: Vec<ShapeGroup>) -> SheetView {
     let units = machine.units();
     let thickness = MILLIMETRES * machine.cam.thickness.unwrap_or(0.0);
     let mass = discs.iter().map(|disc| disc.mass).sum::<Option<f64>>();
     let mut view = SheetView { facts: TitleFacts::of(machine, mass), ..SheetView::default() };
     view.facts.thickness_mm = Some(2.0 * thickness);
-    let [behind, in_front] = &discs;
+    let [behind, in_front] = discs;
     for rim in behind.part.rims() {
         let shape = SheetShape::Entity(rim.curve);
         view.groups.push(ShapeGroup { id: "behind".into(), ..ShapeGroup::new("hidden", "disc behind", vec![shape]) });
@@ -47,7 +47,7 @@ pub(crate) fn of_pair(machine: &Machine, discs: [PairedDisc<'_>; 2], rollers: Ve
     let front = behind.part.extents().with(&in_front.part.extents());
     let size = front.size().max();
     let place = SectionPlace::below(units, &front, GAP * size, [0.0, 2.0 * thickness]);
-    let field = add_section(&place, &discs, thickness, size, &mut view);
+    let field = add_section(&place, discs, thickness, size, &mut view);
     view.marks.push(Mark::CuttingLine {
         ends: [Vector2::new(front.least.x, 0.0), Vector2::new(front.largest.x, 0.0)],
         sight: place.sight(),
@@ -68,7 +68,7 @@ pub(crate) fn of_pair(machine: &Machine, discs: [PairedDisc<'_>; 2], rollers: Ve
         datum: None,
         is_half: false,
     });
-    view.tables = vec![list_of_parts(&discs)];
+    view.tables = vec![list_of_parts(discs)];
     view.notes = vec![
         "Item 2 lies in front of item 1, faces together; both are drawn in one frame, ψ = 0 along +x.".into(),
         if machine.cam.keyway.is_some() {

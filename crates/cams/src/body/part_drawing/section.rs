@@ -229,7 +229,7 @@ fn sizes(machine: &Machine, part: &Part, (place, field): (&SectionPlace, &Extent
         sizes.push(SectionSize { from, to, away: -Vector2::x(), line: left_line, text });
         left_line += 1;
         if hub.behind > 0.0 && is_in_front {
-            let text = format!("{}", units.dimension(hub.in_front));
+            let text = units.dimension(hub.in_front);
             let [from, to] = [thickness, end].map(|z| Vector2::new(left, level(z)));
             sizes.push(SectionSize { from, to, away: -Vector2::x(), line: left_line, text });
         }

@@ -158,7 +158,9 @@ impl LayoutAttempt<'_> {
 
     /// Every panel with its distance from the top, the tables of places as fine as there is room for.
     fn panels(&self, width: f64, height: f64, partly: bool) -> Option<Vec<(f64, SheetPanel)>> {
-        let tables = if self.extras.kind == SheetKind::Review { &[][..] } else { &self.view.tables };
+        // A setup sheet has all of its tables.
+        let has_choice = matches!(self.extras.kind, SheetKind::Drawing | SheetKind::Inspection);
+        let tables = if has_choice { self.view.tables.as_slice() } else { &[] };
         let mut choices = tables.iter().map(Some).chain(tables.is_empty().then_some(None));
         choices.find_map(|table| stack(self.list(width, table), height, partly))
     }
@@ -174,6 +176,10 @@ impl LayoutAttempt<'_> {
         match self.extras.kind {
             // What camgen assumed is for the reviewer: the drawing has what follows from it.
             SheetKind::Drawing | SheetKind::Pair => table.into_iter().chain(files).chain(notes(&[])).collect(),
+            SheetKind::Setup => {
+                let tables = self.view.tables.iter().map(|table| panels::places(writer(), table));
+                tables.chain([panels::legend(writer(), self.view)]).chain(notes(&[])).collect()
+            }
             SheetKind::Inspection => table.into_iter().chain(notes(&[])).collect(),
             SheetKind::Review => {
                 let checks =

@@ -11,6 +11,8 @@ pub enum SheetKind {
     Review,
     /// The places at which the part is measured.
     Inspection,
+    /// How the part is set up on a machine for its program.
+    Setup,
 }
 
 impl SheetKind {
@@ -28,6 +30,7 @@ impl SheetKind {
             Self::Pair => "drawing of the pair",
             Self::Review => "review sheet",
             Self::Inspection => "inspection sheet",
+            Self::Setup => "setup sheet",
         }
     }
 }

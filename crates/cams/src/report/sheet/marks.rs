@@ -500,21 +500,21 @@ impl Marker<'_> {
         let half = 0.5 * Vector2::new(width, high + above + below);
         let is_overhanging = width > framed + word;
         // An arrow starts at a side of the frame if a datum hangs below it.
-        let start = |field: &Extents, at: Vector2<f64>| match frame.datum {
-            None => at.sup(&field.least).inf(&field.largest),
-            Some(_) => {
-                let right = field.least.x + framed + word;
-                if at.y > field.largest.y {
-                    return Vector2::new(at.x.clamp(field.least.x, right), field.largest.y);
-                }
-                if at.x < 0.5 * (field.least.x + right) {
-                    Vector2::new(field.least.x, field.least.y + below + 0.5 * high)
-                } else if is_overhanging {
-                    // At the end of the line on which the text stands.
-                    Vector2::new(field.largest.x, field.least.y + below + high)
-                } else {
-                    Vector2::new(right, field.least.y + below + 0.5 * high)
-                }
+        let start = |field: &Extents, at: Vector2<f64>| {
+            if frame.datum.is_none() {
+                return nearest_corner(field, at);
+            }
+            let right = field.least.x + framed + word;
+            let middle = field.least.y + below + 0.5 * high;
+            if at.y > field.largest.y {
+                Vector2::new(at.x.clamp(field.least.x, right), field.largest.y)
+            } else if at.x < 0.5 * (field.least.x + right) {
+                Vector2::new(field.least.x, middle)
+            } else if is_overhanging {
+                // At the end of the line on which the text stands.
+                Vector2::new(field.largest.x, middle + 0.5 * high)
+            } else {
+                Vector2::new(right, middle)
             }
         };
         let Some((field, arrow)) = self.pointing(&frame.places, half, start) else { return Vec::new() };

@@ -1,10 +1,12 @@
 //! Programs for a milling machine, also of a wheel that grinds in polar coordinates and of a tool over a cam that a fourth axis turns.
 
+mod blank;
 mod judge;
 mod plan;
 pub mod read;
 mod write;
 
+pub use plan::entry::{Descent, Entry};
 pub use plan::four_axes;
 pub use plan::milling::{self, MillingProgram};
 pub use read::{CutterMove, CutterProgram, CutterSide, MoveKind, TurnedPass, read};
@@ -16,7 +18,7 @@ use crate::body::{Body, Cut, Request};
 use crate::machine::Controller;
 use crate::report::ProgramMeasures;
 use crate::verify::Evidence;
-use crate::write::endings_of_parts;
+use crate::write::{Rendering, endings_of_parts};
 use camgen_kernel::document::NamedChoice;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::refusal::Refusal;
@@ -95,6 +97,8 @@ impl ToolFile for ProgramFile {
             cuts: (0..cuts.len()).collect(),
             cutter,
             kept: given.filter(|_| kept).map(|radius| MILLIMETRES * radius),
+            presumed: None,
+            knows_blank: body.machine().cutting().blank_margin.is_some(),
             middle: MILLIMETRES * cam.request.fit.band().0,
             depth: depth_of(body),
             program: Ok(program),
@@ -148,6 +152,8 @@ impl Plan for PlannedPrograms {
                 cuts: program.cuts.clone(),
                 cutter: program.cutter.map(|radius| MILLIMETRES * radius),
                 kept: request.cutter_radius.filter(|_| program.cutter.is_none()).map(|radius| MILLIMETRES * radius),
+                presumed: program.largest_kept(),
+                knows_blank: true,
                 middle: MILLIMETRES * request.fit.band().0,
                 depth: depth_of(evidence.body),
                 program: read,
@@ -160,6 +166,19 @@ impl Plan for PlannedPrograms {
     fn warns(&self) -> bool {
         true
     }
+
+    /// A setup sheet for each program but those that turn the cam under its tool.
+    fn sheet_endings(&self, cam: &DrawnCam<'_>) -> Vec<String> {
+        let are_milled = self.0.as_ref().is_ok_and(|programs| programs.iter().all(|program| program.turned.is_none()));
+        let drawn = cam.drawn.filter(|drawn| are_milled && drawn.swept.is_none());
+        drawn.map_or_else(Vec::new, |drawn| endings_of_parts(drawn, write::setup::SHEET))
+    }
+
+    fn sheets(&self, cam: &Rendering<'_>) -> Result<Vec<Vec<u8>>, Refusal> {
+        let Ok(programs) = &self.0 else { return Ok(Vec::new()) };
+        let milled = programs.iter().filter(|program| program.turned.is_none() && cam.drawn.swept.is_none());
+        milled.map(|program| write::setup::sheet(cam, program)).collect()
+    }
 }
 
 /// The figures of a program as it was read, for the report.
@@ -170,11 +189,15 @@ fn measured(program: &MillingProgram, read: &CutterProgram) -> ProgramMeasures {
     let at_feed = || read.moves.iter().filter(|moved| moved.kind != MoveKind::Rapid);
     let along: f64 = at_feed().flat_map(CutterMove::segments).map(|segment| segment.length()).sum();
     let down: f64 = at_feed().map(|moved| (moved.to[2] - moved.from[2]).abs()).sum();
-    let seconds = (along / program.cutting.feed + down / program.cutting.plunge_feed) / MILLIMETRES;
+    // A ramp is run at the feed into the material.
+    let ramps = at_feed().filter(|moved| !moved.is_level()).flat_map(CutterMove::segments);
+    let sloping: f64 = ramps.map(|segment| segment.length()).sum();
+    let (feed, plunge_feed) = (program.cutting.feed, program.cutting.plunge_feed);
+    let seconds = ((along - sloping) / feed + (sloping + down) / plunge_feed) / MILLIMETRES;
     ProgramMeasures {
         controller: program.controller.word(),
         moves: read.moves.len(),
-        passes: program.depths.len() * program.passes.len(),
+        passes: program.order.len(),
         depth_mm: program.depths.last().copied().unwrap_or(0.0),
         length_mm: along + down,
         minutes: seconds / 60.0,

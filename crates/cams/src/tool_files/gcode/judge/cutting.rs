@@ -92,8 +92,10 @@ pub(super) fn leaves_its_path(program: &CutterProgram, tolerance_mm: f64) -> Tex
 /// What is wrong with a tool, or with the number of its radius.
 fn wrong_tool(design: &CuttingData, program: &CutterProgram, state: &CuttingState) -> Option<String> {
     let first = program.states.iter().find(|(_, other)| other.compensated).map_or(state, |(_, first)| first);
-    let wanted = design.tool.or(first.tool.filter(|_| state.compensated));
-    if !state.named && state.tool != wanted && (design.tool.is_some() || state.compensated) {
+    // grbl has no tool change: the operator loads the tool.
+    let is_changed = program.control != Some(Controller::Grbl);
+    let wanted = design.tool.filter(|_| is_changed).or(first.tool.filter(|_| state.compensated));
+    if !state.named && state.tool != wanted && ((design.tool.is_some() && is_changed) || state.compensated) {
         let wanted = wanted.map_or_else(|| "the one before".to_owned(), |tool| format!("tool {tool}"));
         return Some(match state.tool {
             None => format!("the cutter cuts, and {wanted} was not changed in"),

@@ -1,16 +1,19 @@
 //! What the control of a milling machine makes of a written program, compared with the exact cam.
 //!
 //! The moves are as they are read back from the bytes. Between the upper face and the depth every level pass must close round a flank of the
-//! part: what the cutter leaves along it is followed along the exact profile, as for the path of a cutter (`cutter_path`). Each flank must be
-//! cut to the full depth, lead-ins and lead-outs must keep clear of the metal, and no rapid move may go below the upper face.
+//! part: what the cutter leaves along it is followed along the exact profile, as for the path of a cutter (`cutter_path`), or is farther out by `cut.allowance`. Each
+//! flank must be cut to the full depth, ramps, lead-ins and lead-outs must keep clear of the metal, and no rapid move may go below the upper face, nor any
+//! move straight down into the blank.
 
+use super::super::blank::Blank;
 use super::super::read::{CutterMove, CutterProgram, CutterSide, MoveKind};
 use super::cutting::{SAME_DEPTH, as_designed, leaves_its_path, not_too_deep_at_once};
+use super::entry::{is_ramp, not_too_steep, of_plunge};
 use super::program::{JudgedProgram, ProgramFault, WrittenProgram, remarks};
 use super::turned;
 use crate::body::{Cut, Layer, groove_width};
 use crate::check::{Check, CheckExplanation, CheckScope};
-use crate::machine::MillingDirection;
+use crate::machine::{CutterEntry, MillingDirection};
 use crate::report::{Bound, Finding, Verdict, shown};
 use crate::verify::{Evidence, left_behind, moved_inwards, place};
 use camgen_kernel::geometry::MILLIMETRES;
@@ -26,7 +29,7 @@ pub(in super::super) const CHECK: Check = Check {
     unit: "mm",
     about: "The largest distance between the exact profile and what the cutter leaves along the passes of the program as its control reads \
             it, in both directions; also how deep a lead-in or lead-out cuts into the cam. Every flank must be cut to its depth, and no rapid \
-            move may go below the upper face.",
+            move may go below the upper face, nor any move straight down into the blank.",
     explained: CheckExplanation {
         bound: Bound::AtMost,
         formula: "max distance between the parallel of each pass at the cutter's radius and the exact profile",
@@ -82,6 +85,8 @@ pub(in super::super) fn keeps_its_cutter(program: &CutterProgram) -> bool {
 struct LevelPass<'m> {
     /// mm below the upper face.
     depth: f64,
+    /// The ramp to its depth.
+    ramp: &'m [CutterMove],
     moves: &'m [CutterMove],
     /// The side of the cutter as it goes down.
     side_before: CutterSide,
@@ -100,12 +105,14 @@ fn passes(program: &CutterProgram) -> Result<Vec<LevelPass<'_>>, ProgramFault> {
             if cuts && !leaves {
                 return Err(ProgramFault::new(format!("a rapid move in line {line} goes below the upper face")));
             }
+        } else if cuts && is_ramp(moved) {
+            not_too_steep(moved)?;
         } else if cuts && !moved.is_level() && !moved.is_upright() {
-            return Err(ProgramFault::new(format!("a move in line {line} changes place and depth at once")));
+            return Err(ProgramFault::new(format!("a move in line {line} rises across the part below the upper face")));
         }
-        let plunges = cuts && moved.is_upright() && moved.to[2] < moved.from[2] && moved.kind != MoveKind::Rapid;
+        let plunges = cuts && moved.to[2] < moved.from[2] && moved.kind != MoveKind::Rapid;
         let goes_on = |next: &CutterMove| {
-            let down = next.is_upright() && next.to[2] < next.from[2];
+            let down = next.to[2] < next.from[2];
             next.kind != MoveKind::Rapid && (down || (next.is_level() && !next.is_upright()))
         };
         if plunges && !program.moves.get(index + 1).is_some_and(goes_on) {
@@ -127,9 +134,11 @@ fn passes(program: &CutterProgram) -> Result<Vec<LevelPass<'_>>, ProgramFault> {
 
 fn pass(program: &CutterProgram, start: usize, end: usize) -> Option<LevelPass<'_>> {
     let moves = program.moves.get(start..end)?;
-    let before = start.checked_sub(1).and_then(|before| program.moves.get(before));
-    let side_before = before.map_or(CutterSide::Centre, |moved| moved.side);
-    Some(LevelPass { depth: -moves.first()?.to[2], moves, side_before })
+    let before = program.moves.get(..start)?;
+    let sloping = before.iter().rev().take_while(|moved| is_ramp(moved)).count();
+    let ramp = before.get(start - sloping..)?;
+    let side_before = before.last().map_or(CutterSide::Centre, |moved| moved.side);
+    Some(LevelPass { depth: -moves.first()?.to[2], ramp, moves, side_before })
 }
 
 /// What the first pass of a program leaves, counter-clockwise; `None` where it does not close, or the way round it leaves nothing.
@@ -144,6 +153,7 @@ pub(in super::super) fn left_by(written: &WrittenProgram) -> Option<Contour> {
 
 /// The moves of a pass that close, and those before and behind them.
 struct ClosedPass<'m> {
+    ramp: &'m [CutterMove],
     way_in: &'m [CutterMove],
     round: &'m [CutterMove],
     way_out: &'m [CutterMove],
@@ -172,7 +182,7 @@ impl<'m> ClosedPass<'m> {
         let contour = Contour::from_edges(edges.into_iter().map(Edge::Segment));
         let left = contour.area_and_centroid().0 > 0.0;
         let contour = if left { contour } else { contour.reversed() };
-        Ok(Self { way_in, round, way_out, contour, left, side_before: pass.side_before })
+        Ok(Self { ramp: pass.ramp, way_in, round, way_out, contour, left, side_before: pass.side_before })
     }
 
     /// The edges of its lead-in and lead-out.
@@ -196,19 +206,22 @@ fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedPro
     fits_between(&cuts, written)?;
     let passes = passes(program)?;
     let mut worst = (0.0, Vector2::zeros());
-    let mut deepest: Vec<f64> = vec![0.0; cuts.len()];
+    let mut reached = vec![Reached::default(); cuts.len()];
     let mut paths: Vec<(Contour, bool)> = Vec::new();
     let mut closed = Vec::with_capacity(passes.len());
+    let mut ramps = Vec::with_capacity(passes.len());
     for pass in &passes {
         let found = ClosedPass::of(pass)?;
-        let hollow = along(evidence, written, &found, (&mut worst, &mut deepest, pass.depth))?;
+        let Along { hollow, value, is_roughing } =
+            along(evidence, written, &found, (&mut worst, &mut reached, pass.depth))?;
         sides(written, &found, hollow)?;
         if !slotted(&cuts, written) {
             sense(evidence, &found, hollow)?;
         }
-        if !paths.iter().any(|(known, _)| *known == found.contour) {
+        if !is_roughing && !paths.iter().any(|(known, _)| *known == found.contour) {
             paths.push((found.contour.clone(), hollow));
         }
+        ramps.push(if is_roughing { 0.0 } else { value });
         closed.push(found);
     }
     let metal: Vec<EdgeTree> = paths
@@ -223,9 +236,26 @@ fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedPro
             return Err(ProgramFault { why, value: deep, at: Some(way.start()) });
         }
     }
+    if written.cutter.is_some() {
+        for (pass, value) in closed.iter().zip(&ramps) {
+            pass.ramp_is_clear(trees, (*value, limit))?;
+        }
+    }
+    let design = evidence.body.machine().cutting();
+    let plunges = match design.entry {
+        CutterEntry::Plunge => Text::default(),
+        CutterEntry::Auto => {
+            let is_plate = cuts.iter().any(|cut| cut.curves.is_some_and(|curves| curves.motion.period().is_none()));
+            let outer = paths.iter().filter(|(_, hollow)| !hollow && groove_width(&cuts).is_none());
+            let (off, margin) = (written.cutter.unwrap_or(0.0), MILLIMETRES * design.blank_margin());
+            let blank = Blank::around(outer.flat_map(|(path, _)| path.edges()), (off, margin), is_plate);
+            let radius = written.cutter.or(written.kept).or(written.presumed).unwrap_or(0.0);
+            of_plunge(&program.moves, blank.as_ref(), (radius, written.knows_blank))?
+        }
+    };
     let room =
         if written.cutter.is_none() { cleared(&closed, &metal, (written.kept, limit))? } else { Text::default() };
-    deep_enough(&cuts, written, &deepest)?;
+    deep_enough(&cuts, written, &reached)?;
     if program.side_at_end != CutterSide::Centre {
         return Err(ProgramFault::new("the program ends while the control keeps the cutter beside its path"));
     }
@@ -234,7 +264,7 @@ fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedPro
         Some(radius) => text!("the centre of a cutter Ø{}", Length::mm(2.0 * radius)),
         None => "the profile, along which the control keeps its cutter".into(),
     };
-    let unknown = text!("{}{}{}", room, remarks(evidence.body, written), leaves_its_path(program, limit));
+    let unknown = text!("{}{}{}{}", room, plunges, remarks(evidence.body, written), leaves_its_path(program, limit));
     let (depth, passes) = (passes.iter().map(|pass| pass.depth).fold(0.0, f64::max), passes.len());
     let noun = if passes == 1 { "pass" } else { "passes" };
     let note = text!(
@@ -332,13 +362,36 @@ impl TakingUp {
 }
 
 impl ClosedPass<'_> {
+    /// Refuses a ramp of the cutter's centre that goes deeper into the metal than the tolerance, with what its pass is off already, mm. Without metal on either
+    /// side of a path, as in a groove that the cutter fills, it must keep to the path itself.
+    fn ramp_is_clear(&self, metal: &[EdgeTree], (value, limit): (f64, f64)) -> Result<(), ProgramFault> {
+        /// Points of a line at which its distance from the path is taken.
+        const COMPARED: u32 = 8;
+        let path = if metal.is_empty() { Some(EdgeTree::new(&self.contour)) } else { None };
+        for moved in self.ramp {
+            let Some(way) = moved.segments().first().copied() else { continue };
+            let deep = match &path {
+                None => lead_in::depth_along(metal, &[way], 0.0, FINE_SHARE * limit),
+                Some(path) => (0..=COMPARED)
+                    .map(|index| way.point_and_tangent(f64::from(index) / f64::from(COMPARED)).0)
+                    .map(|point| path.nearest(point).map_or(f64::INFINITY, |nearest| (nearest.foot - point).norm()))
+                    .fold(0.0, f64::max),
+            };
+            if value + deep > limit {
+                let why = format!("the ramp in line {} cuts {} mm into the cam", moved.line, shown(value + deep));
+                return Err(ProgramFault { why, value: value + deep, at: Some(way.start) });
+            }
+        }
+        Ok(())
+    }
+
     /// The way in.
     fn taking_up(&self) -> TakingUp {
         let is_plain = |moved: &&CutterMove| moved.side == CutterSide::Centre;
         let plain = self.way_in.iter().take_while(is_plain).count();
         let (plain, kept) = self.way_in.split_at_checked(plain).unwrap_or_default();
         TakingUp {
-            plain: plain.iter().flat_map(CutterMove::segments).collect(),
+            plain: self.ramp.iter().chain(plain).flat_map(CutterMove::segments).collect(),
             kept: kept.iter().flat_map(CutterMove::segments).collect(),
             side: self.side(),
             is_taken_up: self.side_before != CutterSide::Centre,
@@ -368,34 +421,77 @@ impl ClosedPass<'_> {
     }
 }
 
-/// A pass along the flanks that it cuts: at least one, and none wrongly; whether the metal lies around it.
+/// How deep a flank is cut so far, mm.
+#[derive(Debug, Clone, Copy, Default)]
+struct Reached {
+    /// To its size.
+    finished: f64,
+    /// With the allowance.
+    roughed: f64,
+}
+
+/// The flank that a pass is along.
+struct Along {
+    /// Whether the metal lies around it.
+    hollow: bool,
+    /// How far it is off, mm.
+    value: f64,
+    /// Whether it keeps the allowance on it.
+    is_roughing: bool,
+}
+
+/// A pass along the flanks that it cuts: at least one, and none wrongly; a roughing pass is off by the allowance.
 fn along(
     evidence: &Evidence<'_>,
     written: &WrittenProgram,
     pass: &ClosedPass<'_>,
-    (worst, deepest, depth): (&mut (f64, Vector2<f64>), &mut [f64], f64),
-) -> Result<bool, ProgramFault> {
+    (worst, reached, depth): (&mut (f64, Vector2<f64>), &mut [Reached], f64),
+) -> Result<Along, ProgramFault> {
     let (cuts, uncertain) = (evidence.body.cuts(), pass.uncertain());
     let limit = evidence.tolerance_mm - uncertain;
     let radius = written.cutter.unwrap_or(0.0);
+    let allowance = MILLIMETRES * evidence.body.machine().cutting().allowance;
+    let line = pass.round.first().map_or(0, |moved| moved.line);
+    if pass.ramp.iter().any(|moved| moved.side != CutterSide::Centre) {
+        let why =
+            format!("the ramp before line {line} is run with the compensation of the radius (G41, G42): write G40");
+        return Err(ProgramFault::new(why));
+    }
     let mut nearest: Option<ProgramFault> = None;
     let mut found = None;
     for (index, cut) in written.cuts.iter().filter_map(|index| Some((*index, cuts.get(*index)?))) {
-        let left = left_behind(evidence, index, (radius, written.middle), &pass.contour).map_err(ProgramFault::new)?;
-        let Some(left) = left else { return Err(ProgramFault::new("the cam has no profile here")) };
+        let at_size = |radius: f64| {
+            let left =
+                left_behind(evidence, index, (radius, written.middle), &pass.contour).map_err(ProgramFault::new)?;
+            left.ok_or_else(|| ProgramFault::new("the cam has no profile here"))
+        };
+        let left = at_size(radius)?;
+        let own = reached.get_mut(index);
         if left.kept && left.distance <= limit {
             let value = left.distance + uncertain;
             if value > worst.0 {
                 *worst = (value, left.at);
             }
-            if let Some(own) = deepest.get_mut(index) {
-                let line = pass.round.first().map_or(0, |moved| moved.line);
-                not_too_deep_at_once(evidence, line, (*own, depth))?;
-                *own = own.max(depth);
+            if let Some(own) = own {
+                not_too_deep_at_once(evidence, line, (own.finished.max(own.roughed), depth))?;
+                own.finished = own.finished.max(depth);
             }
-            found = Some(cut.is_hollow());
-        } else if nearest.as_ref().is_none_or(|other| left.distance < other.value) {
-            let line = pass.round.first().map_or(0, |moved| moved.line);
+            found = Some(Along { hollow: cut.is_hollow(), value, is_roughing: false });
+            continue;
+        }
+        if allowance > 0.0 && found.is_none() {
+            let rough = at_size(radius + allowance)?;
+            if rough.kept && rough.distance <= limit {
+                if let Some(own) = own {
+                    not_too_deep_at_once(evidence, line, (own.roughed, depth))?;
+                    own.roughed = own.roughed.max(depth);
+                }
+                let value = rough.distance + uncertain;
+                found = Some(Along { hollow: cut.is_hollow(), value, is_roughing: true });
+                continue;
+            }
+        }
+        if nearest.as_ref().is_none_or(|other| left.distance < other.value) {
             let off = shown(left.distance + uncertain);
             let fault = left.fault.map_or_else(String::new, |fault| format!("; {fault}"));
             let why = format!("the pass from line {line} on leaves another cam, off by {off} mm{fault}");
@@ -462,16 +558,17 @@ fn fits_between(cuts: &[Cut<'_>], written: &WrittenProgram) -> Result<(), Progra
 }
 
 /// Every flank must be cut to the depth, and no deeper.
-fn deep_enough(cuts: &[Cut<'_>], written: &WrittenProgram, deepest: &[f64]) -> Result<(), ProgramFault> {
+fn deep_enough(cuts: &[Cut<'_>], written: &WrittenProgram, reached: &[Reached]) -> Result<(), ProgramFault> {
     let Some(depth) = written.depth else { return Ok(()) };
     for index in &written.cuts {
-        let (Some(cut), Some(found)) = (cuts.get(*index), deepest.get(*index)) else { continue };
+        let (Some(cut), Some(found)) = (cuts.get(*index), reached.get(*index)) else { continue };
+        let found = found.finished;
         if (found - depth).abs() > SAME_DEPTH {
             let which = match cut.layer {
                 Layer::CamProfile => "the profile".to_owned(),
                 layer => format!("the {} flank", layer.word()),
             };
-            let (found, depth) = (shown(*found), shown(depth));
+            let (found, depth) = (shown(found), shown(depth));
             return Err(ProgramFault::new(format!("{which} is cut {found} mm deep, and must be {depth} mm deep")));
         }
     }

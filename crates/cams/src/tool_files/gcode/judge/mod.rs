@@ -1,6 +1,7 @@
 //! What the control of a milling machine makes of a program, compared with the cam.
 
 mod cutting;
+mod entry;
 mod milling;
 mod program;
 mod safe_start;

@@ -17,6 +17,10 @@ pub(in super::super) struct WrittenProgram {
     pub(in super::super) cutter: Option<f64>,
     /// Radius of the cutter that the control keeps on the profile, mm, if it is given.
     pub(in super::super) kept: Option<f64>,
+    /// Largest radius of a cutter that the control may keep there, mm, as the program was planned.
+    pub(in super::super) presumed: Option<f64>,
+    /// Whether the blank is stated: by the plan, or by `cut.blank_margin`.
+    pub(in super::super) knows_blank: bool,
     /// How far the middle of the tolerance band lies inwards of the exact profile, mm.
     pub(in super::super) middle: f64,
     /// How deep is cut, mm; `None` where it is not known.

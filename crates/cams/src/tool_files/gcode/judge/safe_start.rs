@@ -50,13 +50,14 @@ pub(super) fn assumed_home(design: &CuttingData, program: &CutterProgram) -> Tex
     }
 }
 
-/// If a program sets up neither tool, datum nor height, the operator has; if it sets up one of them, it must set up all. Only LinuxCNC and SINUMERIK
-/// can deviate from the path without a bound.
+/// If a program sets up neither tool, datum nor height, the operator has; if it sets up one of them, it must set up all. Only LinuxCNC, SINUMERIK
+/// and Mach3 can deviate from the path without a bound.
 fn is_refused(program: &CutterProgram, what: Unstated) -> bool {
     match what {
         Unstated::Length | Unstated::Datum | Unstated::Spindle | Unstated::Place => program.sets_up,
         Unstated::PathMode => {
-            program.sets_up && matches!(program.control, Some(Controller::LinuxCnc | Controller::Sinumerik))
+            program.sets_up
+                && matches!(program.control, Some(Controller::LinuxCnc | Controller::Sinumerik | Controller::Mach3))
         }
         Unstated::Shift => false,
         _ => true,

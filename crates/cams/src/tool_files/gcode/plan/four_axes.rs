@@ -4,7 +4,7 @@
 //! tolerance where a control goes straight in A, X and Y at once; between two joints of the motion a stretch is halved until it does.
 
 use super::milling::{MillingError, MillingProgram, TurnedPath, TurnedRound, depths, smoothing};
-use super::polar::{LEAST_SHARE, MOST_ROWS, without_time};
+use super::polar::{LEAST_SHARE, MOST_ROWS, three_axes, without_stock, without_time};
 use crate::body::swept::{FlankSide, TurnedCam};
 use crate::body::{Body, Milling, Request};
 use crate::machine::{Controller, MillingDirection};
@@ -45,8 +45,12 @@ pub(super) fn program(
 ) -> Result<Vec<MillingProgram>, MillingError> {
     let cutting = body.machine().cutting();
     let controller = asked.controller.unwrap_or(cutting.controller);
+    without_stock(&cutting)?;
     let units = body.machine().units();
     let decimals = cutting.decimals.unwrap_or(controller.decimals(units));
+    if controller == Controller::Grbl {
+        return Err(three_axes("a program for a barrel").remedy("give another --controller").into());
+    }
     if controller == Controller::Heidenhain {
         return Err(without_time("a program for a barrel").remedy("give another --controller").into());
     }
@@ -84,6 +88,8 @@ pub(super) fn program(
         cutter: Some(tool),
         passes: Vec::new(),
         depths,
+        order: Vec::new(),
+        blank: None,
         turned: Some(TurnedPath { axis: 'A', rounds }),
         smoothing,
     }])

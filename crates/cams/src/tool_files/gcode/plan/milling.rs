@@ -1,15 +1,18 @@
 //! Programs for a milling machine, in no control's words yet: passes along the flanks of a part, with lead-ins and lead-outs.
 //!
 //! The path is drawn anew, within what the rounding of its numbers leaves of the tolerance. With a cutter it is that of the cutter's centre,
-//! else the profile, along which the control keeps its own cutter. Bore, keyway and holes are not in it.
+//! else the profile, along which the control keeps its own cutter. Bore, keyway and holes are not in it. With `cut.allowance` a roughing pass along the path
+//! offset by it precedes at every depth; the finishing passes then go to the full depth.
 
+use super::super::blank::Blank;
+use super::entry::{self, Descent, Entry};
 use crate::body::swept::TurnedCam;
 use crate::body::{Body, Cut, DrawError, Drawn, LoadAsCut, Part, Request, groove_width, start};
-use crate::machine::{Controller, CuttingData, MillingDirection, RadiusCompensation};
+use crate::machine::{Controller, CutterEntry, CuttingData, MillingDirection, RadiusCompensation};
 use crate::report::shown;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::blocks::{Block, Grid};
-use camgen_kernel::geometry::contour::{Contour, Edge, Segment};
+use camgen_kernel::geometry::contour::{Contour, Edge, Extents, Segment};
 use camgen_kernel::geometry::edge_tree::EdgeTree;
 use camgen_kernel::geometry::lead_in::{self, LeadInForm, depth};
 use camgen_kernel::numeric::parallel;
@@ -17,7 +20,7 @@ use camgen_kernel::profile::outline::{Fit, Outline, OutlineError, SegmentKind, S
 use camgen_kernel::refusal::Refusal;
 use camgen_kernel::units::LengthUnit;
 use nalgebra::Vector2;
-use std::f64::consts::FRAC_PI_8;
+use std::f64::consts::{FRAC_PI_8, TAU};
 
 /// The program for a part.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,14 +39,124 @@ pub struct MillingProgram {
     pub cutting: CuttingData,
     /// Radius of the cutter whose centre is moved, m; `None` where the control keeps its cutter on the profile.
     pub cutter: Option<f64>,
-    /// The passes at each depth.
+    /// The finishing passes, then the roughing passes.
     pub passes: Vec<MillingPass>,
     /// The depths, mm below the upper face, from the first on.
     pub depths: Vec<f64>,
+    /// The passes at their depths, in the order in which they are cut.
+    pub order: Vec<LevelCut>,
+    /// The blank, outside of which the cutter goes down, mm; `None` where no pass does.
+    pub(in super::super) blank: Option<Blank>,
     /// The path of a cam that is turned under its tool, in the place of passes.
     pub turned: Option<TurnedPath>,
     /// Share of the tolerance for smoothing by the control, m; the path is drawn within the rest.
     pub smoothing: f64,
+}
+
+/// A pass at a depth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LevelCut {
+    /// Index of the pass.
+    pub pass: usize,
+    /// Depth that is cut already along its path, mm.
+    pub before: f64,
+    /// Its depth, mm.
+    pub depth: f64,
+}
+
+impl MillingProgram {
+    /// The grid of its numbers.
+    #[must_use]
+    pub fn grid(&self) -> Grid {
+        Grid::of_lengths(self.decimals, self.units)
+    }
+
+    /// The passes at their depths, in the order in which they are cut, with the way down to each.
+    pub fn level_cuts(&self) -> impl Iterator<Item = (&MillingPass, LevelCut, Descent)> {
+        self.order.iter().filter_map(|cut| {
+            let pass = self.passes.get(cut.pass)?;
+            Some((pass, *cut, pass.entry.descent(pass.level_start(), (cut.before, cut.depth), self.grid())))
+        })
+    }
+}
+
+impl MillingProgram {
+    /// Time of a pass with its way down at the feeds, min.
+    #[must_use]
+    pub fn minutes(&self, pass: &MillingPass, descent: &Descent) -> f64 {
+        let cutting = &self.cutting;
+        let mut down = (MILLIMETRES * cutting.clearance - descent.z).abs();
+        let mut from = (descent.at, descent.z);
+        for to in &descent.ramp {
+            down += libm::hypot((to.0 - from.0).norm(), to.1 - from.1);
+            from = *to;
+        }
+        let mut along = (pass.level_start() - from.0).norm() + (pass.start - pass.level_start()).norm();
+        let mut at = pass.start;
+        for block in &pass.blocks {
+            along += match block {
+                Block::Line { to } => (to - at).norm(),
+                Block::Arc { to, centre, left } => arc(at, *to, *centre, *left).length(),
+            };
+            at = block.to();
+        }
+        along += pass.compensated.map_or(0.0, |ends| (ends.to - at).norm());
+        (along / cutting.feed + down / cutting.plunge_feed) / MILLIMETRES / 60.0
+    }
+
+    /// The radius below which a cutter must be that the control keeps on the profile, mm; `None` where the program moves its centre.
+    #[must_use]
+    pub fn largest_kept(&self) -> Option<f64> {
+        self.passes.iter().filter_map(|pass| pass.compensated).map(|ends| ends.largest_radius).reduce(f64::min)
+    }
+
+    /// The smallest rectangle that holds all paths of the tool's point, mm; where the control keeps the cutter, of the largest one that it may keep.
+    #[must_use]
+    pub fn extents(&self) -> Option<Extents> {
+        let mut all: Option<Extents> = None;
+        let mut take = |next: Extents| all = Some(all.map_or(next, |all| all.with(&next)));
+        let point = |at: Vector2<f64>| Extents { least: at, largest: at };
+        for (pass, _, descent) in self.level_cuts() {
+            take(point(descent.at));
+            descent.ramp.iter().for_each(|(at, _)| take(point(*at)));
+            take(point(pass.level_start()));
+            take(point(pass.start));
+            if let Some(ends) = pass.compensated {
+                take(point(ends.to));
+            }
+            let mut from = pass.start;
+            for block in &pass.blocks {
+                let segment = match block {
+                    Block::Line { to } => Segment { start: from, end: *to, bulge: 0.0 },
+                    Block::Arc { to, centre, left } => arc(from, *to, *centre, *left),
+                };
+                take(segment.extents());
+                from = block.to();
+            }
+        }
+        let by = Vector2::repeat(self.largest_kept().unwrap_or(0.0));
+        all.map(|all| Extents { least: all.least - by, largest: all.largest + by })
+    }
+}
+
+/// The arc between two points about a centre.
+pub(in super::super) fn arc(start: Vector2<f64>, end: Vector2<f64>, centre: Vector2<f64>, left: bool) -> Segment {
+    let (from, to) = (start - centre, end - centre);
+    let turn = libm::atan2(from.perp(&to), from.dot(&to));
+    let sweep = match (left, turn > 0.0) {
+        (true, false) => turn + TAU,
+        (false, true) => turn - TAU,
+        _ => turn,
+    };
+    Segment { start, end, bulge: libm::tan(0.25 * sweep) }
+}
+
+impl MillingPass {
+    /// Where it begins at its depth, mm: with the way on which the control takes up the radius of its cutter.
+    #[must_use]
+    pub fn level_start(&self) -> Vector2<f64> {
+        self.compensated.map_or(self.start, |ends| ends.from)
+    }
 }
 
 /// The path of a tool over a cam that an axis of the machine turns.
@@ -73,6 +186,10 @@ pub struct TurnedRound {
 pub struct MillingPass {
     /// What it is along, for a reader: "outer flank".
     pub words: String,
+    /// Whether it is a roughing pass, which keeps `cut.allowance` on the flank.
+    pub is_roughing: bool,
+    /// How the cutter reaches its depth.
+    pub entry: Entry,
     /// Whether the cutter is on the left of its path (G41), else on the right.
     pub cutter_left: bool,
     /// How the control takes up the radius of its cutter, if it keeps the cutter on the profile.
@@ -133,6 +250,9 @@ const SAME_RADIUS: f64 = 1e-9;
 const LARGEST_PROGRAM: u32 = 9999;
 /// Most passes, and most blocks of a program.
 const MOST_PASSES: f64 = 1000.0;
+/// Share of the tolerance for chords in the place of arcs: all of them, or those of ramps alone.
+const CHORD_SHARE: f64 = 0.5;
+const RAMP_SHARE: f64 = 0.25;
 const MOST_BLOCKS: usize = 200_000;
 
 /// Why a cam is not milled from a plate.
@@ -194,7 +314,16 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
     let cutter = cutter_of(body, request);
     let grid = Grid::of_lengths(decimals, units);
     let smoothing = smoothing(controller, request);
-    let drawn = drawn(body, request, (cutter, decimals, smoothing))?;
+    if cutter.is_none() {
+        can_keep_its_cutter(controller, &cutting)?;
+    }
+    let chords = chord_share(body, &cutting, cutter);
+    let finishing = drawn(body, request, (cutter, decimals, smoothing, chords), 0.0)?;
+    let roughing = match cutting.allowance {
+        0.0 => None,
+        allowance => Some(roughed(body, request, (cutter, decimals, smoothing, chords), allowance)?),
+    };
+    let drawn = &finishing.drawn;
     let depths = depths(body, &cutting, grid)?;
     let of_counter = body.load().is_some_and(LoadAsCut::is_of_another_disc);
     let mut first = 0;
@@ -202,16 +331,21 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
     for (part, drawn_part) in drawn.parts.iter().enumerate() {
         let cuts: Vec<usize> = (first..first + drawn_part.outlines().count()).collect();
         first += cuts.len();
-        let passes = passes(body, request, (&drawn, drawn_part, &cuts), (cutter, grid))?;
-        let blocks = depths.len() * passes.iter().map(|pass| pass.blocks.len()).sum::<usize>();
-        if blocks > MOST_BLOCKS {
-            let what = format!("the program would have {blocks} blocks, more than {MOST_BLOCKS}");
-            return Err(Refusal::new(what).remedy("give a larger cut.depth_per_pass, or a coarser --tolerance").into());
-        }
+        let size = (cutter, grid);
+        let ((mut passes, blank), roughs) = match &roughing {
+            None => (passes(body, request, (&finishing, drawn_part, &cuts), size)?, Vec::new()),
+            Some(rough) => {
+                let part = rough.drawn.parts.get(part).ok_or_else(|| Refusal::new("the roughing pass has no path"))?;
+                let (roughs, _) = passes(body, request, (rough, part, &cuts), size)?;
+                (passes(body, request, (&finishing, drawn_part, &cuts), size)?, roughs)
+            }
+        };
+        let order = order(&depths, (passes.len(), roughs.len()), cutting.finish_passes);
+        passes.extend(roughs);
         let number = numbered(cutting.program, part + usize::from(of_counter));
         let (cutting, depths) = (CuttingData { program: number, ..cutting.clone() }, depths.clone());
         let turned = None;
-        programs.push(MillingProgram {
+        let program = MillingProgram {
             part,
             cuts,
             controller,
@@ -221,11 +355,120 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
             cutter,
             passes,
             depths,
+            order,
+            blank,
             turned,
             smoothing,
-        });
+        };
+        has_few_blocks(&program)?;
+        programs.push(program);
     }
     Ok(programs)
+}
+
+/// Refuses a program of more blocks than a control or a reader takes.
+fn has_few_blocks(program: &MillingProgram) -> Result<(), Refusal> {
+    let blocks: usize = program.level_cuts().map(|(pass, _, descent)| pass.blocks.len() + descent.ramp.len()).sum();
+    if blocks <= MOST_BLOCKS {
+        return Ok(());
+    }
+    let what = format!("the program would have {blocks} blocks, more than {MOST_BLOCKS}");
+    let remedy = if program.cutting.arcs {
+        "give a larger cut.depth_per_pass, or a coarser --tolerance"
+    } else {
+        "give a coarser --tolerance, a larger cut.depth_per_pass, or cut.arcs = true"
+    };
+    Err(Refusal::new(what).remedy(remedy))
+}
+
+/// Refuses a program along which the control keeps its cutter where it cannot.
+fn can_keep_its_cutter(controller: Controller, cutting: &CuttingData) -> Result<(), Refusal> {
+    let remedy = match cutting.compensation {
+        RadiusCompensation::Control => "give cut.compensation = \"program\" and --cutter-diameter",
+        RadiusCompensation::Program => "give --cutter-diameter",
+    };
+    if controller == Controller::Grbl {
+        let what = "grbl has no compensation of the cutter's radius (G41, G42), by which the program would keep its cutter on the profile";
+        return Err(Refusal::new(what).remedy(remedy));
+    }
+    if !cutting.arcs {
+        let what = "cut.arcs = false: controls stop at inner corners between chords while they keep the cutter on the profile (G41, G42)";
+        return Err(Refusal::new(what).remedy(remedy));
+    }
+    Ok(())
+}
+
+/// Share of the tolerance for chords.
+fn chord_share(body: &dyn Body, cutting: &CuttingData, cutter: Option<f64>) -> f64 {
+    let cuts = body.cuts();
+    let ramps = groove_width(&cuts).is_some() || cuts.iter().any(Cut::is_hollow);
+    match (cutting.arcs, cutting.entry) {
+        (false, _) => CHORD_SHARE,
+        (true, CutterEntry::Auto) if ramps && cutter.is_some() => RAMP_SHARE,
+        (true, _) => 0.0,
+    }
+}
+
+/// The paths of the roughing passes: those of a cutter that is larger by the allowance, or parallels of the profile.
+fn roughed(
+    body: &dyn Body,
+    request: &Request,
+    (cutter, decimals, smoothing, chords): (Option<f64>, u32, f64, f64),
+    allowance: f64,
+) -> Result<DrawnPaths, MillingError> {
+    let shown_allowance = shown(MILLIMETRES * allowance);
+    if let (Some(width), Some(cutter)) = (groove_width(&body.cuts()), cutter)
+        && cutter + allowance > 0.5 * width + SAME_RADIUS
+    {
+        let [width, diameter] = [width, 2.0 * cutter].map(|length| shown(MILLIMETRES * length));
+        let most = (0.5 * MILLIMETRES * width_left(&body.cuts(), cutter)).max(0.0);
+        let what = format!(
+            "cut.allowance of {shown_allowance} mm: a cutter of diameter {diameter} mm has no room for it on both flanks of a groove of {width} mm"
+        );
+        let remedy = format!("give a cut.allowance of at most {} mm, or a smaller --cutter-diameter", shown(most));
+        return Err(Refusal::new(what).remedy(remedy).into());
+    }
+    let size = cutter.unwrap_or(0.0) + allowance;
+    let drawn = drawn(body, request, (Some(size), decimals, smoothing, chords), allowance);
+    drawn.map_err(|why| match why {
+        MillingError::Cutter(why) => {
+            let what = format!("cut.allowance of {shown_allowance} mm: the roughing pass has no path there: {why}");
+            Refusal::new(what).remedy("give a smaller cut.allowance, or a smaller --cutter-diameter").into()
+        }
+        other => other,
+    })
+}
+
+/// Width of a groove that a cutter of a radius leaves free, m.
+fn width_left(cuts: &[Cut<'_>], cutter: f64) -> f64 {
+    groove_width(cuts).map_or(f64::INFINITY, |width| width - 2.0 * cutter)
+}
+
+/// The passes at their depths: all at each depth; with roughing passes those at each depth, then the finishing passes at the full depth. Spring passes follow.
+fn order(depths: &[f64], (finishing, roughing): (usize, usize), finish_passes: u32) -> Vec<LevelCut> {
+    let mut order = Vec::new();
+    let at_each_depth = if roughing > 0 { finishing..finishing + roughing } else { 0..finishing };
+    let mut before = 0.0;
+    for depth in depths {
+        order.extend(at_each_depth.clone().map(|pass| LevelCut { pass, before, depth: *depth }));
+        before = *depth;
+    }
+    let deepest = before;
+    // Without roughing the first finishing pass at full depth is the last of those at each depth.
+    let mut cut = if roughing > 0 { 0.0 } else { deepest };
+    for _ in u32::from(roughing == 0)..finish_passes {
+        order.extend((0..finishing).map(|pass| LevelCut { pass, before: cut, depth: deepest }));
+        cut = deepest;
+    }
+    order
+}
+
+/// A drawing with the largest distance of chords from its paths, mm.
+struct DrawnPaths {
+    drawn: Drawn,
+    chords: f64,
+    /// Stock that its paths keep on the flanks, m.
+    allowance: f64,
 }
 
 /// The number of a further program of a design: a control keeps one program of a number.
@@ -239,12 +482,14 @@ pub(super) fn smoothing(controller: Controller, request: &Request) -> f64 {
     controller.smoothing_share() * request.fit.band().1
 }
 
-/// The drawing within the tolerance that remains after rounding and smoothing, with cutter-centre paths if the program moves the centre.
+/// The drawing within the tolerance that remains after rounding, smoothing and chords, with paths of a cutter's centre if the program moves it, or if it keeps
+/// stock.
 fn drawn(
     body: &dyn Body,
     request: &Request,
-    (cutter, decimals, smoothing): (Option<f64>, u32, f64),
-) -> Result<Drawn, MillingError> {
+    (cutter, decimals, smoothing, chords): (Option<f64>, u32, f64, f64),
+    allowance: f64,
+) -> Result<DrawnPaths, MillingError> {
     let (middle, band) = request.fit.band();
     let half = band - smoothing;
     let rounding = ROUNDING * Grid::of_lengths(decimals, body.machine().units()).step() / MILLIMETRES;
@@ -263,11 +508,12 @@ fn drawn(
         let what = "the control keeps its cutter on a profile that lies on both sides of the exact one";
         return Err(Refusal::new(what).remedy("leave --side out, or give --cutter-diameter").into());
     }
-    if middle != 0.0 && one_pass(&body.cuts(), cutter) {
+    if middle != 0.0 && allowance == 0.0 && one_pass(&body.cuts(), cutter) {
         let what = "a cutter as wide as its groove cuts both flanks in one pass, on either side";
         return Err(Refusal::new(what).remedy("leave --side out, or give a smaller --cutter-diameter").into());
     }
-    let fit = Fit { tolerance: half - rounding, side: Side::Both, laid: SegmentKind::Arcs, ..request.fit };
+    let room = half - rounding;
+    let fit = Fit { tolerance: room * (1.0 - chords), side: Side::Both, laid: SegmentKind::Arcs, ..request.fit };
     let cutter_radius = cutter.map(|radius| radius - middle);
     let fine = Request { fit, cutter_radius, flank: false, lead_in: None, ..request.without_tool_files() };
     let drawn = body.draw(&fine).map_err(|error| match error {
@@ -277,7 +523,8 @@ fn drawn(
     if let Some(Err(error)) = drawn.cutter_paths().find(|path| path.is_err()) {
         return Err(MillingError::Cutter(error.clone()));
     }
-    Ok(start::started(body, &fine, drawn)?)
+    let drawn = start::started(body, &fine, drawn)?;
+    Ok(DrawnPaths { drawn, chords: MILLIMETRES * room * chords, allowance })
 }
 
 /// Whether the cutter is as wide as the groove between these cuts.
@@ -316,16 +563,24 @@ struct Flank<'a> {
     cutter_left: bool,
     /// Edges of all paths, the metal on their left.
     metal: &'a [EdgeTree],
+    /// The blank outside of which the cutter goes down; `None` where it goes down a ramp.
+    blank: Option<Blank>,
+    cutting: &'a CuttingData,
+    /// Largest distance of chords from the path, mm.
+    chords: f64,
+    is_roughing: bool,
 }
 
 /// A pass along every flank of a part, or one along both of a groove.
 fn passes(
     body: &dyn Body,
     request: &Request,
-    (drawn, part, cuts): (&Drawn, &Part, &[usize]),
+    (paths, part, cuts): (&DrawnPaths, &Part, &[usize]),
     (cutter, grid): (Option<f64>, Grid),
-) -> Result<Vec<MillingPass>, MillingError> {
+) -> Result<(Vec<MillingPass>, Option<Blank>), MillingError> {
     let all = body.cuts();
+    let (drawn, chords, allowance) = (&paths.drawn, paths.chords, paths.allowance);
+    let cutting = &body.machine().cutting();
     let of_part: Vec<&Cut<'_>> = cuts.iter().filter_map(|index| all.get(*index)).collect();
     let width = groove_width(&all);
     if let (Some(width), Some(cutter)) = (width, cutter)
@@ -336,11 +591,11 @@ fn passes(
         return Err(Refusal::new(what).remedy("give a smaller --cutter-diameter, or leave it out").into());
     }
     let paths: Vec<&Outline> = match cutter {
-        Some(_) => {
+        _ if cutter.is_some() || allowance > 0.0 => {
             let paths = drawn.cutter_paths().flatten().enumerate();
             paths.filter(|(index, _)| cuts.contains(index)).map(|(_, path)| path).collect()
         }
-        None => part.outlines().map(|(_, outline)| outline).collect(),
+        _ => part.outlines().map(|(_, outline)| outline).collect(),
     };
     let single = one_pass(&all, cutter);
     let hollow = |cut: &Cut<'_>| cut.is_hollow();
@@ -350,28 +605,43 @@ fn passes(
         .map(|(cut, path)| if hollow(cut) { path.contour.reversed() } else { path.contour.clone() })
         .collect();
     let metal: Vec<EdgeTree> = if single { Vec::new() } else { parallel::map(&ways, EdgeTree::new) };
-    let climb = body.machine().cutting().direction == MillingDirection::Climb;
+    let climb = cutting.direction == MillingDirection::Climb;
+    let is_plate = |cut: &Cut<'_>| cut.curves.is_some_and(|curves| curves.motion.period().is_none());
+    let outer = of_part.iter().zip(&ways).filter(|(cut, _)| width.is_none() && !hollow(cut));
+    let off = MILLIMETRES * (cutter.unwrap_or(0.0) + allowance);
+    let blank = Blank::around(
+        outer.flat_map(|(_, way)| way.edges()),
+        (off, MILLIMETRES * cutting.blank_margin()),
+        of_part.iter().any(|cut| is_plate(cut)),
+    );
     let room = width.filter(|_| !single).map(|width| MILLIMETRES * (width - 2.0 * cutter.unwrap_or(0.0)));
     let mut found = Vec::new();
     for (cut, way) in of_part.iter().zip(&ways) {
         // With the metal on its left the cutter is on the right of the profile.
         let path = if climb { way.reversed() } else { way.clone() };
-        let plate = cut.curves.is_some_and(|curves| curves.motion.period().is_none());
-        let path = if plate { path.started_where_flattest() } else { path };
+        let path = if is_plate(cut) { path.started_where_flattest() } else { path };
         let words = match (single, cut.name, hollow(cut)) {
             (true, ..) => "both flanks of the groove".to_owned(),
             (_, "", true) => "inside".to_owned(),
             (_, "", false) => "profile".to_owned(),
             (_, name, _) => format!("{name} flank"),
         };
-        let flank = Flank { words, path, cutter_left: climb, metal: &metal };
+        let is_roughing = allowance > 0.0;
+        let words = if is_roughing { format!("{words}, roughing") } else { words };
+        let blank = blank.filter(|_| !hollow(cut));
+        let flank = Flank { words, path, cutter_left: climb, metal: &metal, blank, cutting, chords, is_roughing };
         found.push(flank.pass(request, (cutter, room), grid)?);
         if single {
             break;
         }
     }
-    Ok(found)
+    Ok((found, blank))
 }
+
+/// Shares of the way on which the control takes up its compensation that are tried for a ramp.
+const SHARES: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
+/// Least distance of chords from their arcs, mm.
+const LEAST_CHORDS: f64 = 1e-5;
 
 /// A lead-in and a lead-out, with the ways on which the control takes up its compensation and ends it.
 struct Leads {
@@ -405,20 +675,96 @@ impl Flank<'_> {
             || Refusal::new("the path has edges that are neither arcs nor lines").remedy("please report this");
         let edges = self.path.segments().ok_or_else(refused)?;
         let (Some(first), Some(last)) = (edges.first(), edges.last()) else { return Err(refused()) };
-        let round = grid.blocks(&edges);
+        let round = self.blocks(&edges, grid);
         let at = grid.point(first.start);
         let tolerance = request.fit.tolerance_mm();
-        let Some(leads) = self.leads(request, (first, last), (cutter, room), tolerance)? else {
-            let (words, cutter_left) = (self.words.clone(), self.cutter_left);
-            return Ok(MillingPass { words, cutter_left, compensated: None, start: at, blocks: round });
+        let leads = self.leads(request, (first, last), (cutter, room), tolerance)?;
+        let (words, cutter_left, is_roughing) = (self.words.clone(), self.cutter_left, self.is_roughing);
+        let ramps = self.cutting.entry == CutterEntry::Auto && self.blank.is_none();
+        let (compensated, start, blocks) = match leads {
+            None => (None, at, round),
+            Some(Leads { to, from, compensated }) => {
+                let (to, from) = (Segment { end: at, ..to }, Segment { start: at, ..from });
+                let way_out = self.blocks(&[from], grid);
+                if ramps && compensated.is_none() {
+                    // The ramp itself arrives along the path.
+                    (None, at, [round, way_out].concat())
+                } else {
+                    let ends = |ends: Compensation| Compensation {
+                        from: grid.point(ends.from),
+                        to: grid.point(ends.to),
+                        ..ends
+                    };
+                    let blocks = [self.blocks(&[to], grid), round, way_out].concat();
+                    (compensated.map(ends), grid.point(to.start), blocks)
+                }
+            }
         };
-        let to = Segment { end: at, ..leads.to };
-        let from = Segment { start: at, ..leads.from };
-        let blocks = [grid.blocks(&[to]), round, grid.blocks(&[from])].concat();
-        let start = grid.point(to.start);
-        let compensated =
-            leads.compensated.map(|ends| Compensation { from: grid.point(ends.from), to: grid.point(ends.to), ..ends });
-        Ok(MillingPass { words: self.words.clone(), cutter_left: self.cutter_left, compensated, start, blocks })
+        let pass = MillingPass { words, is_roughing, entry: Entry::Plunge, cutter_left, compensated, start, blocks };
+        let entry = match self.cutting.entry {
+            CutterEntry::Plunge => Entry::Plunge,
+            CutterEntry::Auto => self.entry(&pass, (&edges, leads.as_ref()), (request, cutter, tolerance), grid)?,
+        };
+        Ok(MillingPass { entry, ..pass })
+    }
+
+    /// The blocks of edges: arcs, or chords.
+    fn blocks(&self, edges: &[Segment], grid: Grid) -> Vec<Block> {
+        if self.cutting.arcs {
+            return grid.blocks(edges);
+        }
+        let corners = entry::chords(edges, self.chords, grid);
+        corners.into_iter().skip(1).map(|to| Block::Line { to }).collect()
+    }
+
+    /// How the cutter reaches the depth of a pass: outside the blank, down a ramp along the path, or on the way on which the control takes up its radius.
+    fn entry(
+        &self,
+        pass: &MillingPass,
+        (edges, leads): (&[Segment], Option<&Leads>),
+        (request, cutter, tolerance): (&Request, Option<f64>, f64),
+        grid: Grid,
+    ) -> Result<Entry, Refusal> {
+        let kept = pass
+            .compensated
+            .map(|ends| request.cutter_radius.map_or(ends.largest_radius, |radius| MILLIMETRES * radius));
+        // In the path of the centre the size of the cutter is taken into account.
+        let judged = kept.unwrap_or(0.0);
+        let is_free = |way: &Segment| {
+            lead_in::depth_along(self.metal, std::slice::from_ref(way), judged, TOUCHES * tolerance) <= tolerance
+        };
+        let start = pass.level_start();
+        let refused = |what: String| {
+            let remedy =
+                "give another --start, or cut.entry = \"plunge\" for a blank that is drilled where the pass starts";
+            Err(Refusal::new(what).remedy(remedy))
+        };
+        if let Some(blank) = &self.blank {
+            let back = match (pass.compensated, leads, edges.first()) {
+                (Some(ends), ..) => (ends.from - pass.start).normalize(),
+                (None, Some(leads), _) => -leads.to.start_tangent(),
+                (None, None, Some(first)) => {
+                    let along = first.start_tangent();
+                    Vector2::new(-along.y, along.x) * if self.cutter_left { 1.0 } else { -1.0 }
+                }
+                (None, None, None) => Vector2::x(),
+            };
+            let radius = kept.or(cutter.map(|radius| MILLIMETRES * radius)).unwrap_or(0.0);
+            return match entry::outside(blank, (start, back), radius, is_free) {
+                Some(at) => Ok(Entry::Outside(grid.point(at))),
+                None => refused(format!("no way from outside the blank to the {} is free for the cutter", self.words)),
+            };
+        }
+        if let Some(ends) = pass.compensated {
+            // To and fro before the control takes up the radius, on as long a part of that way as is free.
+            let other = SHARES.iter().map(|share| grid.point(ends.from + (pass.start - ends.from) * *share));
+            let mut free = other.filter(|other| is_free(&Segment { start: ends.from, end: *other, bulge: 0.0 }));
+            return match free.next() {
+                Some(other) => Ok(Entry::Ramp { lap: vec![ends.from, other, ends.from], whole: true }),
+                None => refused(format!("no ramp before the {} is free for the cutter", self.words)),
+            };
+        }
+        Ok(Entry::Ramp { lap: entry::chords(edges, self.chords.max(LEAST_CHORDS), grid), whole: false })
     }
 
     /// The lead-in and the lead-out; `None` where the cutter goes down on the path itself.

@@ -1,5 +1,6 @@
 //! The program for a machine in the form that the machine file asks for, or that the body needs.
 
+pub(super) mod entry;
 pub mod four_axes;
 pub mod milling;
 mod polar;

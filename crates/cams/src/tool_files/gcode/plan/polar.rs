@@ -6,7 +6,7 @@
 
 use super::milling::{MillingError, MillingProgram, TurnedPath, TurnedRound, depths, smoothing};
 use crate::body::{Body, Cut, Milling, PointCurve, Request};
-use crate::machine::{Controller, MillingDirection, Rotation};
+use crate::machine::{Controller, CuttingData, MillingDirection, Rotation};
 use crate::report::shown;
 use crate::tool_files::points::{TableError, traced};
 use camgen_kernel::geometry::MILLIMETRES;
@@ -28,8 +28,13 @@ pub(super) const MOST_ROWS: usize = 200_000;
 pub(super) fn program(body: &dyn Body, request: &Request, asked: Milling) -> Result<Vec<MillingProgram>, MillingError> {
     let cutting = body.machine().cutting();
     let controller = asked.controller.unwrap_or(cutting.controller);
+    without_stock(&cutting)?;
     let units = body.machine().units();
     let decimals = cutting.decimals.unwrap_or(controller.decimals(units));
+    if controller == Controller::Grbl {
+        let remedy = "give another --controller, or cut.form = \"milling\"";
+        return Err(three_axes("cut.form \"polar\"").remedy(remedy).into());
+    }
     if controller == Controller::Heidenhain {
         return Err(without_time("cut.form \"polar\"")
             .remedy("give another --controller, or cut.form = \"milling\"")
@@ -68,6 +73,8 @@ pub(super) fn program(body: &dyn Body, request: &Request, asked: Milling) -> Res
         cutter,
         passes: Vec::new(),
         depths,
+        order: Vec::new(),
+        blank: None,
         smoothing,
         turned,
     }])
@@ -133,4 +140,23 @@ fn rows(
 /// The refusal of a control that does not know how long a block takes.
 pub(super) fn without_time(what: &str) -> Refusal {
     Refusal::new(format!("{what} needs a feed by the time (G93), which the dialogue of HEIDENHAIN does not have"))
+}
+
+/// The refusal of a control that has no rotary axis.
+pub(super) fn three_axes(what: &str) -> Refusal {
+    Refusal::new(format!("{what} needs a rotary axis, and grbl has X, Y and Z alone"))
+}
+
+/// Refuses stock and spring passes where a cam is turned under its tool: its passes are all at size.
+pub(super) fn without_stock(cutting: &CuttingData) -> Result<(), Refusal> {
+    let asked = [(cutting.allowance > 0.0, "allowance"), (cutting.finish_passes > 1, "finish_passes")];
+    match asked.iter().find(|(is_asked, _)| *is_asked) {
+        None => Ok(()),
+        Some((_, key)) => {
+            let what = format!(
+                "cut.{key} is for outlines that are milled in X and Y: a cam that is turned under its tool is cut at size"
+            );
+            Err(Refusal::new(what).remedy(format!("leave cut.{key} out")))
+        }
+    }
 }

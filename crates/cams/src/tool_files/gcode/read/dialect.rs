@@ -68,7 +68,7 @@ const FRAMES: [(&str, &str); 12] = [
     ("GEOAX", "exchanges axes (GEOAX)"),
 ];
 
-/// The control that a program is for: by words that only one of them has, by the number (`O0001`, `:0001`) or the name (`<CAM>`) with which a
+/// The control that a program is for: by its name in a comment, by words that only one of them has, by the number (`O0001`, `:0001`) or the name (`<CAM>`) with which a
 /// program for FANUC begins, or else that of its design.
 pub(super) fn dialect(text: &str, design: Option<Controller>) -> Option<Controller> {
     let mut blocks = behind_its_start(text)
@@ -82,8 +82,13 @@ pub(super) fn dialect(text: &str, design: Option<Controller>) -> Option<Controll
         let subroutine = [" SUB", " CALL"].iter().any(|word| line.ends_with(word));
         (number && !subroutine) || (line.starts_with('<') && line.contains('>'))
     };
-    if has(&["G91.1", "G90.1"]) {
-        Some(Controller::LinuxCnc)
+    // Their words are those of LinuxCNC: camgen names them in a comment.
+    let named = [("CONTROL: GRBL", Controller::Grbl), ("CONTROL: MACH3", Controller::Mach3)];
+    if let Some((_, control)) = named.iter().find(|(name, _)| head.iter().any(|line| line.contains(name))) {
+        Some(*control)
+    } else if has(&["G91.1", "G90.1"]) {
+        let alike = design.filter(|design| matches!(design, Controller::Grbl | Controller::Mach3));
+        alike.or(Some(Controller::LinuxCnc))
     } else if has(&["G710", "G700", "G71", "G70"]) {
         Some(Controller::Sinumerik)
     } else if head.first().is_some_and(numbered) {

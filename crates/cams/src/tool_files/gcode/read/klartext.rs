@@ -48,7 +48,7 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
             []
             // Without a call a label does nothing.
             | ["LBL", _]
-            | ["M8" | "M9"]
+            | ["M7" | "M8" | "M9"]
             // Those of them that move the profile are refused above.
             | ["PLANE" | "FUNCTION", ..] => {}
             [word @ ("STOP" | "M0" | "M1" | "M6")] => stop(line, word, &mut state)?,
@@ -277,7 +277,7 @@ fn coordinates(
                 state.feed = Some(state.called_feed.ok_or_else(missing)?);
             }
             ("M3" | "M4" | "M5" | "M13" | "M14", _) => turn(line, word, state)?,
-            ("M8" | "M9" | "M2" | "M30", _) => {}
+            ("M7" | "M8" | "M9" | "M2" | "M30", _) => {}
             // M120 may skip parts of the profile that the cutter does not fit; LA is its number of look-ahead blocks.
             ("M120", _) => state.leaves_out = true,
             (word, _) if words.contains(&"M120") && word.starts_with("LA") => {}

@@ -101,6 +101,18 @@ impl ModalWords {
             Some(Controller::LinuxCnc) => (NOT_OF_LINUXCNC, &['P']),
             Some(Controller::Sinumerik) => (NOT_OF_SINUMERIK, &['F', 'S']),
             Some(Controller::Fanuc) => (NOT_OF_FANUC, &['P', 'X', 'U']),
+            Some(Controller::Mach3) => (NOT_OF_MACH3, &['P']),
+            Some(Controller::Grbl) => {
+                let lacks = |word: &&Word| word.0 == 'G' && !OF_GRBL.contains(&word.1);
+                if let Some((_, code)) = words.iter().find(lacks) {
+                    return Err(at_line(line, format!("grbl has no G{code} (error 20)")));
+                }
+                if words.contains(&('M', 6.0)) {
+                    let what = "grbl has no tool change (M6, error 20)";
+                    return Err(at_line(line, what).remedy("load the tool before the start: one tool a program"));
+                }
+                (&[], &['P'])
+            }
             Some(Controller::Heidenhain) | None => return Ok(()),
         };
         if let Some((_, code)) = words.iter().find(|(letter, code)| *letter == 'G' && lacking.contains(code)) {
@@ -271,7 +283,9 @@ impl ModalWords {
             Some(Controller::Sinumerik) => {
                 ("SINUMERIK then takes the tool that was changed in, and the program changes none", self.changed)
             }
-            Some(Controller::Heidenhain) | None => ("the control does not know the radius", self.changed),
+            Some(Controller::Heidenhain | Controller::Grbl | Controller::Mach3) | None => {
+                ("the control does not know the radius", self.changed)
+            }
         };
         let zero = self.offset == Some(0.0);
         if known && !zero {
@@ -321,6 +335,12 @@ const NOT_OF_LINUXCNC: &[f64] =
     &[9.0, 15.0, 44.0, 50.0, 60.0, 62.0, 69.0, 641.0, 642.0, 643.0, 644.0, 645.0, 700.0, 710.0];
 const NOT_OF_SINUMERIK: &[f64] =
     &[15.0, 43.0, 43.2, 44.0, 49.0, 50.0, 50.1, 61.0, 61.1, 69.0, 80.0, 92.1, 92.2, 98.0, 99.0];
+const NOT_OF_MACH3: &[f64] = &[9.0, 44.0, 60.0, 62.0, 641.0, 642.0, 643.0, 644.0, 645.0, 700.0, 710.0];
+/// All codes of grbl 1.1 (its README, "Supported G-Codes in v1.1").
+const OF_GRBL: &[f64] = &[
+    0.0, 1.0, 2.0, 3.0, 4.0, 17.0, 18.0, 19.0, 20.0, 21.0, 28.0, 30.0, 40.0, 49.0, 53.0, 54.0, 55.0, 56.0, 57.0, 58.0,
+    59.0, 61.0, 80.0, 90.0, 91.0, 91.1, 92.0, 92.1, 93.0, 94.0,
+];
 const NOT_OF_FANUC: &[f64] = &[60.0, 92.2, 641.0, 642.0, 643.0, 644.0, 645.0, 700.0, 710.0];
 
 /// Codes in tenths whose effect on the path is known: G91.1 is 911.

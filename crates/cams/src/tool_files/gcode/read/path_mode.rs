@@ -1,4 +1,4 @@
-//! Path tolerance of the control: G61 and G64 of LinuxCNC; G60, G64, G641 to G645 with CTOL, ADIS or CYCLE832 of SINUMERIK; cycle 32 of HEIDENHAIN.
+//! Path tolerance of the control: G61 and G64 of LinuxCNC and Mach3, whose G64 has no tolerance; G60, G64, G641 to G645 with CTOL, ADIS or CYCLE832 of SINUMERIK; cycle 32 of HEIDENHAIN.
 
 use super::dialect::{after, has_word};
 use super::words::at_line;
@@ -60,8 +60,8 @@ impl PathMode {
         let block = block.to_ascii_uppercase();
         match control {
             Some(Controller::Sinumerik) => self.sinumerik(line, &block, scale),
-            Some(Controller::Fanuc | Controller::Heidenhain) => {}
-            Some(Controller::LinuxCnc) | None => {
+            Some(Controller::Fanuc | Controller::Heidenhain | Controller::Grbl) => {}
+            Some(Controller::LinuxCnc | Controller::Mach3) | None => {
                 let modes = ["G61", "G61.1", "G64"].iter().filter(|word| has_word(&block, word)).count();
                 if modes > 1 {
                     return Err(at_line(line, "two path modes in a block (G61, G61.1, G64)"));
@@ -86,7 +86,12 @@ impl PathMode {
             if found.next().is_some() { None } else { first }
         };
         let stated = behind('P').filter(|rounds| *rounds > 0.0).map(|rounds| rounds.max(behind('Q').unwrap_or(0.0)));
-        stated.or((control == Some(Controller::LinuxCnc)).then_some(f64::INFINITY))
+        match control {
+            // Constant velocity, by its set-up.
+            Some(Controller::Mach3) => Some(f64::INFINITY),
+            Some(_) => stated.or(Some(f64::INFINITY)),
+            None => stated,
+        }
     }
 
     /// Takes a tolerance, mm; without one that of the machine builder, which the program does not know, follows one that was stated.

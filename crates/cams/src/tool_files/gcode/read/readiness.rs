@@ -92,10 +92,13 @@ impl Readiness {
     pub(super) fn of(control: Option<Controller>) -> Self {
         // Klartext has feed per minute, absolute arc centres, and the datum activated by the operator.
         let dialogue = control == Some(Controller::Heidenhain);
-        let centres = control != Some(Controller::LinuxCnc);
+        let centres = !matches!(control, Some(Controller::LinuxCnc | Controller::Mach3));
         // FANUC and others have no word that ends every shift.
         let shift = matches!(control, Some(Controller::Fanuc) | None);
-        Self { control, feed_mode: dialogue, centres, datum: dialogue, shift, ..Self::default() }
+        // grbl keeps its path exactly, and has no tool lengths: Z0 of the datum is that of the tool.
+        let grbl = control == Some(Controller::Grbl);
+        let (path_mode, length) = (grbl, grbl);
+        Self { control, feed_mode: dialogue, centres, datum: dialogue, shift, path_mode, length, ..Self::default() }
     }
 
     /// The first moves that came too early, and whether the program sets up tool, datum or height itself.
@@ -129,7 +132,8 @@ impl Readiness {
             _ => takes.then(|| value('H').map_or(named, |number| number > 0.0)),
         };
         self.adds = takes || (self.adds && !ends);
-        self.length = taken.unwrap_or(self.length && !ends);
+        let stays = self.length && (!ends || self.control == Some(Controller::Grbl));
+        self.length = taken.unwrap_or(stays);
         self.sets_up |= taken == Some(true);
         let turns = words.contains(&('M', 3.0)) || words.contains(&('M', 4.0));
         self.spindle = turns || (self.spindle && !words.contains(&('M', 5.0)));

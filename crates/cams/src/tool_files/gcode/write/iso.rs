@@ -1,7 +1,8 @@
-//! A program in words of a letter and a number, for LinuxCNC, FANUC and SINUMERIK.
+//! A program in words of a letter and a number, for LinuxCNC, FANUC, SINUMERIK, grbl and Mach3.
 
+use super::super::plan::entry::Descent;
 use super::super::plan::milling::{MillingPass, MillingProgram};
-use super::{by_hand, feed};
+use super::{by_hand, feed, home};
 use crate::machine::Controller;
 use crate::write::number::{plain, short};
 use camgen_kernel::geometry::MILLIMETRES;
@@ -30,13 +31,13 @@ pub(super) fn write(program: &MillingProgram, comments: &[String], name: &str) -
     let decimals = usize::try_from(program.decimals).unwrap_or(usize::MAX);
     let mut text = IsoText { program, decimals, text: String::new(), at: Vector2::zeros(), is_down: false };
     text.begin(comments, name);
-    for depth in &program.depths {
-        if let Some(path) = &program.turned {
+    if let Some(path) = &program.turned {
+        for depth in &program.depths {
             text.turned(path, *depth);
         }
-        for pass in &program.passes {
-            text.pass(pass, *depth);
-        }
+    }
+    for (pass, _, descent) in program.level_cuts() {
+        text.pass(pass, &descent);
     }
     text.end();
     text.text
@@ -52,7 +53,9 @@ impl IsoText<'_> {
         let comment = match self.program.controller {
             Controller::Fanuc => format!("({})", comment.to_ascii_uppercase()),
             Controller::Sinumerik => format!("; {comment}"),
-            Controller::LinuxCnc | Controller::Heidenhain => format!("({comment})"),
+            Controller::LinuxCnc | Controller::Heidenhain | Controller::Grbl | Controller::Mach3 => {
+                format!("({comment})")
+            }
         };
         self.line(&comment);
     }
@@ -68,20 +71,30 @@ impl IsoText<'_> {
             self.comment(comment);
         }
         self.state();
+        self.own_lines(&cutting.header);
         self.home();
-        if let Some(tool) = cutting.tool {
+        // grbl has no tool change (error 20): the operator loads the tool before the start.
+        if let Some(tool) = cutting.tool.filter(|_| self.program.controller != Controller::Grbl) {
             self.line(&format!("T{tool} M6"));
         }
         self.stop();
+        self.own_lines(&cutting.after_tool);
         self.line("G54");
         if let Some(speed) = cutting.spindle {
             self.line(&format!("S{} M3", short(speed, SPEED_DECIMALS)));
         }
-        for line in &cutting.preamble {
+        if let Some(word) = cutting.coolant.word() {
+            self.line(word);
+        }
+        self.own_lines(&cutting.preamble);
+    }
+
+    /// Lines of the machine file. They may have set incremental coordinates, as G91 G28 does: what moves rely on is written again.
+    fn own_lines(&mut self, lines: &[String]) {
+        for line in lines {
             self.line(line);
         }
-        if !cutting.preamble.is_empty() {
-            // Preamble lines may have set incremental coordinates, as G91 G28 does.
+        if !lines.is_empty() {
             self.line("G17 G90 G94 G40");
         }
     }
@@ -103,11 +116,13 @@ impl IsoText<'_> {
                 self.line("G17 G90 G94 G40 G49");
                 self.line("G80 G64");
             }
-            Controller::LinuxCnc | Controller::Heidenhain => {
+            Controller::LinuxCnc | Controller::Heidenhain | Controller::Grbl | Controller::Mach3 => {
                 self.line(if metric { "G21" } else { "G20" });
                 self.line("G17 G90 G94");
                 self.line("G91.1 G40 G49 G80");
-                self.line("G92.2");
+                // grbl has G92.1 alone, and Mach3 clears its offsets with it.
+                let one = matches!(self.program.controller, Controller::Grbl | Controller::Mach3);
+                self.line(if one { "G92.1" } else { "G92.2" });
                 self.line("G61");
             }
         }
@@ -115,10 +130,9 @@ impl IsoText<'_> {
 
     /// Retracts in machine coordinates, whatever tool length is active.
     fn home(&mut self) {
-        let home = self.program.cutting.home;
-        let z = self.number(MILLIMETRES * home.unwrap_or(0.0));
+        let z = self.number(MILLIMETRES * home(self.program).unwrap_or(0.0));
         match self.program.controller {
-            Controller::Fanuc if home.is_none() => {
+            Controller::Fanuc if self.program.cutting.home.is_none() => {
                 self.line("G91 G28 Z0.");
                 self.line("G90");
             }
@@ -130,7 +144,9 @@ impl IsoText<'_> {
     /// Stops for the operator if the machine file lacks tool or spindle speed.
     fn stop(&mut self) {
         let wanted = by_hand(self.program);
-        if wanted.is_empty() {
+        // M0 of grbl is a feed hold: the spindle turns on and the axes cannot be jogged, so that no tool is changed at it.
+        let is_grbl = self.program.controller == Controller::Grbl;
+        if wanted.is_empty() || (is_grbl && self.program.cutting.spindle.is_some()) {
             return;
         }
         for line in wanted {
@@ -142,6 +158,9 @@ impl IsoText<'_> {
     }
 
     fn end(&mut self) {
+        for line in &self.program.cutting.footer {
+            self.line(line);
+        }
         self.line("M9");
         self.line("M5");
         self.home();
@@ -159,29 +178,35 @@ impl IsoText<'_> {
         plain(self.program.units.of_mm(millimetres), self.decimals)
     }
 
-    /// Moves to the clearance height.
+    /// Rises to the safe height.
     pub(super) fn up(&mut self) {
-        let clearance = self.number(MILLIMETRES * self.program.cutting.clearance);
-        self.line(&format!("G0 Z{clearance}"));
+        let safe = self.number(MILLIMETRES * self.program.cutting.safe_height);
+        self.line(&format!("G0 Z{safe}"));
     }
 
-    /// Moves in the plane to the start of a pass; for the first pass then down from home, with the tool length.
+    /// Moves in the plane at home or at the safe height, the first time then down to the safe height with the tool length, and down to the clearance height.
     pub(super) fn approach(&mut self, place: &str) {
         self.line(&format!("G0 {place}"));
-        if std::mem::replace(&mut self.is_down, true) {
-            return;
+        if !std::mem::replace(&mut self.is_down, true) {
+            let length = match (self.program.controller, self.program.cutting.tool) {
+                (Controller::LinuxCnc | Controller::Mach3, Some(tool)) => format!(" G43 H{tool}"),
+                // The length of the tool in the spindle.
+                (Controller::LinuxCnc, None) => " G43".to_owned(),
+                (Controller::Fanuc, Some(tool)) => format!(" G43 H{tool:02}"),
+                (Controller::Sinumerik, _) => " D1".to_owned(),
+                // Set by the operator at the stop or before the start, or by TOOL CALL.
+                (Controller::Fanuc | Controller::Mach3, None) | (Controller::Heidenhain | Controller::Grbl, _) => {
+                    String::new()
+                }
+            };
+            let safe = self.number(MILLIMETRES * self.program.cutting.safe_height);
+            self.line(&format!("G0{length} Z{safe}"));
         }
-        let length = match (self.program.controller, self.program.cutting.tool) {
-            (Controller::LinuxCnc, Some(tool)) => format!(" G43 H{tool}"),
-            // The length of the tool in the spindle.
-            (Controller::LinuxCnc, None) => " G43".to_owned(),
-            (Controller::Fanuc, Some(tool)) => format!(" G43 H{tool:02}"),
-            (Controller::Sinumerik, _) => " D1".to_owned(),
-            // Set by the operator at the stop, or by TOOL CALL.
-            (Controller::Fanuc, None) | (Controller::Heidenhain, _) => String::new(),
-        };
-        let clearance = self.number(MILLIMETRES * self.program.cutting.clearance);
-        self.line(&format!("G0{length} Z{clearance}"));
+        let (safe, clearance) = (self.program.cutting.safe_height, self.program.cutting.clearance);
+        if clearance < safe {
+            let clearance = self.number(MILLIMETRES * clearance);
+            self.line(&format!("G0 Z{clearance}"));
+        }
     }
 
     /// The words of a place that differ from where the cutter is.
@@ -201,27 +226,36 @@ impl IsoText<'_> {
         if self.program.controller == Controller::Fanuc && !text.contains('.') { text + "." } else { text }
     }
 
-    /// Down at its start, round, and up again.
-    fn pass(&mut self, pass: &MillingPass, depth: f64) {
+    /// Down to its depth, round, and up again.
+    fn pass(&mut self, pass: &MillingPass, descent: &Descent) {
         let cutting = &self.program.cutting;
         let (plunge, along) = (self.feed(cutting.plunge_feed), self.feed(cutting.feed));
         self.comment(&pass.words);
-        let start = pass.compensated.map_or(pass.start, |ends| ends.from);
-        self.approach(&format!("X{} Y{}", self.number(start.x), self.number(start.y)));
-        self.at = start;
-        self.line(&format!("G1 Z{} F{plunge}", self.number(-depth)));
+        let start = pass.level_start();
+        self.approach(&format!("X{} Y{}", self.number(descent.at.x), self.number(descent.at.y)));
+        self.at = descent.at;
+        self.line(&format!("G1 Z{} F{plunge}", self.number(descent.z)));
+        for (to, z) in &descent.ramp {
+            self.line(&format!("G1{} Z{}", self.place(*to), self.number(*z)));
+            self.at = *to;
+        }
+        let mut feed = Some(along);
+        if descent.is_away {
+            self.block(&Block::Line { to: start }, feed.take().as_deref());
+        }
         if pass.compensated.is_some() {
             let side = if pass.cutter_left { "G41" } else { "G42" };
             let tool = match self.program.controller {
-                Controller::LinuxCnc => format!(" D{}", cutting.tool.unwrap_or(1)),
+                Controller::LinuxCnc | Controller::Mach3 | Controller::Grbl => {
+                    format!(" D{}", cutting.tool.unwrap_or(1))
+                }
                 Controller::Fanuc => format!(" D{:02}", cutting.tool.unwrap_or(1)),
                 // The radius is that of the cutting edge.
                 Controller::Sinumerik | Controller::Heidenhain => " D1".to_owned(),
             };
             self.line(&format!("{side}{tool}"));
-            self.block(&Block::Line { to: pass.start }, Some(&along));
+            self.block(&Block::Line { to: pass.start }, feed.take().as_deref());
         }
-        let mut feed = pass.compensated.is_none().then_some(along);
         for block in &pass.blocks {
             self.block(block, feed.take().as_deref());
         }

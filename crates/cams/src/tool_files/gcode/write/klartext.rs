@@ -1,8 +1,9 @@
 //! A program in the dialogue of HEIDENHAIN controls (Klartext): numbered blocks, centres in absolute coordinates.
 
+use super::super::plan::entry::Descent;
 use super::super::plan::milling::{MillingPass, MillingProgram};
 use super::iso::SMOOTHING_DECIMALS;
-use super::{by_hand, feed};
+use super::{by_hand, feed, home};
 use crate::write::number::{plain, short};
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::geometry::blocks::Block;
@@ -13,9 +14,6 @@ use nalgebra::Vector2;
 const SPEED_DECIMALS: usize = 1;
 /// Steps of a feed in an inch per minute.
 const TENTHS: f64 = 10.0;
-/// Home height, m: just below the end of travel.
-pub(super) const HOME: f64 = -1e-3;
-
 /// A program being written.
 struct DialogueText<'p> {
     program: &'p MillingProgram,
@@ -31,10 +29,9 @@ pub(super) fn write(program: &MillingProgram, comments: &[String], name: &str) -
     let unit = if program.units == LengthUnit::Inch { "INCH" } else { "MM" };
     let mut text = DialogueText { program, decimals, blocks: vec![format!("BEGIN PGM {name} {unit}")], is_down: false };
     text.begin(comments);
-    for depth in &program.depths {
-        for pass in &program.passes {
-            text.pass(pass, *depth);
-        }
+    let last = program.order.len().saturating_sub(1);
+    for (index, (pass, _, descent)) in program.level_cuts().enumerate() {
+        text.pass(pass, &descent, index == last);
     }
     text.end();
     text.blocks.push(format!("END PGM {name} {unit}"));
@@ -70,6 +67,7 @@ impl DialogueText<'_> {
         for cycle in ["7.0 DATUM SHIFT", "7.1 X+0", "7.2 Y+0", "7.3 Z+0", "10.0 ROTATION", "10.1 ROT+0"] {
             self.block(format!("CYCL DEF {cycle}"));
         }
+        self.blocks.extend(cutting.header.iter().cloned());
         self.home("");
         let speed = cutting.spindle.map(|speed| format!(" S{}", short(speed, SPEED_DECIMALS))).unwrap_or_default();
         match cutting.tool {
@@ -82,6 +80,7 @@ impl DialogueText<'_> {
             self.blocks.extend(wanted.iter().map(|line| format!("; {line}")));
             self.block("STOP".to_owned());
         }
+        self.blocks.extend(cutting.after_tool.iter().cloned());
         let smoothing = self.program.units.of_mm(MILLIMETRES * self.program.smoothing);
         self.block("CYCL DEF 32.0 TOLERANCE".to_owned());
         self.block(format!("CYCL DEF 32.1 T{}", short(smoothing, SMOOTHING_DECIMALS)));
@@ -90,9 +89,9 @@ impl DialogueText<'_> {
 
     /// Restores the machine builder's tolerance, retracts, and stops the spindle.
     fn end(&mut self) {
+        self.blocks.extend(self.program.cutting.footer.iter().cloned());
         self.block("CYCL DEF 32.0 TOLERANCE".to_owned());
         self.block("CYCL DEF 32.1".to_owned());
-        self.block("M9".to_owned());
         self.home(" M5");
         self.blocks.extend(self.program.cutting.postamble.iter().cloned());
         self.block("M30".to_owned());
@@ -100,33 +99,46 @@ impl DialogueText<'_> {
 
     /// Retracts in machine coordinates, which exclude the tool length.
     fn home(&mut self, more: &str) {
-        let home = self.signed(MILLIMETRES * self.program.cutting.home.unwrap_or(HOME));
+        let home = self.signed(MILLIMETRES * home(self.program).unwrap_or(0.0));
         self.block(format!("L Z{home} R0 FMAX M91{more}"));
     }
 
-    fn up(&mut self) {
-        let clearance = self.signed(MILLIMETRES * self.program.cutting.clearance);
-        self.block(format!("L Z{clearance} R0 FMAX"));
+    /// Moves to a height above the upper face, m.
+    fn goes_to(&mut self, height: f64, more: &str) {
+        let height = self.signed(MILLIMETRES * height);
+        self.block(format!("L Z{height} R0 FMAX{more}"));
     }
 
-    /// Down at its start, round, and up again.
-    fn pass(&mut self, pass: &MillingPass, depth: f64) {
+    /// Down to its depth, round, and up again.
+    fn pass(&mut self, pass: &MillingPass, descent: &Descent, is_last: bool) {
         let cutting = &self.program.cutting;
         let (plunge, along) = (self.feed(cutting.plunge_feed), self.feed(cutting.feed));
+        let (safe, clearance) = (cutting.safe_height, cutting.clearance);
         self.block(format!("; {}", pass.words));
-        let start = pass.compensated.map_or(pass.start, |ends| ends.from);
         let first = !std::mem::replace(&mut self.is_down, true);
         let starts = if first && cutting.spindle.is_some() { " M3" } else { "" };
-        self.block(format!("L {} R0 FMAX{starts}", self.place(start)));
+        self.block(format!("L {} R0 FMAX{starts}", self.place(descent.at)));
         if first {
-            self.up();
+            let coolant = cutting.coolant.word().map_or_else(String::new, |word| format!(" {word}"));
+            self.goes_to(safe, &coolant);
         }
-        self.block(format!("L Z{} R0 F{plunge}", self.signed(-depth)));
+        if clearance < safe {
+            self.goes_to(clearance, "");
+        }
+        self.block(format!("L Z{} R0 F{plunge}", self.signed(descent.z)));
+        for (to, z) in &descent.ramp {
+            self.block(format!("L {} Z{} R0", self.place(*to), self.signed(*z)));
+        }
+        let mut feed = Some(format!(" F{along}"));
+        if descent.is_away {
+            let feed = feed.take().unwrap_or_default();
+            self.block(format!("L {} R0{feed}", self.place(pass.level_start())));
+        }
         if pass.compensated.is_some() {
             let side = if pass.cutter_left { "RL" } else { "RR" };
-            self.block(format!("L {} {side} F{along}", self.place(pass.start)));
+            let feed = feed.take().unwrap_or_default();
+            self.block(format!("L {} {side}{feed}", self.place(pass.start)));
         }
-        let mut feed = pass.compensated.is_none().then(|| format!(" F{along}"));
         for block in &pass.blocks {
             let feed = feed.take().unwrap_or_default();
             match block {
@@ -140,6 +152,6 @@ impl DialogueText<'_> {
         if let Some(ends) = pass.compensated {
             self.block(format!("L {} R0", self.place(ends.to)));
         }
-        self.up();
+        self.goes_to(safe, if is_last { " M9" } else { "" });
     }
 }

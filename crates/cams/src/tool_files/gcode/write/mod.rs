@@ -5,12 +5,15 @@
 
 mod iso;
 mod klartext;
+pub(super) mod setup;
 mod turned;
 
+use super::blank::Blank;
 use super::plan::milling::{self, MillingProgram};
 use crate::body::{Body, curves};
-use crate::machine::{Controller, MillingDirection};
+use crate::machine::{Controller, Coolant, MillingDirection};
 use crate::write::number::short;
+use camgen_kernel::document::NamedChoice;
 use camgen_kernel::geometry::MILLIMETRES;
 use camgen_kernel::units::LengthUnit;
 
@@ -24,6 +27,7 @@ const LONGEST_COMMENT: usize = 70;
 /// A program as its file, with these comments at its head.
 pub(super) fn write(body: &dyn Body, program: &MillingProgram, marks: &[String]) -> Vec<u8> {
     let mut comments: Vec<String> = marks.to_vec();
+    comments.extend(named_control(program.controller));
     comments.extend(head(body, program));
     let comments: Vec<String> = comments.iter().flat_map(|comment| folded(&plain_text(comment))).collect();
     let text = match program.controller {
@@ -31,6 +35,24 @@ pub(super) fn write(body: &dyn Body, program: &MillingProgram, marks: &[String])
         _ => iso::write(program, &comments, &name(body)),
     };
     text.into_bytes()
+}
+
+/// The name of a control whose words are those of LinuxCNC: readers know it by this line.
+fn named_control(controller: Controller) -> Option<String> {
+    let named = matches!(controller, Controller::Grbl | Controller::Mach3);
+    named.then(|| format!("control: {}", controller.word()))
+}
+
+/// Z of the machine for the tool change and the end, m; `None` for the reference point of FANUC.
+fn home(program: &MillingProgram) -> Option<f64> {
+    // Just below the end of travel: HEIDENHAIN and grbl stop at the end itself.
+    const BELOW: f64 = -1e-3;
+    let usual = match program.controller {
+        Controller::Fanuc => None,
+        Controller::Heidenhain | Controller::Grbl => Some(BELOW),
+        Controller::LinuxCnc | Controller::Sinumerik | Controller::Mach3 => Some(0.0),
+    };
+    program.cutting.home.or(usual)
 }
 
 /// A feed, a unit of length per minute.
@@ -78,7 +100,7 @@ fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
     };
     let path = program.cutter.map_or_else(
         || {
-            let least = short(units.of_mm(largest_compensated(program)), 3);
+            let least = short(units.of_mm(program.largest_kept().unwrap_or(f64::INFINITY)), 3);
             format!("the profile, on which the control keeps its cutter, of a radius below {least} {unit}, {sense}")
         },
         |radius| {
@@ -87,9 +109,18 @@ fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
     );
     let axis = program.turned.as_ref().map(|turned| turned.axis);
     let turned = program.turned.iter().flat_map(|turned| turned.rounds.iter().map(|round| round.words.as_str()));
-    let flanks: Vec<&str> = program.passes.iter().map(|pass| pass.words.as_str()).chain(turned).collect();
+    let finishing = program.passes.iter().filter(|pass| !pass.is_roughing).map(|pass| pass.words.as_str());
+    let flanks: Vec<&str> = finishing.chain(turned).collect();
     let count = program.depths.len();
     let passes = if count == 1 { "pass" } else { "passes" };
+    let finishing = match (cutting.allowance, cutting.finish_passes) {
+        (0.0, 1) => String::new(),
+        (0.0, all) => format!(", then {} at full depth without infeed", all - 1),
+        (allowance, all) => {
+            let allowance = length(MILLIMETRES * allowance);
+            format!(" with {allowance} {unit} of stock, then {all} at size and full depth")
+        }
+    };
     let plate = curves(body).is_some_and(|curves| curves.motion.period().is_none());
     let origin = match axis {
         Some('C') => "X the distance of the wheel from the axis of the shaft, C0 as in the drawing, Y0",
@@ -106,26 +137,62 @@ fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
     let mut head = vec![
         format!("{}: {}, {}", body.machine().name(), body.kind().noun, flanks.join(", ")),
         path,
-        format!("{origin}, Z0 {face}, {} {unit} deep in {count} {passes}", length(depth)),
+        format!("{origin}, Z0 {face}, {} {unit} deep in {count} {passes}{finishing}", length(depth)),
         "bore, keyway and holes are not in this program".to_owned(),
         first_move(program),
     ];
+    head.extend(set_by_hand(program));
     head.extend(rib);
     head
 }
 
 /// The first move of the tool, which must suit the machine.
 fn first_move(program: &MillingProgram) -> String {
-    let usual = if program.controller == Controller::Heidenhain { klartext::HOME } else { 0.0 };
-    match (program.controller, program.cutting.home) {
-        (Controller::Fanuc, None) => {
-            "the first move takes Z to its reference point, G28; cut.home is another".to_owned()
-        }
-        (_, home) => {
-            let z = short(program.units.of_mm(MILLIMETRES * home.unwrap_or(usual)), 6);
+    match home(program) {
+        None => "the first move takes Z to its reference point, G28; cut.home is another".to_owned(),
+        Some(home) => {
+            let z = short(program.units.of_mm(MILLIMETRES * home), 6);
             format!("the first move takes Z to {z} {} of the machine, cut.home", program.units.symbol())
         }
     }
+}
+
+/// Settings that the operator makes or checks before the start, line by line.
+fn set_by_hand(program: &MillingProgram) -> Vec<String> {
+    let (cutting, units) = (&program.cutting, program.units);
+    let unit = units.symbol();
+    let length = |millimetres: f64| short(units.of_mm(millimetres), 3);
+    let depth = program.depths.last().copied().unwrap_or(0.0);
+    let tool = cutting.tool.map_or_else(|| "the tool".to_owned(), |tool| format!("tool {tool}"));
+    let size = match program.cutter {
+        Some(radius) => format!("diameter {} {unit}", length(2.0 * MILLIMETRES * radius)),
+        None => format!("diameter below {} {unit}", length(2.0 * program.largest_kept().unwrap_or(f64::INFINITY))),
+    };
+    let reach = length(depth + MILLIMETRES * cutting.clearance);
+    let mut lines = vec![format!("set by hand: {tool}, {size}, free length at least {reach} {unit}, and the zero")];
+    lines.extend(program.blank.map(|blank| match blank {
+        Blank::Round(radius) => {
+            format!("blank: diameter {} {unit} about X0 Y0, nothing beside it", length(2.0 * radius))
+        }
+        Blank::Rectangle(extents) => {
+            let ([a, b], [c, d]) = (extents.least.into(), extents.largest.into());
+            let [a, b, c, d] = [a, b, c, d].map(length);
+            format!("blank: X{a} Y{b} to X{c} Y{d} {unit}, nothing beside it")
+        }
+    }));
+    if let Some(extents) = program.extents() {
+        let ([a, b], [c, d]) = (extents.least.into(), extents.largest.into());
+        let [a, b, c, d, deep, high] = [a, b, c, d, -depth, MILLIMETRES * cutting.safe_height].map(length);
+        lines
+            .push(format!("range of the tool's point: X {a} to {c}, Y {b} to {d}, Z {deep} to {high} {unit} and home"));
+    }
+    if program.controller == Controller::Grbl {
+        lines.push("grbl: home the machine before the start, load the tool, and set Z0 of G54 with it".into());
+        if cutting.coolant == Coolant::Mist {
+            lines.push("grbl: M7 needs a build with ENABLE_M7".into());
+        }
+    }
+    lines
 }
 
 /// The operator's tasks at the stop before the first move, as lines; empty if the machine file has tool and spindle speed.
@@ -136,6 +203,7 @@ fn by_hand(program: &MillingProgram) -> Vec<String> {
         Controller::Fanuc => "load the cutter and set its length with G43 H, or Z0 of G54 with this cutter",
         Controller::Sinumerik => "load the cutter as the tool in the spindle: its length is that of its edge D1",
         Controller::Heidenhain => "load the cutter and call it with TOOL CALL",
+        Controller::Grbl | Controller::Mach3 => "load the cutter and set Z0 of G54 with it",
     };
     let kept = program.passes.iter().any(|pass| pass.compensated.is_some());
     let radius = "its radius is that of offset D1";
@@ -149,10 +217,4 @@ fn by_hand(program: &MillingProgram) -> Vec<String> {
     ];
     let wanted = lines.into_iter().filter(|(is_wanted, _)| *is_wanted);
     wanted.flat_map(|(_, line)| folded(&plain_text(line))).collect()
-}
-
-/// The radius that a cutter must stay below if the control keeps it on the profile, mm.
-fn largest_compensated(program: &MillingProgram) -> f64 {
-    let ends = program.passes.iter().filter_map(|pass| pass.compensated);
-    ends.map(|ends| ends.largest_radius).fold(f64::INFINITY, f64::min)
 }
